@@ -1,0 +1,17 @@
+# Warnings and sanitizers for every target of the project: medial_vk_project_options(TARGET).
+find_package(Threads REQUIRED)
+
+function(medial_vk_project_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion
+    -Wno-sign-conversion)
+  if(MEDIAL_VK_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  # The certificate relies on IEEE arithmetic as written: no contraction into fused operations, no reordering.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(MEDIAL_VK_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+      -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()

@@ -1,0 +1,15 @@
+# Script: writes OUTPUT, a C++ file with the words of every file in SPIRV_FILES.
+set(text "// Made by the build from shaders/*.comp.\n#include \"embedded_shaders.h\"\n\nnamespace medial_vk {\nnamespace {\n")
+set(table "")
+foreach(file ${SPIRV_FILES})
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} hex HEX)
+  # SPIR-V on a little-endian machine: the bytes of each word, first byte lowest.
+  string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
+  string(REGEX REPLACE "((0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,))" "\\1\n" words "${words}")
+  string(APPEND text "constexpr std::uint32_t k_${name}[] = {\n${words}};\n")
+  string(APPEND table "    {\"${name}\", k_${name}},\n")
+endforeach()
+string(APPEND text "constexpr EmbeddedShader kShaders[] = {\n${table}};\n}  // namespace\n\n")
+string(APPEND text "std::span<const EmbeddedShader> embedded_shaders() { return kShaders; }\n}  // namespace medial_vk\n")
+file(WRITE ${OUTPUT} "${text}")

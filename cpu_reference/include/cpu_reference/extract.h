@@ -1,0 +1,53 @@
+// The independent reference: medial spheres in double precision, one thread, written for reading.
+// Shares no code with the runtime or the shaders.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "cpu_reference/mesh.h"
+
+namespace medial_vk::reference {
+
+struct Parameters {
+  bool certified = true;
+  int resolution = 160;      // voxels along the longest side of the bounding box
+  double object_angle = 0.6; // radians
+  double radius = 0;         // fraction of the longest side, 0: off
+  double epsilon = 0.01;     // fraction of the voxel side
+  int extra_levels = 4;      // certified: subdivision below the finest voxel
+  bool narrow_features = true;                       // thesis: Section 2.4.3
+  std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
+};
+
+struct Sphere {
+  Eigen::Vector3d centre;
+  double radius;
+  Eigen::Vector3d spoke_a, spoke_b;
+  double object_angle;
+  double flux;
+  Eigen::Vector3i voxel;
+};
+
+struct LevelCount {
+  double cell_size;
+  std::uint64_t visited, kept, contacts, found;
+};
+
+struct Result {
+  Eigen::Vector3d grid_origin;
+  double voxel_size;
+  Eigen::Vector3i grid_size;
+  std::vector<Sphere> spheres;  // z slowest, then y, then x
+  std::vector<LevelCount> levels;
+  std::uint64_t found = 0, undecided = 0, proved_empty = 0, queries = 0;
+  bool interrupted = false;
+};
+
+/// `progress` gets the share done and returns false to stop.
+Result extract(const Mesh& mesh, const Parameters& parameters, const std::function<bool(double)>& progress = {});
+
+}  // namespace medial_vk::reference

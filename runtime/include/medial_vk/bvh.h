@@ -1,0 +1,55 @@
+// A bounding volume hierarchy over triangles, built on the CPU by binned SAH (Wald 2007), in double precision.
+// It is what is uploaded to the device, and it answers exact queries on the host.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// An axis-aligned box in the units of the mesh, rounded outwards.
+struct BvhBox {
+  Point lower;
+  Point upper;
+};
+
+/// Inner node: children are `first` and `first + 1`, count is 0. Leaf: triangles order[first .. first + count).
+struct BvhNode {
+  BvhBox box;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct BvhHit {
+  double squared_distance = std::numeric_limits<double>::infinity();
+  Point point = {0, 0, 0};
+  std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles.
+};
+
+class Bvh {
+ public:
+  /// Copies the corners of the triangles in leaf order. `threads` 0: as many as the machine has.
+  /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite).
+  static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
+
+  const std::vector<BvhNode>& nodes() const { return nodes_; }           ///< Root first.
+  const std::vector<std::uint32_t>& order() const { return order_; }     ///< Triangle index by leaf position.
+  const std::vector<std::array<Point, 3>>& corners() const { return corners_; }  ///< By leaf position.
+
+  /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
+  BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
+  /// Is there a point of the mesh at a distance below `radius` from `centre`? Stops at the first.
+  bool any_within(const Point& centre, double radius) const;
+
+ private:
+  std::vector<BvhNode> nodes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::array<Point, 3>> corners_;
+};
+
+}  // namespace medial_vk

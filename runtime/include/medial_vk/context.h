@@ -1,0 +1,58 @@
+// A Vulkan device, ready to compute: instance, device, queue, memory, pipelines.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// One physical device as Vulkan lists it.
+struct DeviceDescription {
+  std::uint32_t index = 0;  ///< Position in Vulkan's enumeration; what `--device INDEX` takes.
+  std::string name;
+  std::string type;    ///< "discrete", "integrated", "virtual", "cpu" or "other".
+  std::string driver;  ///< Driver name and version.
+  std::uint32_t api_version = 0;
+  std::uint64_t memory_bytes = 0;  ///< Size of the largest device-local heap.
+  bool usable = false;             ///< Vulkan 1.2 and a compute queue.
+  std::string why_not;             ///< If not usable: the reason.
+};
+
+struct ContextOptions {
+  /// An index, or part of a name (case does not matter). Empty: the environment variable MEDIAL_VK_DEVICE, and if
+  /// that is unset the best device: discrete, integrated, virtual, then CPU.
+  std::string device;
+  /// Enables the Khronos validation layer with synchronisation validation; messages are counted and printed.
+  bool validation = false;
+  /// Folder of the pipeline cache. Empty: $XDG_CACHE_HOME/medial-vk, else $HOME/.cache/medial-vk, else none.
+  std::string cache_folder;
+};
+
+/// Owns everything Vulkan. Move-only. Not thread-safe: one context per thread, or a lock.
+class Context {
+ public:
+  /// Errors: kNoDevice with what was found and why it will not do.
+  static Result<Context> create(const ContextOptions& options = {});
+  static Result<std::vector<DeviceDescription>> list_devices();
+
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
+  ~Context();
+
+  const DeviceDescription& device() const;
+  /// Messages of the validation layer (warnings and errors) since creation; 0 without validation.
+  std::uint64_t validation_messages() const;
+
+  class Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  explicit Context(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,93 @@
+// The main job: medial spheres of a mesh, found on the device.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+class Context;
+
+enum class Mode : std::uint32_t {
+  kThesis,     ///< Sections 2.3 to 2.4 as published (with the corrected sign of 2.4.2).
+  kCertified,  ///< Proved dismissal, inherited contacts, aimed search, subdivision (docs/theory.md).
+};
+
+/// Parameters of an extraction. Lengths are fractions, so that they do not depend on the units of the mesh.
+struct ExtractionParameters {
+  Mode mode = Mode::kCertified;
+  std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
+  double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
+  double radius = 0.0;             ///< Radius threshold as a fraction of the longest side; 0: off (angle only).
+  double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
+  std::uint32_t extra_levels = 4;  ///< Certified: levels of subdivision below the finest voxel before giving up.
+  bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
+  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
+  std::uint64_t memory_budget = 1ull << 30;                    ///< Bytes of device memory to stay below.
+};
+
+/// The voxel grid of the output, in the units of the mesh. Voxel of p: floor((p - origin) / voxel_size).
+struct VoxelGrid {
+  Point origin = {0, 0, 0};
+  double voxel_size = 0;
+  std::array<std::uint32_t, 3> size = {0, 0, 0};
+};
+
+/// One medial sphere, in the units of the mesh.
+struct MedialSphere {
+  Point centre;
+  double radius = 0;                   ///< Never above the exact distance from centre to the mesh.
+  std::array<float, 3> spoke_a;        ///< Unit vector from the centre to its nearest boundary point.
+  std::array<float, 3> spoke_b;        ///< Unit vector to the boundary point on the other side of the medial sheet.
+  float object_angle = 0;              ///< Half the angle between the spokes, radians.
+  float flux = 0;                      ///< Average outward flux through the sphere around its voxel (2.4).
+  std::int32_t sheet = -1;             ///< -1 until sheets are grown (Section 2.5).
+  std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
+};
+
+/// Where the voxels and the time went. Counts do not depend on the machine.
+struct ExtractionCounters {
+  struct Level {
+    double cell_size = 0;          ///< As a fraction of the longest side.
+    std::uint64_t visited = 0;     ///< Cells examined.
+    std::uint64_t kept = 0;        ///< Cells that could not be dismissed.
+    std::uint64_t contacts = 0;    ///< Sum of the lengths of the kept cells' contact lists.
+    std::uint64_t found = 0;       ///< Voxels that got their point at this level (finest level and below).
+  };
+  std::vector<Level> levels;
+  std::uint64_t found = 0;         ///< Finest voxels with a point.
+  std::uint64_t undecided = 0;     ///< Finest voxels neither found nor proved empty when the levels ran out.
+  std::uint64_t proved_empty = 0;  ///< Finest voxels visited and dismissed, themselves or in all their parts.
+  std::uint64_t queries = 0;       ///< Closest-point queries asked (contact lists and trees).
+  std::uint64_t retries = 0;       ///< Chunks run again in smaller parts because a buffer was full.
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+struct Extraction {
+  VoxelGrid grid;
+  std::vector<MedialSphere> spheres;  ///< In voxel order: z slowest, then y, then x.
+  ExtractionCounters counters;
+  std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
+};
+
+/// Called between pieces of work with the share done, 0 to 1; return false to stop (Error kInterrupted).
+using ProgressCallback = std::function<bool(double done)>;
+
+/// Finds the medial spheres of `mesh` on the device of `context`. Blocks until done.
+/// The spheres are exact to float: certify() (src/medial/certify.h) makes the guarantee in double.
+/// Errors: kUsage (a parameter out of range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal (device lost).
+Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
+                                          const ExtractionParameters& parameters,
+                                          const ProgressCallback& progress = {});
+
+}  // namespace medial_vk

@@ -1,0 +1,32 @@
+// How a caller hands a triangle mesh to the runtime: borrowed arrays, nothing is copied until a Scene is made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace medial_vk {
+
+using Point = std::array<double, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// What is known of one triangle, from its neighbourhood (DESIGN: "Lemma 2 needs an oriented, embedded boundary").
+enum TriangleFlags : std::uint8_t {
+  /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
+  /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
+  kTrustedNormal = 1u << 0,
+};
+
+/// A borrowed triangle mesh. Triangles are counter-clockwise seen from outside. No triangle may be degenerate, all
+/// coordinates must be finite, every index must be below vertices.size().
+struct MeshView {
+  std::span<const Point> vertices;
+  std::span<const Triangle> triangles;
+  /// One TriangleFlags value per triangle, or empty: then no normal is trusted.
+  std::span<const std::uint8_t> flags;
+  /// True if every edge is shared by triangles whose orientations cancel: the winding number is then an integer
+  /// away from the surface, and inside and outside can be decided for whole cells.
+  bool closed = false;
+};
+
+}  // namespace medial_vk

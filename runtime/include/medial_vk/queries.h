@@ -1,0 +1,65 @@
+// Batches of scattered queries against one mesh on the device, by walking its BVH. Also what the tests compare with
+// the CPU reference kernel by kernel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+class Context;
+
+/// Which part of a triangle is nearest.
+enum class Feature : std::uint32_t { kFace = 0, kEdge = 1, kVertex = 2 };
+
+struct ClosestPoint {
+  Point point;                 ///< Nearest point of the mesh, mesh units, float accuracy of the longest side.
+  double distance = 0;         ///< |query - point|.
+  std::uint32_t triangle = 0;  ///< Index into MeshView::triangles; the smallest among exact float ties.
+  Feature feature = Feature::kFace;
+};
+
+/// A ball in mesh units.
+struct Ball {
+  Point centre;
+  double radius = 0;
+};
+
+struct FluxSample {
+  double flux = 0;               ///< Average outward flux (equation 2.4), two-sided fans left out (Definition 2.4).
+  double greatest_distance = 0;  ///< Largest distance from a sampled point to the boundary (2.4.2).
+  std::uint32_t fans = 0;        ///< Samples left out.
+};
+
+/// A mesh on the device, in float, scaled to the unit box.
+class Scene {
+ public:
+  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite), kOutOfMemory.
+  static Result<Scene> create(Context& context, const MeshView& mesh);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
+  /// 1 where the open ball holds no point of the mesh, else 0. Stops at the first point found inside.
+  Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
+  /// Generalised winding numbers (Jacobson et al. 2013), each within `tolerance` of the exact value.
+  Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance = 0.05);
+  /// Average outward flux of the distance gradient through each ball's sphere, `samples` spiral points each.
+  Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
+
+  class Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  explicit Scene(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace medial_vk

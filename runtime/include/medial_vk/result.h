@@ -1,0 +1,78 @@
+// Errors without exceptions: every fallible call of the runtime returns a Result or a Status.
+#pragma once
+
+#include <cassert>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace medial_vk {
+
+/// What went wrong. The values are the exit codes of the command line.
+enum class ErrorCode : int {
+  kInternal = 1,
+  kUsage = 2,
+  kInvalidMesh = 3,
+  kNoDevice = 4,
+  kOutOfMemory = 5,
+  kCannotWrite = 6,
+  kCheckFailed = 7,
+  kInterrupted = 130,
+};
+
+/// An error code and one sentence that names the thing ("face 17 uses vertex 99 of 98").
+struct Error {
+  ErrorCode code = ErrorCode::kInternal;
+  std::string message;
+};
+
+/// Either a value or an Error. Ask ok() before value().
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : content_(std::move(value)) {}
+  Result(Error error) : content_(std::move(error)) {}
+
+  bool ok() const { return std::holds_alternative<T>(content_); }
+  explicit operator bool() const { return ok(); }
+
+  T& value() & {
+    assert(ok());
+    return std::get<T>(content_);
+  }
+  const T& value() const& {
+    assert(ok());
+    return std::get<T>(content_);
+  }
+  T&& value() && {
+    assert(ok());
+    return std::get<T>(std::move(content_));
+  }
+  const Error& error() const {
+    assert(!ok());
+    return std::get<Error>(content_);
+  }
+
+ private:
+  std::variant<T, Error> content_;
+};
+
+/// Success, or an Error.
+class [[nodiscard]] Status {
+ public:
+  Status() = default;
+  Status(Error error) : error_(std::move(error)), ok_(false) {}
+
+  bool ok() const { return ok_; }
+  explicit operator bool() const { return ok_; }
+  const Error& error() const {
+    assert(!ok_);
+    return error_;
+  }
+
+ private:
+  Error error_;
+  bool ok_ = true;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,23 @@
+// From a file to a prepared mesh.
+#pragma once
+
+#include <string>
+
+#include "medial_vk/result.h"
+#include "mesh/mesh.h"
+
+namespace medial_vk {
+
+/// Reads OBJ, PLY, STL or OFF, by content where it is clear and else by extension; "-" is standard input.
+/// Errors: kInvalidMesh with file name and line, face or byte.
+Result<Mesh> read_mesh(const std::string& path);
+
+/// Drops degenerate and duplicate faces, unused vertices excluded from the bounding box, makes each component's
+/// orientation consistent (and outward if the whole mesh is inside out), inspects, sets the flags.
+/// Errors: kInvalidMesh if nothing is left, or nothing is enclosed.
+Result<PreparedMesh> prepare_mesh(Mesh mesh);
+
+/// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4).
+void perturb_mesh(Mesh& mesh, double amplitude, std::uint64_t seed);
+
+}  // namespace medial_vk
