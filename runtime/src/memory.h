@@ -1,0 +1,72 @@
+// Device memory: buffers cut from an arena of large allocations.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+enum class MemoryKind {
+  kDevice,    // fast for the device; mapped only if the memory happens to be host-visible
+  kUpload,    // host-visible, coherent, written by the host
+  kReadback,  // host-visible, coherent, cached if there is such memory, read by the host
+};
+
+/// A range of a buffer, as a kernel binds it.
+struct BufferRange {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;
+  VkDeviceSize size = VK_WHOLE_SIZE;
+};
+
+/// A buffer for storage, indirect dispatch, transfer and (if small enough for the device) uniform texels.
+struct Buffer {
+  VkBuffer handle = VK_NULL_HANDLE;
+  VkDeviceSize size = 0;
+  void* mapped = nullptr;  // kUpload and kReadback always, kDevice if possible
+
+  BufferRange range() const { return {handle, 0, size}; }
+  BufferRange range(VkDeviceSize offset, VkDeviceSize bytes) const { return {handle, offset, bytes}; }
+};
+
+/// Owns buffers and their memory; all are freed together with the arena. Move-only.
+class Arena {
+ public:
+  explicit Arena(Context::Impl& context) : context_(&context) {}
+  Arena(Arena&&) noexcept;
+  Arena& operator=(Arena&&) noexcept;
+  ~Arena();
+
+  /// Errors: kOutOfMemory, naming bytes and purpose. Sizes are rounded up to 16 bytes, at least 16.
+  Result<Buffer> create_buffer(VkDeviceSize bytes, MemoryKind kind, const char* purpose);
+  /// A view of vec4 (RGBA32F) texels over a whole buffer. Errors: kOutOfMemory.
+  Result<VkBufferView> create_texel_view(const Buffer& buffer);
+  /// Bytes of device memory held.
+  VkDeviceSize bytes() const { return bytes_; }
+
+ private:
+  struct Block {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::uint32_t type = 0;
+    VkDeviceSize size = 0;
+    VkDeviceSize used = 0;
+    void* mapped = nullptr;
+  };
+  Context::Impl* context_;
+  std::vector<Block> blocks_;
+  std::vector<VkBuffer> buffers_;
+  std::vector<VkBufferView> views_;
+  VkDeviceSize bytes_ = 0;
+};
+
+/// Copies host bytes into a device buffer, through a staging buffer where it is not mapped. Blocks.
+Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes);
+
+}  // namespace medial_vk

@@ -1,0 +1,34 @@
+// A compute pipeline with its layout. All shaders share one convention: set 0, storage buffers at bindings
+// 0 .. storage_buffers - 1, uniform texel buffers after them, push constants of at most 128 bytes, the workgroup
+// size in specialization constant 0.
+#pragma once
+
+#include <volk.h>
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace medial_vk {
+
+struct ProgramKey {
+  std::string shader;                    // file name without .comp
+  std::uint32_t storage_buffers = 0;
+  std::uint32_t texel_buffers = 0;
+  std::uint32_t push_constant_bytes = 0;
+  std::uint32_t workgroup_size = 64;     // specialization constant 0
+  std::vector<std::uint32_t> constants;  // specialization constants 1, 2, ...
+
+  auto operator<=>(const ProgramKey&) const = default;
+};
+
+/// Plain handles; the context's program cache creates and destroys them.
+struct Program {
+  ProgramKey key;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,73 @@
+// Records dispatches into a command buffer, straight-line: bind, dispatch, barrier. Never submits or waits.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial_vk/context.h"
+#include "medial_vk/extraction.h"
+#include "medial_vk/result.h"
+#include "memory.h"
+
+namespace medial_vk {
+
+/// Descriptor pools and timestamp queries that a recorded command buffer needs until it has run.
+class Recorder {
+ public:
+  /// `commands` must be in the recording state. Errors are remembered; ask status() at the end.
+  Recorder(Context::Impl& context, VkCommandBuffer commands);
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+  ~Recorder();
+
+  /// Runs `shader` over `items` invocations, rounded up to whole workgroups; groups beyond the device's limit per
+  /// dimension go to a second dimension (kernels compute their index from gl_WorkGroupID.y too).
+  void dispatch(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
+                std::span<const std::byte> push_constants, std::uint64_t items);
+  /// The same with three group counts read from `arguments` at `offset`.
+  void dispatch_indirect(const ProgramKey& key, std::span<const BufferRange> buffers,
+                         std::span<const VkBufferView> texels, std::span<const std::byte> push_constants,
+                         const Buffer& arguments, VkDeviceSize offset);
+  /// Makes all writes so far visible to all later compute, indirect and transfer reads and writes.
+  void barrier();
+  void fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word);
+  void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset,
+            VkDeviceSize bytes);
+  /// Makes device writes visible to the host once the fence has signalled.
+  void barrier_to_host();
+  /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
+  void begin_stage(const char* stage);
+
+  Status status() const { return status_; }
+  /// After the command buffer has finished: seconds per stage. Empty without timestamps.
+  std::vector<StageTime> stage_times() const;
+
+ private:
+  VkDescriptorSet allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels);
+  void bind(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
+            std::span<const std::byte> push_constants);
+
+  Context::Impl* context_;
+  VkCommandBuffer commands_;
+  std::vector<VkDescriptorPool> descriptor_pools_;
+  VkQueryPool timestamps_ = VK_NULL_HANDLE;
+  std::vector<std::string> stages_;
+  Status status_;
+};
+
+/// Push constants from any trivially copyable struct.
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span<const T, 1>(&value, 1));
+}
+
+/// Records with `record`, submits, waits; returns seconds per stage. Errors: device lost (kInternal),
+/// kOutOfMemory, whatever `record` returns.
+Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record);
+
+}  // namespace medial_vk
