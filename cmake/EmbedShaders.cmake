@@ -1,6 +1,6 @@
 # Compiles GLSL compute shaders to SPIR-V, validates them and embeds them as constant arrays.
 #   medial_vk_embed_shaders(TARGET SHADER_DIR name1 name2 ...)
-# makes embedded_shaders.h / .cpp with `find_embedded_shader("name1")`.
+# adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No names: an empty list.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)

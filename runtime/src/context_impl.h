@@ -5,10 +5,14 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "embedded_shaders.h"
+#include "instance.h"
 #include "medial_vk/context.h"
+#include "pipeline_cache.h"
 #include "program.h"
 
 namespace medial_vk {
@@ -31,9 +35,13 @@ class Context::Impl {
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
+  VkDeviceSize max_allocation_bytes = 0;   // of one vkAllocateMemory (maxMemoryAllocationSize)
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;
+  // Written by the validation layer from any thread (through atomic_ref); this object must not move.
   std::uint64_t validation_messages = 0;
+  // Shaders that are looked up before the embedded ones: kernels of a test, for example.
+  std::span<const EmbeddedShader> extra_shaders;
 
   /// The program for this shader and these specialization constants; made once, kept until the context ends.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.
@@ -41,9 +49,18 @@ class Context::Impl {
 
  private:
   friend class Context;
-  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  Status initialize(const ContextOptions& options);
+  Status create_device();
+  void query_properties();
+  Status open_pipeline_cache(const std::string& folder_option);
+  void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
+  void destroy_programs();
+
+  Instance instance_;  // owns `instance`
+  PipelineCacheIdentity pipeline_cache_identity_;
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
-  std::string pipeline_cache_file_;
+  std::string pipeline_cache_file_;            // empty: none
+  std::uint64_t pipeline_cache_checksum_ = 0;  // of the data that was read
   std::map<ProgramKey, std::unique_ptr<Program>> programs_;
 };
 

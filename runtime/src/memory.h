@@ -58,7 +58,13 @@ class Arena {
     VkDeviceSize size = 0;
     VkDeviceSize used = 0;
     void* mapped = nullptr;
+    bool dedicated = false;  // belongs to one buffer
   };
+  void release();
+  Result<void*> bind_memory(const Buffer& buffer, MemoryKind kind, const char* purpose);
+  Block* find_room(std::uint32_t type, VkDeviceSize size, VkDeviceSize alignment);
+  VkResult add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedicated_to);
+
   Context::Impl* context_;
   std::vector<Block> blocks_;
   std::vector<VkBuffer> buffers_;

@@ -13,7 +13,7 @@
 namespace medial_vk {
 
 struct ProgramKey {
-  std::string shader;                    // file name without .comp
+  std::string shader;  // file name without .comp
   std::uint32_t storage_buffers = 0;
   std::uint32_t texel_buffers = 0;
   std::uint32_t push_constant_bytes = 0;

@@ -13,6 +13,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 #include "memory.h"
+#include "program.h"
 
 namespace medial_vk {
 
@@ -36,12 +37,13 @@ class Recorder {
   /// Makes all writes so far visible to all later compute, indirect and transfer reads and writes.
   void barrier();
   void fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word);
-  void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset,
-            VkDeviceSize bytes);
+  void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset, VkDeviceSize bytes);
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
   void begin_stage(const char* stage);
+  /// Ends the last stage. run_commands() does it; who records into a buffer of its own calls it last.
+  void end_stages();
 
   Status status() const { return status_; }
   /// After the command buffer has finished: seconds per stage. Empty without timestamps.
@@ -51,11 +53,28 @@ class Recorder {
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels);
   void bind(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
             std::span<const std::byte> push_constants);
+  void check_bindings(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
+                      std::span<const std::byte> push_constants);
+  void write_set(VkDescriptorSet set, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels);
+  void add_descriptor_pool(std::uint32_t storage, std::uint32_t texels);
+  void pipeline_barrier(VkPipelineStageFlags to_stages, VkAccessFlags to_access);
+  void write_timestamp();
+  void fail(Error error);
+
+  // What is left in the last descriptor pool.
+  struct Room {
+    std::uint32_t sets = 0;
+    std::uint32_t storage = 0;
+    std::uint32_t texels = 0;
+  };
 
   Context::Impl* context_;
   VkCommandBuffer commands_;
   std::vector<VkDescriptorPool> descriptor_pools_;
-  VkQueryPool timestamps_ = VK_NULL_HANDLE;
+  Room room_;
+  std::uint32_t next_pool_sets_ = 0;
+  std::vector<VkQueryPool> timestamps_;
+  std::size_t timestamp_count_ = 0;
   std::vector<std::string> stages_;
   Status status_;
 };

@@ -1,0 +1,35 @@
+// Which physical devices there are, what they are good for, and which one to take.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// A physical device with the family of queues that the runtime would use.
+struct PhysicalDevice {
+  VkPhysicalDevice handle = VK_NULL_HANDLE;
+  std::uint32_t queue_family = 0;          // meaningful if description.usable
+  std::uint32_t timestamp_valid_bits = 0;  // of that family
+  DeviceDescription description;
+};
+
+/// All devices in Vulkan's order. Precondition: volk_mutex() is held, volk is loaded for `instance`.
+/// Errors: kNoDevice, kOutOfMemory. No device at all is an empty list, not an error.
+Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance);
+
+/// The device that `choice` means: an index, part of a name (case does not matter; of several the best), or, empty,
+/// the best of all: discrete, integrated, virtual, cpu, other; the first listed among equals.
+/// `origin` names where the choice comes from in errors ("--device", "MEDIAL_VK_DEVICE").
+/// Returns the index. Errors: kNoDevice, listing what exists.
+Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices, const std::string& choice,
+                                    const std::string& origin);
+
+}  // namespace medial_vk

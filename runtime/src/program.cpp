@@ -1,0 +1,159 @@
+#include "program.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+namespace {
+
+const EmbeddedShader* find_shader(std::span<const EmbeddedShader> shaders, const std::string& name) {
+  const auto found = std::find_if(shaders.begin(), shaders.end(),
+                                  [&name](const EmbeddedShader& shader) { return shader.name == name; });
+  return found != shaders.end() ? &*found : nullptr;
+}
+
+Error shader_error(const ProgramKey& key, const std::string& what) {
+  return {ErrorCode::kInternal, "shader " + key.shader + " " + what};
+}
+
+Error at_most(const ProgramKey& key, const std::string& what, std::uint64_t wanted, std::uint64_t limit) {
+  return shader_error(
+      key, "needs " + std::to_string(wanted) + " " + what + ", the device has at most " + std::to_string(limit));
+}
+
+Status check_limits(const VkPhysicalDeviceLimits& limits, const ProgramKey& key) {
+  if (key.storage_buffers > limits.maxPerStageDescriptorStorageBuffers) {
+    return at_most(key, "storage buffers", key.storage_buffers, limits.maxPerStageDescriptorStorageBuffers);
+  }
+  if (key.texel_buffers > limits.maxPerStageDescriptorSampledImages) {
+    return at_most(key, "texel buffers", key.texel_buffers, limits.maxPerStageDescriptorSampledImages);
+  }
+  if (key.storage_buffers + key.texel_buffers > limits.maxPerStageResources) {
+    return at_most(key, "buffers in all", key.storage_buffers + key.texel_buffers, limits.maxPerStageResources);
+  }
+  if (key.push_constant_bytes > limits.maxPushConstantsSize) {
+    return at_most(key, "bytes of push constants", key.push_constant_bytes, limits.maxPushConstantsSize);
+  }
+  const std::uint32_t group = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
+  if (key.workgroup_size > group) return at_most(key, "invocations in a workgroup", key.workgroup_size, group);
+  if (key.workgroup_size == 0) return shader_error(key, "has a workgroup size of 0");
+  if (key.push_constant_bytes % 4 != 0) return shader_error(key, "has push constants that are not whole words");
+  return {};
+}
+
+VkResult create_set_layout(const Context::Impl& context, Program& program) {
+  std::vector<VkDescriptorSetLayoutBinding> bindings(program.key.storage_buffers + program.key.texel_buffers);
+  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+    bindings[i].binding = i;
+    bindings[i].descriptorType =
+        i < program.key.storage_buffers ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    bindings[i].descriptorCount = 1;
+    bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+  }
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  info.pBindings = bindings.data();
+  return context.vk.vkCreateDescriptorSetLayout(context.device, &info, context.allocation_callbacks,
+                                                &program.set_layout);
+}
+
+VkResult create_layout(const Context::Impl& context, Program& program) {
+  VkPushConstantRange range{};
+  range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+  range.size = program.key.push_constant_bytes;
+  VkPipelineLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &program.set_layout;
+  info.pushConstantRangeCount = range.size > 0 ? 1 : 0;
+  info.pPushConstantRanges = &range;
+  return context.vk.vkCreatePipelineLayout(context.device, &info, context.allocation_callbacks, &program.layout);
+}
+
+VkResult create_pipeline(const Context::Impl& context, VkPipelineCache cache, VkShaderModule module, Program& program) {
+  // Constant 0 is the workgroup size, the caller's follow. Those that a shader does not declare are ignored.
+  std::vector<std::uint32_t> values = {program.key.workgroup_size};
+  values.insert(values.end(), program.key.constants.begin(), program.key.constants.end());
+  std::vector<VkSpecializationMapEntry> entries;
+  for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({i, i * 4u, 4u});
+  VkSpecializationInfo specialization{};
+  specialization.mapEntryCount = static_cast<std::uint32_t>(entries.size());
+  specialization.pMapEntries = entries.data();
+  specialization.dataSize = values.size() * sizeof(std::uint32_t);
+  specialization.pData = values.data();
+
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = program.layout;
+  return context.vk.vkCreateComputePipelines(context.device, cache, 1, &info, context.allocation_callbacks,
+                                             &program.pipeline);
+}
+
+void destroy_program(const Context::Impl& context, Program& program) {
+  context.vk.vkDestroyPipeline(context.device, program.pipeline, context.allocation_callbacks);
+  context.vk.vkDestroyPipelineLayout(context.device, program.layout, context.allocation_callbacks);
+  context.vk.vkDestroyDescriptorSetLayout(context.device, program.set_layout, context.allocation_callbacks);
+  program = {};
+}
+
+/// Fills the handles of `program`; on error some of them may be set, destroy_program() takes them back.
+Status make_program(const Context::Impl& context, VkPipelineCache cache, const EmbeddedShader& shader,
+                    Program& program) {
+  const auto failed = [&program](const char* call, VkResult result) {
+    Error error = vulkan_error(call, result);
+    error.message = "shader " + program.key.shader + ": " + error.message;
+    return error;
+  };
+  VkResult result = create_set_layout(context, program);
+  if (result != VK_SUCCESS) return failed("vkCreateDescriptorSetLayout", result);
+  result = create_layout(context, program);
+  if (result != VK_SUCCESS) return failed("vkCreatePipelineLayout", result);
+
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = shader.words.size_bytes();
+  module_info.pCode = shader.words.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  result = context.vk.vkCreateShaderModule(context.device, &module_info, context.allocation_callbacks, &module);
+  if (result != VK_SUCCESS) return failed("vkCreateShaderModule", result);
+  result = create_pipeline(context, cache, module, program);
+  context.vk.vkDestroyShaderModule(context.device, module, context.allocation_callbacks);
+  if (result != VK_SUCCESS) return failed("vkCreateComputePipelines", result);
+  return {};
+}
+
+}  // namespace
+
+Result<const Program*> Context::Impl::program(const ProgramKey& key) {
+  if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
+  const EmbeddedShader* shader = find_shader(extra_shaders, key.shader);
+  if (shader == nullptr) shader = find_shader(embedded_shaders(), key.shader);
+  if (shader == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
+  if (const Status fits = check_limits(limits, key); !fits.ok()) return fits.error();
+
+  auto made = std::make_unique<Program>();
+  made->key = key;
+  if (const Status status = make_program(*this, pipeline_cache_, *shader, *made); !status.ok()) {
+    destroy_program(*this, *made);
+    return status.error();
+  }
+  const Program* result = made.get();
+  programs_.emplace(key, std::move(made));
+  return result;
+}
+
+void Context::Impl::destroy_programs() {
+  for (auto& [key, program] : programs_) destroy_program(*this, *program);
+  programs_.clear();
+}
+
+}  // namespace medial_vk
