@@ -1,0 +1,79 @@
+// Contexts for tests: skip where there is no Vulkan device, never touch the user's pipeline cache.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "medial_vk/context.h"
+
+namespace medial_vk::test {
+
+/// A folder that exists as long as the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "medial_vk_test_XXXXXX").string();
+    const char* made = mkdtemp(pattern.data());
+    path_ = made != nullptr ? made : "";
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Sets an environment variable (nullptr: unsets it) until the end of the scope.
+class ScopedEnvironment {
+ public:
+  ScopedEnvironment(const char* name, const char* value) : name_(name) {
+    const char* old = getenv(name);
+    had_ = old != nullptr;
+    if (had_) old_ = old;
+    set(value);
+  }
+  ScopedEnvironment(const ScopedEnvironment&) = delete;
+  ScopedEnvironment& operator=(const ScopedEnvironment&) = delete;
+  ~ScopedEnvironment() { set(had_ ? old_.c_str() : nullptr); }
+
+ private:
+  void set(const char* value) {
+    if (value != nullptr) {
+      setenv(name_.c_str(), value, 1);
+    } else {
+      unsetenv(name_.c_str());
+    }
+  }
+  std::string name_;
+  std::string old_;
+  bool had_ = false;
+};
+
+/// Why tests that need a device cannot run here; empty: they can.
+inline std::string no_device_reason() {
+  const Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
+  return context.ok() ? "" : context.error().message;
+}
+
+/// Why tests that need the validation layer cannot run here; empty: they can.
+inline std::string no_validation_reason() {
+  const Result<Context> context = Context::create({.device = "", .validation = true, .cache_folder = "/dev/null"});
+  return context.ok() ? "" : context.error().message;
+}
+
+}  // namespace medial_vk::test
+
+#define MEDIAL_VK_SKIP_WITHOUT_DEVICE() \
+  if (const std::string reason = medial_vk::test::no_device_reason(); !reason.empty()) GTEST_SKIP() << reason
+
+#define MEDIAL_VK_SKIP_WITHOUT_VALIDATION() \
+  if (const std::string reason = medial_vk::test::no_validation_reason(); !reason.empty()) GTEST_SKIP() << reason
