@@ -1,0 +1,305 @@
+#include "certified_pipeline.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+namespace {
+
+using gpu::uint;
+
+constexpr uint kMostArguments = 4096; // indirect dispatches of one recorded sequence
+constexpr uint kTopCellsAlongSide = 16;
+constexpr uint kMostTreelets = 8192;
+constexpr uint kLeastTreelet = 16;
+
+// Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
+constexpr float kSlack = 2e-6f;
+// Centres of cells are rounded three times: at most 3 * 2^-25 a coordinate.
+constexpr double kCentreError = 3e-7;
+
+const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
+
+std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
+
+// Smallest object angle that counts where the radius suffices (docs/decisions.md): creases between the facets of a
+// smooth solid turn by less, medial sheets by more.
+constexpr double kDeepAngle = 0.15;
+
+// Steps that narrow a line of length `from` below `to`, nine parts a step.
+std::uint32_t steps_to_narrow(double from, double to) {
+  std::uint32_t steps = 1;
+  for (double length = from / 9.0; length > to && steps < 12; length /= 9.0) ++steps;
+  return steps;
+}
+
+// Treelet, as shaders/gather_contacts.comp declares it.
+struct Treelet {
+  gpu::vec4 lower, upper;
+  uint first, count, padding_0, padding_1;
+};
+
+}  // namespace
+
+CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh,
+                                     const ExtractionParameters& parameters)
+    : context_(&context), mesh_(&mesh), parameters_(parameters), arena_(context) {}
+
+Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
+                                                    const ExtractionParameters& parameters,
+                                                    const std::array<std::uint32_t, 3>& grid) {
+  CertifiedPipeline p(context, mesh, parameters);
+  p.grid_ = grid;
+  // Top cells of 2^k voxels so that 16 to 31 of them lie along the longest side; always one level of children.
+  const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
+  const auto shift = static_cast<std::uint32_t>(std::max(1, static_cast<int>(std::bit_width(coarsest)) - 1));
+  p.coarse_levels_ = shift - 1;
+  for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << shift);
+  // The growth test holds if the ends are within h of each other, h < epsilon sin^2(theta) D / (D + epsilon):
+  // docs/theory.md, "How far to narrow". Four fifths of that leave room for D >= 4 epsilon and for rounding.
+  const double angle = parameters.radius > 0 ? std::min(kDeepAngle, parameters.object_angle) : parameters.object_angle;
+  const double sine = std::sin(angle);
+  p.narrowing_steps_ = steps_to_narrow(2 * kHalfDiagonal, 0.8 * parameters.epsilon * sine * sine);
+  p.rounds_ = divide_up(mesh.triangle_count, gpu::kEntriesPerRound);
+  if (Status s = p.allocate(parameters.memory_budget); !s.ok()) return s.error();
+  if (Status s = p.upload_treelets(); !s.ok()) return s.error();
+  return p;
+}
+
+double CertifiedPipeline::cell_size(std::uint32_t level) const {
+  return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(coarse_levels_) - static_cast<int>(level));
+}
+
+Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
+  // Bytes per kept cell and per list entry, from the table below.
+  constexpr std::uint64_t kBytesPerCell = 1280, kBytesPerEntry = 13;
+  const std::uint64_t limit = context_->limits.maxStorageBufferRange;
+  const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
+  const std::uint64_t cells = std::min({memory_budget * 3 / 10 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
+                                        std::max<std::uint64_t>(8 * voxels, 4096)});
+  const std::uint64_t entries =
+      std::min({memory_budget * 5 / 10 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
+  capacity_.cells = static_cast<uint>(cells);
+  capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
+  capacity_.list_entries = static_cast<uint>(entries);
+  capacity_.flux_block = std::min(16384u, capacity_.cells);
+  const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;
+  const VkDeviceSize words = entries / 32 + c;
+  const VkDeviceSize scanned = 8 * c;
+  struct Request {
+    Buffer* buffer;
+    VkDeviceSize bytes;
+    const char* purpose;
+  };
+  const Request requests[] = {
+      {&counters_, gpu::kCounterCount * 4, "counters"},
+      {&arguments_, VkDeviceSize{kMostArguments} * 12, "dispatch arguments"},
+      {&cells_[0], c * sizeof(gpu::Cell), "cells"},
+      {&cells_[1], c * sizeof(gpu::Cell), "cells"},
+      {&cells_[2], c * sizeof(gpu::Cell), "finest voxels"},
+      {&lists_[0], entries * 4, "contact lists"},
+      {&lists_[1], entries * 4, "contact lists"},
+      {&lists_[2], entries * 4, "contact lists of the finest voxels"},
+      {&nearest_, 16 * c * 8, "nearest triangles"},
+      {&grown_nearest_, 2 * lines * 8, "nearest triangles of grown balls"},
+      {&masks_, 8 * words * 4, "contact masks"},
+      {&counts_, 8 * c * 4, "contact counts"},
+      {&states_, scanned * 16, "states"},
+      {&offsets_, scanned * 16, "offsets"},
+      {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},
+      {&points_, 16 * c * 16, "line ends"},
+      {&lines_, lines * sizeof(gpu::Line), "lines"},
+      {&winners_, c * 4, "winners"},
+      {&verdicts_, c * 4, "verdicts"},
+      {&voxel_points_, c * sizeof(gpu::FoundPoint), "points of voxels"},
+      {&result_, c * sizeof(gpu::FoundPoint), "result"},
+      {&samples_, gpu::kFluxSamples * block * 16, "flux samples"},
+      {&opposites_, gpu::kFluxSamples * block * 16, "opposite flux samples"},
+      {&sample_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of flux samples"},
+      {&opposite_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of opposite flux samples"},
+  };
+  for (const Request& request : requests) {
+    Result<Buffer> buffer = arena_.create_buffer(request.bytes, MemoryKind::kDevice, request.purpose);
+    if (!buffer.ok()) return buffer.error();
+    *request.buffer = buffer.value();
+  }
+  Result<Buffer> readback = arena_.create_buffer(gpu::kCounterCount * 4, MemoryKind::kReadback, "counters");
+  if (!readback.ok()) return readback.error();
+  counters_readback_ = readback.value();
+  return {};
+}
+
+Status CertifiedPipeline::upload_treelets() {
+  const auto least = std::max(kLeastTreelet, divide_up(mesh_->triangle_count, kMostTreelets / 2));
+  std::vector<Treelet> treelets;
+  for (const LeafRange& range : mesh_->leaf_ranges(least)) {
+    Treelet t{};
+    t.lower = {range.lower[0], range.lower[1], range.lower[2], 0};
+    t.upper = {range.upper[0], range.upper[1], range.upper[2], 0};
+    t.first = range.first;
+    t.count = range.count;
+    treelets.push_back(t);
+  }
+  treelet_count_ = static_cast<uint>(treelets.size());
+  Result<Buffer> buffer =
+      arena_.create_buffer(treelets.size() * sizeof(Treelet), MemoryKind::kDevice, "boxes of runs of triangles");
+  if (!buffer.ok()) return buffer.error();
+  treelets_ = buffer.value();
+  return upload(*context_, treelets_, std::as_bytes(std::span<const Treelet>(treelets)));
+}
+
+gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
+  const double voxel = 1.0 / parameters_.resolution, epsilon = parameters_.epsilon * voxel;
+  const double size = cell_size(level);
+  const bool below = level > coarse_levels_;
+  // Lists serve every query of a point in the cell: the growth test reaches epsilon beyond its ball, and at the finest
+  // level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball lies in its parent's, so the same
+  // margin serves all levels above.
+  const double margin = below ? epsilon : std::max(epsilon, (1 - kHalfDiagonal) * voxel);
+  const double deep = std::min(kDeepAngle, parameters_.object_angle);
+  gpu::StepConstants step{};
+  step.cell_size = static_cast<float>(size);
+  step.circumradius = static_cast<float>(kHalfDiagonal * size + kCentreError);
+  step.list_radius = static_cast<float>(kHalfDiagonal * size + margin + 2 * kCentreError);
+  step.voxel_size = static_cast<float>(voxel);
+  step.epsilon = static_cast<float>(epsilon);
+  step.angle = static_cast<float>(parameters_.object_angle);
+  step.cos_twice_angle = static_cast<float>(std::cos(2 * (parameters_.object_angle + 2e-6)));
+  step.radius = parameters_.radius > 0 ? static_cast<float>(parameters_.radius) : 1e30f;
+  step.deep_angle = static_cast<float>(deep);
+  step.cos_twice_deep_angle = static_cast<float>(std::cos(2 * (deep + 2e-6)));
+  step.slack = kSlack;
+  step.grid_x = grid_[0];
+  step.grid_y = grid_[1];
+  step.grid_z = grid_[2];
+  step.voxels_per_cell = below ? 1u : 1u << (coarse_levels_ - level);
+  step.depth = below ? level - coarse_levels_ : 0u;
+  step.level = level;
+  step.closed = mesh_->closed ? 1u : 0u;
+  step.last_level = level + 1 == level_count() ? 1u : 0u;
+  step.triangle_count = mesh_->triangle_count;
+  step.node_count = treelet_count_;
+  return step;
+}
+
+std::uint32_t CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
+  const std::uint32_t argument = next_argument_++ % kMostArguments;
+  gpu::DispatchConstants c = constants;
+  c.argument = argument;
+  const BufferRange buffers[] = {counters_.range(), arguments_.range()};
+  r.dispatch({"prepare_dispatch", 2, 0, sizeof(c), 1, {}}, buffers, {}, bytes_of(c), 1);
+  r.barrier();
+  return argument;
+}
+
+void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step) {
+  gpu::DispatchConstants d{};
+  d.items_counter = extent.counter;
+  d.items_multiplier = extent.multiplier;
+  d.items_divisor = extent.divisor;
+  d.group_size = kernel.workgroup_size;
+  d.first_item = extent.first;
+  d.item_limit = extent.limit;
+  d.list_counter = extent.list_counter;
+  d.first_entry = step.first_entry;
+  const std::uint32_t argument = prepare(r, d);
+  ProgramKey key;
+  key.shader = kernel.shader;
+  key.storage_buffers = static_cast<uint>(kernel.buffers.size());
+  key.texel_buffers = kernel.triangles ? 1 : 0;
+  key.push_constant_bytes = sizeof(step);
+  key.workgroup_size = kernel.workgroup_size;
+  if (kernel.triangles) key.constants.push_back(mesh_->use_texels ? 1u : 0u);
+  key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
+  const VkBufferView texels[] = {mesh_->triangle_texels};
+  r.dispatch_indirect(key, kernel.buffers, std::span(texels, kernel.triangles ? 1 : 0), bytes_of(step), arguments_,
+                      VkDeviceSize{argument} * 12);
+  r.barrier();
+}
+
+void CertifiedPipeline::run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step) {
+  for (std::uint32_t round = 0; round < rounds_; ++round) {
+    step.first_entry = round * gpu::kEntriesPerRound;
+    run(r, kernel, extent, step);
+  }
+}
+
+void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
+  gpu::DispatchConstants d{};
+  d.items_counter = constants.items_counter;
+  d.items_multiplier = constants.items_multiplier;
+  d.items_divisor = 16;  // elements per lane
+  d.group_size = 64;
+  d.item_limit = 0xffffffffu;
+  d.list_counter = gpu::kNoCounter;
+  const VkDeviceSize offset = VkDeviceSize{prepare(r, d)} * 12;
+  const auto push = bytes_of(constants);
+  const BufferRange blocks[] = {states_.range(), block_sums_.range(), counters_.range()};
+  r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_, offset);
+  r.barrier();
+  const BufferRange sums[] = {block_sums_.range(), counters_.range()};
+  const BufferRange add[] = {states_.range(), block_sums_.range(), counters_.range(), offsets_.range()};
+  r.dispatch({"scan_sums", 2, 0, sizeof(constants), 64, {}}, sums, {}, push, 64);
+  r.barrier();
+  r.dispatch_indirect({"scan_add", 4, 0, sizeof(constants), 64, {}}, add, {}, push, arguments_, offset);
+  r.barrier();
+}
+
+CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
+  buffers.insert(buffers.begin(), mesh_->triangles.range());
+  return {shader, std::move(buffers), true};
+}
+
+void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
+                                     const Buffer& cells, const Buffer& lists, const Buffer& points,
+                                     const Buffer& nearest) {
+  struct Shape {
+    uint per_lane, per_item;
+  };
+  constexpr Shape kShapes[] = {{8, 8}, {2, 2}, {8, 8}, {2, 2}, {8, gpu::kFluxSamples}};
+  const Shape shape = kShapes[static_cast<uint>(source)];
+  Extent lanes = extent;
+  lanes.multiplier *= shape.per_item / shape.per_lane;
+  lanes.first *= shape.per_item / shape.per_lane;
+  if (lanes.limit != 0xffffffffu) lanes.limit *= shape.per_item / shape.per_lane;
+  gpu::StepConstants s = step;
+  s.items_counter = extent.counter;
+  s.items_multiplier = extent.multiplier;
+  s.first_item = extent.first;
+  run_rounds(r,
+             {"find_nearest",
+              {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),
+               lines_.range(), result_.range(), nearest.range()},
+              true,
+              {static_cast<uint>(source), shape.per_lane, shape.per_item}},
+             lanes, s);
+}
+
+std::array<std::uint32_t, gpu::kCounterCount> CertifiedPipeline::read_counters() const {
+  std::array<std::uint32_t, gpu::kCounterCount> counters;
+  std::memcpy(counters.data(), counters_readback_.mapped, sizeof(counters));
+  return counters;
+}
+
+Result<std::vector<gpu::FoundPoint>> CertifiedPipeline::read_points(std::uint32_t count) {
+  std::vector<gpu::FoundPoint> points(count);
+  if (count == 0) return points;
+  const VkDeviceSize bytes = count * sizeof(gpu::FoundPoint);
+  Arena staging(*context_);
+  Result<Buffer> buffer = staging.create_buffer(bytes, MemoryKind::kReadback, "result");
+  if (!buffer.ok()) return buffer.error();
+  auto copied = run_commands(*context_, [&](Recorder& r) {
+    r.copy(result_, 0, buffer.value(), 0, bytes);
+    r.barrier_to_host();
+    return r.status();
+  });
+  if (!copied.ok()) return copied.error();
+  std::memcpy(points.data(), buffer.value().mapped, bytes);
+  return points;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,120 @@
+// The certified extraction on the device (docs/theory.md): one recorded sequence takes a range of top cells from their
+// contact lists to medial points. Nothing is read back in the middle; counters on the device size every dispatch.
+//
+//   gather contacts of the top cells
+//   for each level, coarse to fine and below the finest voxel:
+//     nearest triangle of every child -> mark its contacts -> dismiss -> decide its side -> write the kept ones
+//     from the finest level on: propose lines -> keep those that turn -> narrow -> verify -> elect one per voxel
+//   collect the points, measure their flux
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gpu_types.h"
+#include "medial_vk/extraction.h"
+#include "recorder.h"
+#include "scene.h"
+
+namespace medial_vk {
+
+/// What the pipeline holds at most; a chunk of top cells that needs more is run again in two halves.
+struct PipelineCapacity {
+  std::uint32_t cells = 0;         // kept cells of one level
+  std::uint32_t lines = 0;         // lines being narrowed at one level
+  std::uint32_t list_entries = 0;  // of one level
+  std::uint32_t flux_block = 0;    // points whose flux is measured at a time
+};
+
+class CertifiedPipeline {
+ public:
+  /// Allocates all buffers for one mesh and one set of parameters. Errors: kOutOfMemory, kInternal.
+  static Result<CertifiedPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
+                                          const ExtractionParameters& parameters,
+                                          const std::array<std::uint32_t, 3>& grid);
+
+  /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
+  std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
+  std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
+  double cell_size(std::uint32_t level) const;
+
+  /// Appends the whole extraction of `count` top cells from `first` on.
+  Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count);
+
+  /// After the recorded sequence has run.
+  std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
+  /// The first `count` points, in no particular order of voxels.
+  Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
+
+ private:
+  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters);
+
+  // Where one level reads and writes.
+  struct LevelBuffers {
+    const Buffer* parents;
+    const Buffer* parent_lists;
+    const Buffer* cells;
+    const Buffer* lists;
+  };
+  enum class Source : std::uint32_t { kChildren, kLineEnds, kSections, kGrownEnds, kSphere };
+
+  Status allocate(std::uint64_t memory_budget);
+  Status upload_treelets();
+  gpu::StepConstants level_constants(std::uint32_t level) const;
+
+  void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
+  void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
+  void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left);
+  void record_collection(Recorder& r);
+  void record_flux(Recorder& r, std::uint32_t first);
+
+  // One kernel over counter * multiplier / divisor invocations.
+  struct Kernel {
+    const char* shader;
+    std::vector<BufferRange> buffers;
+    bool triangles = false;  // buffers[0] is the triangle data; its texel view follows the buffers
+    std::vector<std::uint32_t> constants;
+    std::uint32_t workgroup_size = 64;
+  };
+  struct Extent {
+    std::uint32_t counter;
+    std::uint32_t multiplier = 1;
+    std::uint32_t divisor = 1;
+    std::uint32_t first = 0;
+    std::uint32_t limit = 0xffffffffu;
+    std::uint32_t list_counter = gpu::kNoCounter;
+  };
+  void run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step);
+  // The same once for every round that the longest list may need.
+  void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step);
+  // A kernel that asks winding numbers: the tree's buffers follow its own.
+  Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
+  void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
+                    const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
+  void scan(Recorder& r, const gpu::ScanConstants& constants);
+  std::uint32_t prepare(Recorder& r, const gpu::DispatchConstants& constants);
+
+  Context::Impl* context_;
+  const DeviceMesh* mesh_;
+  ExtractionParameters parameters_;
+  PipelineCapacity capacity_;
+  Arena arena_;
+  std::array<std::uint32_t, 3> grid_{};      // finest voxels
+  std::array<std::uint32_t, 3> top_grid_{};  // top cells
+  std::uint32_t coarse_levels_ = 0;          // levels of children above the finest one
+  std::uint32_t narrowing_steps_ = 0;
+  std::uint32_t rounds_ = 1;
+  std::uint32_t treelet_count_ = 0;
+  std::uint32_t next_argument_ = 0;
+
+  Buffer treelets_, counters_, counters_readback_, arguments_;
+  std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
+  Buffer nearest_, grown_nearest_, masks_, counts_, states_, offsets_, block_sums_;
+  Buffer points_, lines_, winners_, verdicts_, voxel_points_, result_;
+  Buffer samples_, opposites_, sample_nearest_, opposite_nearest_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,214 @@
+// The order of the dispatches of the certified extraction, straight-line.
+#include "certified_pipeline.h"
+
+namespace medial_vk {
+
+using gpu::uint;
+
+Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
+  next_argument_ = 0;
+  r.begin_stage("contacts");
+  record_top_cells(r, first, count);
+  // Levels alternate between two sets of buffers; the finest voxels have their own, which live to the end.
+  uint parents = 0, lists = 0;
+  for (uint level = 0; level <= coarse_levels_; ++level) {
+    const bool finest = level == coarse_levels_;
+    const uint target = finest ? 2 : 1 - parents;
+    const LevelBuffers buffers{&cells_[parents], &lists_[lists], &cells_[target], &lists_[target]};
+    const gpu::StepConstants step = level_constants(level);
+    record_children(r, step, buffers, finest);
+    if (finest) {
+      record_search(r, step, buffers);
+      record_drop_found(r, step, buffers, cells_[0]);
+    } else {
+      const BufferRange counters[] = {counters_.range()};
+      r.dispatch({"start_level", 1, 0, 0, 1, {gpu::kCells}}, counters, {}, {}, 1);
+      r.barrier();
+    }
+    parents = lists = target;
+  }
+  // Below the finest voxel: what is left is packed into cells_[0], children go to cells_[1].
+  for (uint level = coarse_levels_ + 1; level < level_count(); ++level) {
+    const uint target = lists == 0 ? 1 : 0;
+    const LevelBuffers buffers{&cells_[0], &lists_[lists], &cells_[1], &lists_[target]};
+    const gpu::StepConstants step = level_constants(level);
+    record_children(r, step, buffers, false);
+    record_search(r, step, buffers);
+    record_drop_found(r, step, buffers, cells_[0]);
+    lists = target;
+  }
+  record_collection(r);
+  r.copy(counters_, 0, counters_readback_, 0, gpu::kCounterCount * 4);
+  r.barrier_to_host();
+  return r.status();
+}
+
+void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count) {
+  r.fill(counters_, 0, gpu::kCounterCount * 4, 0);
+  r.barrier();
+  r.fill(counters_, gpu::kParents * 4, 4, count);
+  r.barrier();
+  gpu::StepConstants step = level_constants(0);
+  // The constants of level 0 describe the children; a top cell is twice as large.
+  const float margin = step.list_radius - step.circumradius;
+  step.cell_size *= 2;
+  step.circumradius *= 2;
+  step.list_radius = step.circumradius + margin;
+  step.voxels_per_cell *= 2;
+  step.first_item = first;
+  const Kernel count_entries{"gather_contacts",
+                             {treelets_.range(), counters_.range(), states_.range(), offsets_.range(),
+                              cells_[0].range(), lists_[0].range()},
+                             false,
+                             {0},
+                             256};
+  Kernel write_entries = count_entries;
+  write_entries.constants = {1};
+  const Extent groups{gpu::kParents, 256};
+  run(r, count_entries, groups, step);
+  gpu::ScanConstants scan_constants{gpu::kParents, 1, gpu::kParents, gpu::kListEntries, gpu::kMaskWords,
+                                    capacity_.cells, capacity_.list_entries,
+                                    capacity_.list_entries / 32 + capacity_.cells};
+  scan(r, scan_constants);
+  run(r, write_entries, groups, step);
+}
+
+void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
+                                        bool finest) {
+  r.begin_stage("dismissal");
+  const Buffer& axes = offsets_;  // as large as needed, and free until the prefix sums
+  const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
+  find_nearest(r, Source::kChildren, {gpu::kParents, 1, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step,
+               *level.parents, *level.parent_lists, points_, nearest_);
+  run_rounds(r,
+             {"mark_contacts",
+              {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
+               nearest_.range(), masks_.range(), counts_.range(), axes.range()},
+              true},
+             children, step);
+  run(r,
+      {"dismiss_cells",
+       {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
+        nearest_.range(), masks_.range(), counts_.range(), axes.range(), states_.range()},
+       true},
+      {gpu::kParents, 8}, step);
+  run(r, side_kernel("decide_side", {counters_.range(), level.parents->range(), nearest_.range(), states_.range()}),
+      {gpu::kParents, 8}, step);
+  scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells,
+           capacity_.list_entries, capacity_.list_entries / 32 + capacity_.cells});
+  if (finest) {  // every finest voxel that is kept gets a slot
+    r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
+    r.barrier();
+  }
+  run_rounds(r,
+             {"write_children",
+              {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
+               states_.range(), offsets_.range(), nearest_.range(), level.cells->range(), level.lists->range(),
+               counts_.range(), winners_.range(), verdicts_.range()},
+              false,
+              {finest ? 1u : 0u}},
+             children, step);
+}
+
+void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  r.begin_stage("search");
+  const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
+  run(r,
+      {"propose_lines",
+       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), points_.range()},
+       true},
+      seeds, step);
+  find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList},
+               step, *level.cells, *level.lists, points_, nearest_);
+  run(r,
+      {"keep_turning",
+       {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range()},
+       true},
+      seeds, step);
+  scan(r, {gpu::kCells, gpu::kLinesPerCell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
+           0xffffffffu});
+  run(r,
+      {"start_lines",
+       {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range(),
+        offsets_.range(), level.cells->range(), lines_.range()},
+       true},
+      seeds, step);
+  record_narrowing(r, step, level);
+  const Extent lines{gpu::kLines};
+  run(r, {"elect_points", {counters_.range(), lines_.range(), winners_.range()}}, lines, step);
+  run(r,
+      {"store_points",
+       {counters_.range(), lines_.range(), winners_.range(), cells_[2].range(), verdicts_.range(),
+        voxel_points_.range()}},
+      lines, step);
+}
+
+void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  const Extent lines{gpu::kLines, 1, 1, 0, 0xffffffffu, gpu::kLongestCellList};
+  for (uint i = 0; i < narrowing_steps_; ++i) {
+    find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
+    run(r,
+        {"narrow_lines", {mesh_->triangles.range(), counters_.range(), lines_.range(), nearest_.range()}, true},
+        {gpu::kLines}, step);
+  }
+  find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
+  run(r, {"verify_lines", {counters_.range(), lines_.range(), grown_nearest_.range()}}, {gpu::kLines}, step);
+  run(r, side_kernel("decide_line_side", {counters_.range(), level.cells->range(), lines_.range()}),
+      {gpu::kLines}, step);
+}
+
+void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
+                                          const Buffer& left) {
+  const Extent cells{gpu::kCells};
+  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, step);
+  scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
+  run(r, {"gather_cells",
+          {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
+      cells, step);
+  const BufferRange counters[] = {counters_.range()};
+  r.dispatch({"start_level", 1, 0, 0, 1, {gpu::kKept}}, counters, {}, {}, 1);
+  r.barrier();
+}
+
+void CertifiedPipeline::record_collection(Recorder& r) {
+  r.begin_stage("flux");
+  const gpu::StepConstants step = level_constants(coarse_levels_);
+  Kernel collect{"collect_points",
+                 {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
+                  result_.range()},
+                 false,
+                 {0}};
+  run(r, collect, {gpu::kVoxels}, step);
+  scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
+  collect.constants = {1};
+  run(r, collect, {gpu::kVoxels}, step);
+  for (uint first = 0; first < capacity_.cells; first += capacity_.flux_block) record_flux(r, first);
+}
+
+void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
+  gpu::StepConstants step = level_constants(coarse_levels_);
+  step.first_item = first;
+  const Extent points{gpu::kFound, 1, 1, first, capacity_.flux_block, gpu::kNoCounter};
+  const Extent samples{gpu::kFound, gpu::kFluxSamples, 1, first * gpu::kFluxSamples,
+                       capacity_.flux_block * gpu::kFluxSamples};
+  Kernel place{"place_samples",
+               {mesh_->triangles.range(), counters_.range(), result_.range(), opposites_.range(),
+                sample_nearest_.range(), samples_.range()},
+               true,
+               {0}};
+  run(r, place, samples, step);
+  find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], samples_, sample_nearest_);
+  place.buffers[3] = samples_.range();
+  place.buffers[5] = opposites_.range();
+  place.constants = {1};
+  run(r, place, samples, step);
+  find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], opposites_, opposite_nearest_);
+  run(r,
+      {"measure_flux",
+       {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
+        opposites_.range(), opposite_nearest_.range()},
+       true},
+      points, step);
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,163 @@
+// The main job, chunk by chunk: ranges of top cells go through the recorded pipeline; a range that needs more memory
+// than there is runs again in halves.
+#include "medial_vk/extraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certified_pipeline.h"
+#include "context_impl.h"
+#include "scene.h"
+#include "thesis_extraction.h"
+
+namespace medial_vk {
+namespace {
+
+Status check_parameters(const ExtractionParameters& p) {
+  const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
+  if (p.resolution < 1 || p.resolution > 4096) return usage("resolution must be 1 to 4096 voxels");
+  if (!(p.object_angle > 0 && p.object_angle < std::acos(0.0))) return usage("object angle must be in (0, pi/2)");
+  if (!(p.radius >= 0 && p.radius < 1)) return usage("radius threshold must be in [0, 1)");
+  if (!(p.epsilon >= 1e-3 && p.epsilon <= 0.5)) return usage("epsilon must be in [0.001, 0.5] voxels");
+  if (p.extra_levels > 10) return usage("extra levels must be at most 10");
+  return {};
+}
+
+// Voxels of side longest / resolution that cover the bounding box.
+VoxelGrid make_grid(const DeviceMesh& mesh, std::uint32_t resolution) {
+  VoxelGrid grid;
+  grid.origin = mesh.lower;
+  grid.voxel_size = mesh.longest / resolution;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = (mesh.upper[axis] - mesh.lower[axis]) / grid.voxel_size;
+    grid.size[axis] = static_cast<std::uint32_t>(std::clamp(std::ceil(cells - 1e-9), 1.0, double{resolution}));
+  }
+  return grid;
+}
+
+MedialSphere to_input_units(const gpu::FoundPoint& found, const DeviceMesh& mesh) {
+  MedialSphere sphere;
+  const float centre[3] = {found.centre.x, found.centre.y, found.centre.z};
+  for (int axis = 0; axis < 3; ++axis) sphere.centre[axis] = mesh.lower[axis] + mesh.longest * double{centre[axis]};
+  sphere.radius = mesh.longest * double{found.centre.w};
+  sphere.spoke_a = {found.spoke_a.x, found.spoke_a.y, found.spoke_a.z};
+  sphere.spoke_b = {found.spoke_b.x, found.spoke_b.y, found.spoke_b.z};
+  sphere.object_angle = found.spoke_a.w;
+  sphere.flux = found.spoke_b.w;
+  sphere.voxel = {found.voxel_x, found.voxel_y, found.voxel_z};
+  return sphere;
+}
+
+void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, ExtractionCounters& sum) {
+  for (std::size_t level = 0; level < sum.levels.size(); ++level) {
+    const std::uint32_t* s = &c[gpu::kStatistics + gpu::kStatisticsPerLevel * level];
+    sum.levels[level].visited += s[0];
+    sum.levels[level].kept += s[1];
+    sum.levels[level].contacts += s[2];
+    sum.levels[level].found += s[3];
+  }
+  sum.found += c[gpu::kFound];
+  sum.undecided += c[gpu::kUndecided];
+  sum.queries += c[gpu::kQueries] + (std::uint64_t{c[gpu::kQueriesHigh]} << 32);
+}
+
+void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sum) {
+  for (const StageTime& t : times) {
+    const auto same = std::find_if(sum.begin(), sum.end(), [&](const StageTime& s) { return s.stage == t.stage; });
+    if (same == sum.end())
+      sum.push_back(t);
+    else
+      same->seconds += t.seconds;
+  }
+}
+
+class CertifiedRun {
+ public:
+  CertifiedRun(Context::Impl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, Extraction& extraction)
+      : context_(context), mesh_(mesh), pipeline_(pipeline), extraction_(extraction) {}
+
+  Status run(const ProgressCallback& progress) {
+    const std::uint32_t total = pipeline_.top_cells();
+    std::uint32_t size = kFirstChunk;
+    for (std::uint32_t first = 0; first < total;) {
+      if (progress && !progress(double(first) / total))
+        return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
+      const std::uint32_t count = std::min(size, total - first);
+      Result<bool> fitted = run_chunk(first, count);
+      if (!fitted.ok()) return fitted.error();
+      if (fitted.value()) {
+        first += count;
+        size = std::min(2 * size, kLargestChunk);
+      } else {
+        if (count == 1) return too_small();
+        size = count / 2;
+        ++extraction_.counters.retries;
+      }
+    }
+    return {};
+  }
+
+ private:
+  // Small enough that progress moves and an interruption is heard, large enough to keep a device busy.
+  static constexpr std::uint32_t kFirstChunk = 512, kLargestChunk = 4096;
+
+  static Error too_small() {
+    return {ErrorCode::kOutOfMemory,
+            "the contacts of a single top cell do not fit the memory budget; raise --memory or the resolution"};
+  }
+
+  // True if the chunk was done, false if a buffer was too small for it.
+  Result<bool> run_chunk(std::uint32_t first, std::uint32_t count) {
+    auto times = run_commands(context_, [&](Recorder& r) { return pipeline_.record(r, first, count); });
+    if (!times.ok()) return times.error();
+    const auto counters = pipeline_.read_counters();
+    if (counters[gpu::kOverflow] != 0) return false;
+    if (counters[gpu::kUnresolved] != 0)
+      return Error{ErrorCode::kInternal, "a loop on the device reached its bound without an answer"};
+    auto points = pipeline_.read_points(counters[gpu::kFound]);
+    if (!points.ok()) return points.error();
+    for (const gpu::FoundPoint& p : points.value()) extraction_.spheres.push_back(to_input_units(p, mesh_));
+    add_counters(counters, extraction_.counters);
+    add_times(times.value(), extraction_.device_times);
+    return true;
+  }
+
+  Context::Impl& context_;
+  const DeviceMesh& mesh_;
+  CertifiedPipeline& pipeline_;
+  Extraction& extraction_;
+};
+
+Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view,
+                                     const ExtractionParameters& parameters, const ProgressCallback& progress) {
+  Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
+  if (!mesh.ok()) return mesh.error();
+  Extraction extraction;
+  extraction.grid = make_grid(mesh.value(), parameters.resolution);
+  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
+  if (!pipeline.ok()) return pipeline.error();
+  extraction.counters.levels.resize(pipeline.value().level_count());
+  for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)
+    extraction.counters.levels[level].cell_size = pipeline.value().cell_size(level);
+  CertifiedRun run(context, mesh.value(), pipeline.value(), extraction);
+  if (Status s = run.run(progress); !s.ok()) return s.error();
+  ExtractionCounters& c = extraction.counters;
+  const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+  c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
+  std::sort(extraction.spheres.begin(), extraction.spheres.end(), [](const MedialSphere& a, const MedialSphere& b) {
+    return std::lexicographical_compare(a.voxel.rbegin(), a.voxel.rend(), b.voxel.rbegin(), b.voxel.rend());
+  });
+  if (progress) progress(1.0);
+  return extraction;
+}
+
+}  // namespace
+
+Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
+                                          const ExtractionParameters& parameters, const ProgressCallback& progress) {
+  if (Status s = check_parameters(parameters); !s.ok()) return s.error();
+  if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, progress);
+  return extract_certified(context.impl(), mesh, parameters, progress);
+}
+
+}  // namespace medial_vk

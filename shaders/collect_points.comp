@@ -1,0 +1,25 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Packs the points of the finest voxels, in the order of the voxels' slots. Run twice: to count what became of every
+// voxel, then, after prefix sums, to write.
+#include "step.glsl"
+
+layout(constant_id = 1) const bool kWrite = false;
+
+layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 1) readonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 2) buffer States { uvec4 states[]; };
+layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 4) readonly buffer Points { FoundPoint points[]; };
+layout(set = 0, binding = 5) writeonly buffer Result { FoundPoint result[]; };
+
+void main() {
+  uint index = invocation_index();
+  if (index >= counters[kVoxels]) return;
+  if (kWrite) {
+    if (states[index].x != 0u) result[offsets[index].x] = points[index];
+    return;
+  }
+  uint found = verdicts[index] & kVerdictFound;
+  states[index] = uvec4(found, found == 0u ? verdicts[index] / kVerdictUndecided : 0u, 0u, 0u);
+}

@@ -1,0 +1,104 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Certified dismissal (docs/theory.md): a child is dropped if some axis a has, for every contact t, either
+//   the trusted outward normal of t within theta of a, or
+//   D_t > rho and angle(g_t, a) + asin(rho / D_t) < theta,
+// because then every spoke of every medial point in the cell lies within theta of a. The axis is sought by moving it
+// towards the contact that violates most (as Badoiu and Clarkson do for smallest enclosing balls).
+#include "step.glsl"
+#define TRIANGLE_STORAGE_BINDING 0
+#define TRIANGLE_TEXEL_BINDING 9
+#include "triangles.glsl"
+
+layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
+layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 5) readonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 6) readonly buffer Counts { uint counts[]; };
+layout(set = 0, binding = 7) readonly buffer Axes { vec4 axes[]; };
+layout(set = 0, binding = 8) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
+
+const uint kSweeps = 10;
+// An invocation's loops may run 65,535 times in all on lavapipe: lists too long for even one sweep are kept unproved.
+const uint kLoopBudget = 56000;
+
+float theta, cos_theta;
+vec3 centre;
+
+// How far contact t is from obeying axis a (cosine; <= 0: it obeys), and the direction that would help.
+float violation(uint t, vec3 axis, float nearest_distance, vec3 nearest_direction, out vec3 help, inout bool distrust) {
+  TriangleTexels texels = load_triangle(t);
+  bool trusted = texels.normal.w > 0.5;
+  help = texels.normal.xyz;
+  float by_normal = trusted ? cos_theta - dot(texels.normal.xyz, axis) : 4.0;
+  if (by_normal < 0.0) return by_normal;
+  vec3 v = vector_to_triangle(centre, texels);
+  float d = length(v);
+  vec3 g = unit_or_zero(v);
+  float rho = step.circumradius;
+  bool far = nearest_distance > rho;
+  float reach = far ? rho * length(g - nearest_direction) + rho * rho / (2.0 * nearest_distance) : 2.0 * rho;
+  if (d - nearest_distance - step.slack > reach) return -1.0;  // listed for a larger ball, no contact of this one
+  distrust = distrust || !trusted;
+  float spread = d > rho ? asin(min(1.0, (rho + step.slack) / d)) : 4.0;
+  float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
+  help = by_direction < by_normal ? g : help;
+  return min(by_normal, by_direction);
+}
+
+bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, float nearest_distance, vec3 g0,
+                    out bool distrust) {
+  distrust = false;
+  uint count = counts[item];
+  uint sweeps = min(kSweeps, kLoopBudget / (count + word_count + 1u));
+  vec3 axis = unit_or_zero(axes[item].xyz);
+  for (uint sweep = 0; sweep < sweeps; ++sweep) {
+    float worst = -2.0;
+    vec3 towards = axis;
+    for (uint w = 0; w < word_count; ++w) {
+      uint word = masks[word_base + w];
+      while (word != 0u) {
+        uint t = lists[parent.list_begin + 32u * w + uint(findLSB(word))];
+        word &= word - 1u;
+        vec3 help;
+        float v = violation(t, axis, nearest_distance, g0, help, distrust);
+        towards = v > worst ? help : towards;
+        worst = max(worst, v);
+      }
+    }
+    if (worst < 0.0) return true;
+    if (worst > 3.0) return false;  // a contact without any usable direction
+    axis = unit_or_zero(axis + (towards - axis) / (float(sweep) + 2.5));
+  }
+  return false;
+}
+
+void main() {
+  uint item = invocation_index();
+  if (item >= 8u * counters[kParents]) return;
+  Cell parent = parents[item / 8];
+  uvec3 coordinates = child_coordinates(parent, item % 8);
+  states[item] = uvec4(0);
+  if (step.depth == 0u && any(greaterThanEqual(coordinates * step.voxels_per_cell,
+                                               uvec3(step.grid_x, step.grid_y, step.grid_z))))
+    return;
+  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level], 1u);
+  centre = cell_centre(coordinates);
+  vec3 to_nearest = vector_to_triangle(centre, load_triangle(nearest[item].y));
+  float nearest_distance = length(to_nearest);
+  // Where the radius may pass its threshold, smaller angles count too.
+  bool deep = nearest_distance + step.circumradius + step.slack >= step.radius;
+  theta = deep ? min(step.deep_angle, step.angle) : step.angle;
+  // Rounding: directions are wrong by up to about slack / D; a cosine by 1e-6.
+  theta -= 1e-5;
+  cos_theta = cos(theta) + 1e-6;
+  uint word_count = (parent.list_count + 31u) / 32u;
+  bool distrust;
+  if (provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count, nearest_distance,
+                     unit_or_zero(to_nearest), distrust))
+    return;
+  uint flags = parent.flags & kCellInside;
+  if (distrust && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
+  states[item] = uvec4(1u, counts[item], (counts[item] + 31u) / 32u, flags);
+}

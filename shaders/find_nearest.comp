@@ -1,0 +1,78 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
+// The nearest triangle, among the contacts of a cell, of points in that cell: the one kernel that asks distances.
+// An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them.
+// Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one before.
+#include "step.glsl"
+#define TRIANGLE_STORAGE_BINDING 0
+#define TRIANGLE_TEXEL_BINDING 8
+#include "triangles.glsl"
+
+layout(constant_id = 2) const uint kSource = 0;
+const uint kChildren = 0, kLineEnds = 1, kSections = 2, kGrownEnds = 3, kSphere = 4;
+layout(constant_id = 3) const uint kPointsPerLane = 8;
+layout(constant_id = 4) const uint kPointsPerItem = 8;
+
+layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // line ends, or samples of a sphere
+layout(set = 0, binding = 5) readonly buffer Lines { Line lines[]; };
+layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
+layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
+
+uint cell_of(uint item) {
+  if (kSource == kChildren) return item;
+  if (kSource == kLineEnds) return item / kLinesPerCell;
+  if (kSource == kSphere) return found[step.first_item + item].cell;
+  return lines[item].cell;
+}
+
+vec3 point_of(uint item, uint index, Cell cell) {
+  if (kSource == kChildren) return cell_centre(child_coordinates(cell, index));
+  if (kSource == kLineEnds || kSource == kSphere) return points[kPointsPerItem * item + index].xyz;
+  if (kSource == kSections) {
+    float share = float(index + 1) / float(kSectionsPerLine + 1);
+    return mix(lines[item].p.xyz, lines[item].q.xyz, share);
+  }
+  // The end of the line, pushed away from its contact by epsilon (growth test, Lemma 2.3).
+  return index == 0 ? lines[item].p.xyz - step.epsilon * lines[item].toward_p.xyz
+                    : lines[item].q.xyz - step.epsilon * lines[item].toward_q.xyz;
+}
+
+void main() {
+  uint lanes_per_item = kPointsPerItem / kPointsPerLane;
+  uint index = invocation_index();
+  uint item = index / lanes_per_item;
+  if (step.first_item + item >= counters[step.items_counter] * step.items_multiplier) return;
+  uint first_point = (index % lanes_per_item) * kPointsPerLane;
+  Cell cell = cells[cell_of(item)];
+  uint entry = step.first_entry;
+  if (entry >= cell.list_count) return;
+  if (kSource == kLineEnds && points[2 * item].w < 0.0) return;  // no line
+
+  vec3 point[kPointsPerLane];
+  float best[kPointsPerLane];
+  uint triangle[kPointsPerLane];
+  uint result = item * kPointsPerItem + first_point;
+  [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
+    point[k] = point_of(item, first_point + k, cell);
+    uvec2 so_far = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[result + k];
+    best[k] = uintBitsToFloat(so_far.x);
+    triangle[k] = so_far.y;
+  }
+  uint end = min(cell.list_count, entry + kEntriesPerRound);
+  for (;;) {
+    uint t = lists[cell.list_begin + entry];
+    TriangleTexels texels = load_triangle(t);
+    [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
+      float d = squared_distance_to_triangle(point[k], texels);
+      bool nearer = d < best[k];
+      best[k] = nearer ? d : best[k];
+      triangle[k] = nearer ? t : triangle[k];
+    }
+    if (++entry >= end) break;
+  }
+  [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) nearest[result + k] = uvec2(floatBitsToUint(best[k]), triangle[k]);
+}

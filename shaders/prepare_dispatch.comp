@@ -1,0 +1,25 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Turns a counter into the group counts of an indirect dispatch; none after an overflow, or in rounds that no list is
+// long enough for.
+#include "gpu_types.h"
+
+layout(local_size_x_id = 0) in;  // 1
+layout(push_constant) uniform Push { DispatchConstants dispatch; };
+layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
+
+const uint kRow = 32768u;  // groups along x; every device allows 65,535
+
+void main() {
+  uint items = counters[dispatch.items_counter] * dispatch.items_multiplier;
+  items = min(items - min(items, dispatch.first_item), dispatch.item_limit);
+  bool needed = counters[kOverflow] == 0u &&
+                (dispatch.list_counter == kNoCounter || counters[dispatch.list_counter] > dispatch.first_entry);
+  uint lanes = (items + dispatch.items_divisor - 1u) / dispatch.items_divisor;
+  uint groups = needed ? (lanes + dispatch.group_size - 1u) / dispatch.group_size : 0u;
+  uint rows = (groups + kRow - 1u) / kRow;
+  arguments[3u * dispatch.argument] = min(groups, kRow);
+  arguments[3u * dispatch.argument + 1u] = max(rows, 1u);
+  arguments[3u * dispatch.argument + 2u] = 1u;
+}

@@ -1,0 +1,43 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Prefix sums of uvec4, step 2 of 3: one workgroup turns the block sums into offsets, and stores the totals. A total
+// above its limit means that a buffer is too small: the overflow counter says so and all later dispatches are empty.
+#include "gpu_types.h"
+
+layout(local_size_x_id = 0) in;  // 64
+layout(push_constant) uniform Push { ScanConstants scan; };
+layout(set = 0, binding = 0) buffer BlockSums { uvec4 block_sums[]; };
+layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
+
+shared uvec4 lane_sums[64];
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  uint count = counters[scan.items_counter] * scan.items_multiplier;
+  uint blocks = (count + 1023u) / 1024u;
+  uint run = (blocks + 63u) / 64u;
+  uint begin = min(blocks, lane * run), end = min(blocks, begin + run);
+  uvec4 sum = uvec4(0);
+  for (uint i = begin; i < end; ++i) sum += block_sums[i];
+  lane_sums[lane] = sum;
+  barrier();
+  uvec4 offset = uvec4(0), total = uvec4(0);
+  for (uint i = 0; i < 64u; ++i) {
+    offset += i < lane ? lane_sums[i] : uvec4(0);
+    total += lane_sums[i];
+  }
+  for (uint i = begin; i < end; ++i) {
+    uvec4 block = block_sums[i];
+    block_sums[i] = offset;
+    offset += block;
+  }
+  if (lane != 0u) return;
+  counters[scan.total_x] = total.x;
+  counters[scan.total_y] = total.y;
+  counters[scan.total_z] = total.z;
+  uint overflow = uint(total.x > scan.limit_x) | uint(total.y > scan.limit_y) << 1 | uint(total.z > scan.limit_z) << 2;
+  if (overflow != 0u) {
+    counters[kOverflow] |= overflow;
+    counters[scan.total_x] = 0u;
+  }
+}

@@ -1,0 +1,146 @@
+// Structures and numbers that C++ and GLSL share. Read by both compilers; tests/unit/gpu_types_test.cpp compares the
+// offsets that each of them gives. Storage buffers use std430.
+#ifndef MEDIAL_VK_GPU_TYPES_H
+#define MEDIAL_VK_GPU_TYPES_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#define MEDIAL_VK_GPU_CONSTANT constexpr uint
+namespace medial_vk::gpu {
+using uint = std::uint32_t;
+struct alignas(16) vec4 {
+  float x, y, z, w;
+};
+struct alignas(16) uvec4 {
+  uint x, y, z, w;
+};
+struct alignas(8) uvec2 {
+  uint x, y;
+};
+#else
+#define MEDIAL_VK_GPU_CONSTANT const uint
+#endif
+
+// A cube of the grid that may hold salient medial points, and where its contact list is. Coordinates count cells of
+// its own level.
+struct Cell {
+  uint x, y, z;
+  uint voxel;       // finest level and below: slot of the finest voxel it is or lies in
+  uint list_begin;  // first entry of its contact list
+  uint list_count;
+  uint word_begin;  // first 32-entry word of its contact masks
+  uint flags;       // kCell*
+  uint nearest;     // triangle nearest to the centre
+  uint padding_0, padding_1, padding_2;
+};
+MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
+MEDIAL_VK_GPU_CONSTANT kCellUntrusted = 2u;   // meets the boundary and touches a triangle without a trusted normal
+
+// A segment that crosses the medial surface: the ends and the directions from them to the boundary.
+struct Line {
+  vec4 p;         // w: distance from p to the boundary
+  vec4 q;         // w: the same of q
+  vec4 toward_p;  // unit vector from p to its nearest boundary point
+  vec4 toward_q;
+  uint cell;
+  uint voxel;
+  uint accepted;  // 0 no, 1 by its end p, 2 by its end q
+  uint padding;
+};
+
+// A medial point of a finest voxel, in the unit box.
+struct FoundPoint {
+  vec4 centre;   // w: radius
+  vec4 spoke_a;  // unit; w: object angle
+  vec4 spoke_b;  // unit; w: average outward flux
+  uint voxel_x, voxel_y, voxel_z;
+  uint cell;  // slot of the finest voxel
+};
+
+// What every kernel of the certified pipeline gets as push constants (at most 128 bytes). Lengths are fractions of the
+// longest side of the bounding box.
+struct StepConstants {
+  float cell_size;        // side of the cells of this level
+  float circumradius;     // of the cells, rounded up: where medial points are looked for
+  float list_radius;      // contacts of the ball of this radius are listed
+  float voxel_size;       // side of the finest voxel
+  float epsilon;
+  float angle;            // threshold of the object angle, rounded down
+  float cos_twice_angle;  // turn that a line must show
+  float radius;           // threshold of the radius, or a number no radius reaches
+  float deep_angle;       // threshold of the object angle where the radius suffices
+  float cos_twice_deep_angle;
+  float slack;      // bound of the rounding error of a distance
+  uint grid_x, grid_y, grid_z;  // finest voxels along each axis
+  uint voxels_per_cell;         // finest voxels along a side of the cell (1 at the finest level and below)
+  uint depth;                   // levels below the finest voxel
+  uint first_entry;             // of the contact lists, in this round
+  uint items_counter;           // which counter bounds the items of this dispatch
+  uint items_multiplier;        // items per count
+  uint first_item;              // offset of this dispatch's items
+  uint level;                   // index into the statistics
+  uint closed;                  // 1: inside and outside can be decided for whole cells
+  uint last_level;              // 1: what is kept now stays undecided
+  uint triangle_count;
+  uint node_count;
+};
+
+// What became of a finest voxel (bits).
+MEDIAL_VK_GPU_CONSTANT kVerdictFound = 1u;
+MEDIAL_VK_GPU_CONSTANT kVerdictUndecided = 2u;
+
+// Arguments of the prefix sums: `items` elements, totals to counters, limits of what may be used.
+struct ScanConstants {
+  uint items_counter;
+  uint items_multiplier;
+  uint total_x, total_y, total_z;  // counters that receive the totals of the components
+  uint limit_x, limit_y, limit_z;  // a total above its limit raises the overflow counter
+};
+
+// Arguments of prepare_dispatch: groups = ceil(counter * multiplier / (group_size)) unless the dispatch is not needed.
+struct DispatchConstants {
+  uint items_counter;
+  uint items_multiplier;
+  uint items_divisor;
+  uint group_size;
+  uint first_item;     // items before this one are not counted
+  uint item_limit;     // at most this many items from first_item on
+  uint list_counter;   // counter with the longest list, or kNoCounter
+  uint first_entry;    // nothing to do if no list is longer than this
+  uint argument;       // index of the three words to write
+};
+
+// Counters on the device.
+MEDIAL_VK_GPU_CONSTANT kNoCounter = 0xffffffffu;
+MEDIAL_VK_GPU_CONSTANT kOverflow = 0u;          // bit per limit exceeded; all later dispatches are empty
+MEDIAL_VK_GPU_CONSTANT kParents = 1u;           // cells whose children are examined
+MEDIAL_VK_GPU_CONSTANT kCells = 2u;             // cells kept at this level
+MEDIAL_VK_GPU_CONSTANT kLines = 3u;
+MEDIAL_VK_GPU_CONSTANT kVoxels = 4u;            // finest voxels kept
+MEDIAL_VK_GPU_CONSTANT kFound = 5u;             // finest voxels with a point
+MEDIAL_VK_GPU_CONSTANT kUndecided = 6u;
+MEDIAL_VK_GPU_CONSTANT kLongestParentList = 7u;
+MEDIAL_VK_GPU_CONSTANT kLongestCellList = 8u;
+MEDIAL_VK_GPU_CONSTANT kListEntries = 9u;       // used by the lists of this level
+MEDIAL_VK_GPU_CONSTANT kMaskWords = 10u;
+MEDIAL_VK_GPU_CONSTANT kUnresolved = 11u;       // loops that reached their bound without an answer: an error
+MEDIAL_VK_GPU_CONSTANT kQueries = 12u;          // closest-point queries asked, low word; high word next
+MEDIAL_VK_GPU_CONSTANT kQueriesHigh = 13u;
+MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
+MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
+MEDIAL_VK_GPU_CONSTANT kStatistics = 16u;       // per level: visited, kept, contacts, found
+MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 4u;
+MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
+MEDIAL_VK_GPU_CONSTANT kCounterCount = 16u + 4u * 24u;
+
+// Entries of a contact list that one invocation reads in one dispatch. lavapipe ends an invocation's loops silently
+// after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
+MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
+MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
+MEDIAL_VK_GPU_CONSTANT kSectionsPerLine = 8u;  // points inside a line per narrowing step
+MEDIAL_VK_GPU_CONSTANT kFluxSamples = 48u;     // spiral points of the flux that is stored with a point
+
+#ifdef __cplusplus
+}  // namespace medial_vk::gpu
+#endif
+#endif

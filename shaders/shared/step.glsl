@@ -1,0 +1,26 @@
+// What the kernels of the certified pipeline share: push constants, invocation index, geometry of cells.
+#ifndef MEDIAL_VK_STEP_GLSL
+#define MEDIAL_VK_STEP_GLSL
+#include "gpu_types.h"
+
+layout(local_size_x_id = 0) in;
+layout(push_constant) uniform Push { StepConstants step; };
+
+// Groups beyond the limit of the first dimension go to the second.
+uint invocation_index() {
+  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
+// Children are numbered 0 to 7: bit 0 is x, bit 1 is y, bit 2 is z.
+uvec3 child_coordinates(Cell parent, uint child) {
+  return 2 * uvec3(parent.x, parent.y, parent.z) + uvec3(child & 1u, (child >> 1) & 1u, child >> 2);
+}
+
+vec3 cell_centre(uvec3 coordinates) { return (vec3(coordinates) + 0.5) * step.cell_size; }
+
+vec3 unit_or_zero(vec3 v) {
+  float squared = dot(v, v);
+  return squared > 0.0 ? v * inversesqrt(squared) : vec3(0.0);
+}
+
+#endif

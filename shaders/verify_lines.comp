@@ -1,0 +1,30 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Does a narrowed line end at a salient medial point? The directions at its ends must differ by twice the object
+// angle (or the radius suffice), and the ball at the accepted end, grown by epsilon away from its contact, must meet
+// the boundary elsewhere (Lemma 2.3). Whether the end lies in the solid is asked afterwards.
+#include "step.glsl"
+
+layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
+layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // of the two grown ends
+
+// One hundredth of epsilon keeps the test clear of float rounding; certify_spheres() repeats it in double.
+const float kGrowthMargin = 0.01;
+
+bool is_medial(float distance_before, uint grown, float turn) {
+  bool deep = distance_before >= step.radius;
+  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
+  float distance_after = sqrt(uintBitsToFloat(nearest[grown].x));
+  return turn <= threshold && distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
+}
+
+void main() {
+  uint index = invocation_index();
+  if (index >= counters[kLines]) return;
+  float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
+  bool narrow = distance(lines[index].p.xyz, lines[index].q.xyz) <= step.epsilon;
+  bool p = narrow && is_medial(lines[index].p.w, 2 * index, turn);
+  bool q = narrow && is_medial(lines[index].q.w, 2 * index + 1, turn);
+  lines[index].accepted = p ? 1u : q ? 2u : 0u;
+}

@@ -1,0 +1,60 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Writes the kept children and their contact lists, in order: the prefix sums of `states` say where.
+#include "step.glsl"
+
+layout(constant_id = 1) const bool kFinest = false;  // the children are finest voxels: each gets a slot of its own
+
+layout(set = 0, binding = 0) readonly buffer Parents { Cell parents[]; };
+layout(set = 0, binding = 1) readonly buffer ParentLists { uint parent_lists[]; };
+layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 3) readonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 4) readonly buffer States { uvec4 states[]; };
+layout(set = 0, binding = 5) readonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 6) readonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 7) writeonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 8) writeonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 9) buffer Positions { uint positions[]; };  // entries written so far, between rounds
+layout(set = 0, binding = 10) writeonly buffer Winners { uint winners[]; };
+layout(set = 0, binding = 11) writeonly buffer Verdicts { uint verdicts[]; };
+
+void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset) {
+  uvec3 c = child_coordinates(parent, item % 8);
+  uint voxel = kFinest ? offset.x : parent.voxel;
+  cells[offset.x] =
+      Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, 0u, 0u, 0u);
+  if (kFinest) {
+    winners[voxel] = 0xffffffffu;
+    verdicts[voxel] = 0u;
+  }
+  atomicMax(counters[kLongestCellList], state.y);
+  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 1], 1u);
+  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 2], state.y);
+}
+
+void main() {
+  uint item = invocation_index();
+  if (item >= 8u * counters[kParents]) return;
+  uvec4 state = states[item];
+  if (state.x == 0u) return;
+  Cell parent = parents[item / 8];
+  if (step.first_entry >= parent.list_count) return;
+  uvec4 offset = offsets[item];
+  uint position = 0;
+  if (step.first_entry == 0u)
+    write_cell(parent, item, state, offset);
+  else
+    position = positions[item];
+  uint word_count = (parent.list_count + 31u) / 32u;
+  uint base = 8u * parent.word_begin + (item % 8) * word_count;
+  uint w = step.first_entry / 32u;
+  uint end = min(word_count, w + kEntriesPerRound / 32u);
+  for (; w < end; ++w) {
+    uint word = masks[base + w];
+    while (word != 0u) {
+      lists[offset.y + position++] = parent_lists[parent.list_begin + 32u * w + uint(findLSB(word))];
+      word &= word - 1u;
+    }
+  }
+  positions[item] = position;
+}
