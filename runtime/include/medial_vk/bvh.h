@@ -33,6 +33,9 @@ struct BvhHit {
 
 class Bvh {
  public:
+  /// No leaf lies deeper below the root; what a traversal stack must hold.
+  static constexpr std::uint32_t kMaxDepth = 48;
+
   /// Copies the corners of the triangles in leaf order. `threads` 0: as many as the machine has.
   /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite).
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
