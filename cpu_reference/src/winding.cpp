@@ -1,0 +1,89 @@
+// The generalised winding number, exact and fast.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cpu_reference/queries.h"
+
+namespace medial_vk::reference {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Solid angle of a triangle seen from p, positive if p lies behind it (van Oosterom and Strackee 1983).
+double solid_angle(const Vector3d& p, const Vector3d& corner_a, const Vector3d& corner_b, const Vector3d& corner_c) {
+  const Vector3d a = corner_a - p, b = corner_b - p, c = corner_c - p;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  const double volume = a.dot(b.cross(c));
+  const double spread = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return 2 * std::atan2(volume, spread);
+}
+
+}  // namespace
+
+void Tree::add_moments(Node& node) const {
+  double area = 0;
+  Vector3d weighted = Vector3d::Zero();
+  node.area_normal.setZero();
+  for (int i = node.first; i < node.last; ++i) {
+    const int t = order_[i];
+    area += areas_[t];
+    weighted += areas_[t] * (corners_[t][0] + corners_[t][1] + corners_[t][2]) / 3;
+    node.area_normal += areas_[t] * normals_[t];
+  }
+  node.centre = area > 0 ? Vector3d(weighted / area) : Vector3d((node.lower + node.upper) / 2);
+  node.moment.setZero();
+  for (int i = node.first; i < node.last; ++i) {
+    const int t = order_[i];
+    const Vector3d centroid = (corners_[t][0] + corners_[t][1] + corners_[t][2]) / 3;
+    node.moment += areas_[t] * (centroid - node.centre) * normals_[t].transpose();
+    for (const Vector3d& corner : corners_[t]) node.reach = std::max(node.reach, (corner - node.centre).norm());
+  }
+}
+
+double winding_number(const Tree& tree, const Vector3d& p) {
+  double sum = 0;
+  for (int t = 0; t < tree.triangle_count(); ++t) {
+    sum += solid_angle(p, tree.corner(t, 0), tree.corner(t, 1), tree.corner(t, 2));
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+// w(p) is the integral of f(x) . n / 4 pi with f(x) = (x - p) / |x - p|^3. Around a node's centre, at distance d, f is
+// replaced by its first two Taylor terms. f is minus the gradient of 1/|x - p|, whose third derivatives are bounded
+// by 3! / |x - p|^4, so the rest is at most reach^2 / 2 * 6 / (d - reach)^4 on the node: an error of
+// area * 3 reach^2 / (4 pi (d - reach)^4). A node is used if that is at most its share by area of the tolerance.
+double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
+  double sum = 0;
+  std::vector<int> stack = {0};
+  while (!stack.empty()) {
+    const Tree::Node& node = tree.nodes_[stack.back()];
+    stack.pop_back();
+    const Vector3d r = node.centre - p;
+    const double d = r.norm();
+    const double gap2 = (d - node.reach) * (d - node.reach);
+    if (d > node.reach && 3 * node.reach * node.reach * tree.area_ <= 4 * std::numbers::pi * tolerance * gap2 * gap2) {
+      const double d3 = d * d * d;
+      sum += r.dot(node.area_normal) / d3 + node.moment.trace() / d3 - 3 * r.dot(node.moment * r) / (d3 * d * d);
+    } else if (node.left >= 0) {
+      stack.push_back(node.right);
+      stack.push_back(node.left);
+    } else {
+      for (int i = node.first; i < node.last; ++i) {
+        const auto& [a, b, c] = tree.corners_[tree.order_[i]];
+        sum += solid_angle(p, a, b, c);
+      }
+    }
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+bool is_inside(const Tree& tree, const Vector3d& p) {
+  constexpr double kTolerance = 0.2;  // a closed mesh has integers only, so nearly every point is decided here
+  const double estimate = winding_number(tree, p, kTolerance);
+  if (std::abs(estimate - 0.5) > kTolerance) return estimate > 0.5;
+  return winding_number(tree, p) >= 0.5;
+}
+
+}  // namespace medial_vk::reference
