@@ -237,7 +237,8 @@ TEST_F(RecorderTest, BadArgumentsAreErrorsAndNeverReachTheDriver) {
       {"a fill", [&](Recorder& r) { r.fill(buffer, 2, 4, 0); }},
       {"a copy", [&](Recorder& r) { r.copy(buffer, 0, buffer, 32, 40); }},
   };
-  for (const auto& [name, record] : cases) {
+  for (const auto& [name, bad_call] : cases) {
+    const Record& record = bad_call;  // a structured binding cannot be captured
     const auto ran = run_commands(impl(), [&record](Recorder& recorder) {
       record(recorder);
       recorder.barrier();  // recording goes on after an error
