@@ -1,0 +1,92 @@
+#include "medial/extract.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <utility>
+
+#include "cpu_reference/extract.h"
+#include "medial/reference_bridge.h"
+#include "medial_vk/bvh.h"
+
+namespace medial_vk {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call, or since construction.
+  double lap() {
+    const Clock::time_point now = Clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+Error interrupted() { return {ErrorCode::kInterrupted, "interrupted"}; }
+
+ProgressCallback progress_of_stage(const StageProgress& progress, const char* stage) {
+  if (!progress) return {};
+  return [&progress, stage](double done) { return progress(stage, done); };
+}
+
+Result<Extraction> extract_on_cpu(const PreparedMesh& mesh, const ExtractionParameters& parameters,
+                                  const ProgressCallback& progress) {
+  const reference::Result result = reference::extract(to_reference(mesh), to_reference(parameters), progress);
+  if (result.interrupted) return interrupted();
+  return from_reference(result);
+}
+
+Result<Extraction> extract(const PreparedMesh& mesh, const ExtractionParameters& parameters, Backend backend,
+                           Context* context, const ProgressCallback& progress) {
+  if (backend == Backend::kCpu) return extract_on_cpu(mesh, parameters, progress);
+  if (context == nullptr) return Error{ErrorCode::kNoDevice, "the Vulkan backend was asked for without a device"};
+  return extract_medial_spheres(*context, mesh.view(), parameters, progress);
+}
+
+Result<CertifiedExtraction> run_stages(const PreparedMesh& mesh, const ExtractionParameters& parameters,
+                                       Backend backend, Context* context, unsigned threads,
+                                       const StageProgress& progress) {
+  CertifiedExtraction out;
+  Stopwatch stopwatch;
+  Result<Extraction> extraction = extract(mesh, parameters, backend, context, progress_of_stage(progress, "extract"));
+  if (!extraction) return extraction.error();
+  out.extraction = std::move(extraction).value();
+  out.host_times.push_back({"extract", stopwatch.lap()});
+
+  if (progress && !progress("certify", 0.0)) return interrupted();
+  constexpr std::uint32_t kLeafSize = 4;
+  const Result<Bvh> bvh = Bvh::build(mesh.view(), kLeafSize, threads);
+  if (!bvh) return bvh.error();
+  out.host_times.push_back({"index", stopwatch.lap()});
+
+  out.certify = certify_spheres(bvh.value(), parameters, longest_side(mesh.report), out.extraction, threads);
+  out.host_times.push_back({"certify", stopwatch.lap()});
+  if (progress && !progress("certify", 1.0)) return interrupted();
+  return out;
+}
+
+}  // namespace
+
+double longest_side(const MeshReport& report) {
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, report.upper[axis] - report.lower[axis]);
+  return longest;
+}
+
+Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const ExtractionParameters& parameters,
+                                                Backend backend, Context* context, unsigned threads,
+                                                const StageProgress& progress) {
+  // The reference and the standard library may run out of memory anywhere; nothing else throws here.
+  try {
+    return run_stages(mesh, parameters, backend, context, threads, progress);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory while extracting; try a lower --resolution"};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, error.what()};
+  }
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,48 @@
+// Medial points as bytes of a file. The layout of the PLY is a fixed contract (docs/formats.md).
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "medial_vk/extraction.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// What the header of a medial PLY says, all lengths in the units of the input mesh.
+struct MedialHeader {
+  std::string version;
+  Point grid_origin = {0, 0, 0};
+  double voxel_size = 0;
+  double epsilon = 0;           ///< Length.
+  double object_angle = 0;      ///< Radians.
+  double radius_threshold = 0;  ///< Length; 0: off.
+};
+
+/// The header of an extraction: fractions become lengths.
+MedialHeader make_header(const VoxelGrid& grid, const ExtractionParameters& parameters, double longest_side);
+
+struct MedialFile {
+  MedialHeader header;
+  std::vector<MedialSphere> spheres;
+};
+
+enum class MedialFormat { kPly, kCsv };
+
+/// By extension, whatever its case. Error kUsage naming the known ones.
+Result<MedialFormat> medial_format_of(const std::string& path);
+
+/// `ascii` concerns PLY only. Doubles are written with 17 significant digits and floats with 9: both read back exactly.
+std::string encode_medial_points(MedialFormat format, bool ascii, const MedialHeader& header,
+                                 std::span<const MedialSphere> spheres);
+std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii);
+/// One header line and one line per point; the grid is not in it.
+std::string encode_csv(std::span<const MedialSphere> spheres);
+
+/// Reads what encode_ply() wrote, binary or text; the voxels are computed as the contract says. `name` is for messages.
+/// Errors: kInvalidMesh for anything that is no medial PLY.
+Result<MedialFile> decode_ply(std::string_view bytes, const std::string& name);
+
+}  // namespace medial_vk

@@ -1,0 +1,135 @@
+#include "output/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "output/version.h"
+
+namespace medial_vk {
+namespace {
+
+using Json = nlohmann::ordered_json;  // Keys stay in the order in which a reader wants them.
+
+/// Number of the layout: raised when a key changes its meaning.
+constexpr int kReportFormat = 1;
+
+Json parameters_json(const RunRecord& record) {
+  const ExtractionParameters& parameters = record.parameters;
+  const bool thesis = parameters.mode == Mode::kThesis;
+  Json json = {{"mode", thesis ? "thesis" : "certified"},
+               {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
+               {"resolution", parameters.resolution},
+               {"object_angle", parameters.object_angle},
+               {"radius", parameters.radius},
+               {"epsilon", parameters.epsilon},
+               {"extra_levels", parameters.extra_levels},
+               {"simplify", record.simplify},
+               {"perturb", record.perturb},
+               {"seed", record.seed},
+               {"memory_bytes", parameters.memory_budget}};
+  if (thesis) {
+    json["samples"] = parameters.samples;
+    json["narrow_features"] = parameters.narrow_features;
+  }
+  return json;
+}
+
+Json mesh_json(const MeshReport& mesh, double longest_side) {
+  return {{"vertices", mesh.vertices},
+          {"triangles", mesh.triangles},
+          {"components", mesh.components},
+          {"closed", mesh.closed},
+          {"degenerate_dropped", mesh.degenerate_dropped},
+          {"duplicates_dropped", mesh.duplicates_dropped},
+          {"open_edges", mesh.open_edges},
+          {"non_manifold_edges", mesh.non_manifold_edges},
+          {"inconsistent_edges", mesh.inconsistent_edges},
+          {"non_manifold_vertices", mesh.non_manifold_vertices},
+          {"reoriented_faces", mesh.reoriented_faces},
+          {"intersecting_faces", mesh.intersecting_faces},
+          {"intersections_known", mesh.intersections_known},
+          {"signed_volume", mesh.signed_volume},
+          {"lower", mesh.lower},
+          {"upper", mesh.upper},
+          {"longest_side", longest_side},
+          {"assumptions", mesh.assumptions}};
+}
+
+Json range_json(const std::optional<Range>& range) {
+  if (!range) return nullptr;
+  return {{"least", range->least}, {"greatest", range->greatest}};
+}
+
+Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
+  Json json = Json::array();
+  for (const ExtractionCounters::Level& level : levels) {
+    json.push_back({{"cell_size", level.cell_size},
+                    {"visited", level.visited},
+                    {"kept", level.kept},
+                    {"contacts", level.contacts},
+                    {"found", level.found}});
+  }
+  return json;
+}
+
+Json times_json(const std::vector<StageTime>& times) {
+  Json json = Json::array();
+  for (const StageTime& time : times) json.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
+  return json;
+}
+
+Json device_json(const std::optional<DeviceDescription>& device) {
+  if (!device) return nullptr;
+  return {{"index", device->index},
+          {"name", device->name},
+          {"type", device->type},
+          {"driver", device->driver},
+          {"api_version", device->api_version},
+          {"memory_bytes", device->memory_bytes}};
+}
+
+Json certificate_json(const std::optional<reference::Certificate>& certificate) {
+  if (!certificate) return nullptr;
+  Json lines = Json::array();
+  for (const reference::CertificateLine& line : certificate->lines) {
+    lines.push_back({{"condition", line.condition},
+                     {"tested", line.tested},
+                     {"failed", line.failed},
+                     {"worst", line.worst},
+                     {"unit", line.unit},
+                     {"first_failure", line.first_failure}});
+  }
+  return {{"passed", certificate->passed()}, {"conditions", lines}};
+}
+
+}  // namespace
+
+std::string report_json(const RunRecord& record) {
+  const Json json = {
+      {"format", kReportFormat},
+      {"program", "medial-vk"},
+      {"version", version()},
+      {"input", record.input},
+      {"output", record.output},
+      {"parameters", parameters_json(record)},
+      {"mesh", mesh_json(record.mesh, record.longest_side)},
+      {"grid", {{"origin", record.grid.origin}, {"voxel_size", record.grid.voxel_size}, {"size", record.grid.size}}},
+      {"voxels",
+       {{"found", record.counters.found},
+        {"undecided", record.counters.undecided},
+        {"proved_empty", record.counters.proved_empty},
+        {"rejected", record.certify.rejected}}},
+      {"levels", levels_json(record.counters.levels)},
+      {"queries", record.counters.queries},
+      {"retries", record.counters.retries},
+      {"points",
+       {{"written", record.points},
+        {"simplified_away", record.simplified},
+        {"radius", range_json(record.radii)},
+        {"object_angle", range_json(record.object_angles)}}},
+      {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
+      {"device", device_json(record.device)},
+      {"certificate", certificate_json(record.certificate)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace medial_vk

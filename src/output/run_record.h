@@ -1,0 +1,51 @@
+// All that is known of one finished run: what the summary prints and the report holds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cpu_reference/certificate.h"
+#include "medial/extract.h"
+#include "medial_vk/context.h"
+
+namespace medial_vk {
+
+struct Range {
+  double least = 0;
+  double greatest = 0;
+};
+
+/// Of the radii; nothing if there are no spheres.
+std::optional<Range> range_of_radii(std::span<const MedialSphere> spheres);
+/// Of the object angles in radians; nothing if there are no spheres.
+std::optional<Range> range_of_object_angles(std::span<const MedialSphere> spheres);
+
+struct RunRecord {
+  std::string input;
+  std::string output;
+  ExtractionParameters parameters;
+  Backend backend = Backend::kVulkan;
+  std::uint64_t seed = 0;
+  double perturb = 0;  ///< Amplitude as a fraction of the longest side; 0: off.
+  bool simplify = false;
+
+  MeshReport mesh;
+  double longest_side = 0;
+  VoxelGrid grid;
+  ExtractionCounters counters;
+  CertifyReport certify;
+  std::uint64_t points = 0;      ///< Written.
+  std::uint64_t simplified = 0;  ///< Removed by --simplify.
+  std::optional<Range> radii;
+  std::optional<Range> object_angles;
+
+  std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
+  std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
+  std::optional<DeviceDescription> device;
+  std::optional<reference::Certificate> certificate;  ///< Of --check.
+};
+
+}  // namespace medial_vk
