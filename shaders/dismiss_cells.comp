@@ -19,57 +19,79 @@ layout(set = 0, binding = 6) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 7) readonly buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 8) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 
-const uint kSweeps = 10;
-// An invocation's loops may run 65,535 times in all on lavapipe: lists too long for even one sweep are kept unproved.
+const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most
+const uint kDirectionSweeps = 3;  // with directions too; two more for every level below the finest voxel
+// An invocation's loops may run 65,535 times in all on lavapipe: lists too long for a sweep are kept unproved.
 const uint kLoopBudget = 56000;
 
 float theta, cos_theta;
-vec3 centre;
+vec3 centre, to_nearest;
 
-// How far contact t is from obeying axis a (cosine; <= 0: it obeys), and the direction that would help.
-float violation(uint t, vec3 axis, float nearest_distance, vec3 nearest_direction, out vec3 help, inout bool distrust) {
-  TriangleTexels texels = load_triangle(t);
-  bool trusted = texels.normal.w > 0.5;
-  help = texels.normal.xyz;
-  float by_normal = trusted ? cos_theta - dot(texels.normal.xyz, axis) : 4.0;
-  if (by_normal < 0.0) return by_normal;
-  vec3 v = vector_to_triangle(centre, texels);
-  float d = length(v);
-  vec3 g = unit_or_zero(v);
-  float rho = step.circumradius;
-  bool far = nearest_distance > rho;
-  float reach = far ? rho * length(g - nearest_direction) + rho * rho / (2.0 * nearest_distance) : 2.0 * rho;
-  if (d - nearest_distance - step.slack > reach) return -1.0;  // listed for a larger ball, no contact of this one
-  distrust = distrust || !trusted;
-  float spread = d > rho ? asin(min(1.0, (rho + step.slack) / d)) : 4.0;
-  float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
-  help = by_direction < by_normal ? g : help;
-  return min(by_normal, by_direction);
+// How far contact t is from obeying axis a by its normal alone (cosine; below 0: it obeys).
+float normal_violation(uint t, vec3 axis, out vec3 help) {
+  vec4 normal = triangle_texel(4 * t + 3);
+  help = normal.xyz;
+  return normal.w > 0.5 ? cos_theta - dot(normal.xyz, axis) : 4.0;
 }
 
-bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, float nearest_distance, vec3 g0,
-                    out bool distrust) {
+// The same by its normal or its direction, and the vector that would help.
+float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
+  TriangleTexels texels = load_triangle(t);
+  bool trusted = texels.normal.w > 0.5;
+  float by_normal = trusted ? cos_theta - dot(texels.normal.xyz, axis) : 4.0;
+  vec3 v = vector_to_triangle(centre, texels);
+  float d = length(v), nearest_distance = length(to_nearest), rho = step.circumradius;
+  vec3 g = unit_or_zero(v);
+  bool far = nearest_distance > rho;
+  float reach = far ? rho * length(g - unit_or_zero(to_nearest)) + rho * rho / (2.0 * nearest_distance) : 2.0 * rho;
+  bool contact = d - nearest_distance - 6.0 * step.slack <= reach;  // else listed only for a larger ball
+  distrust = distrust || (contact && !trusted);
+  float spread = d > rho ? asin(min(1.0, (rho + step.slack) / d)) : 4.0;
+  float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
+  help = by_direction < by_normal ? g : texels.normal.xyz;
+  return contact ? min(by_normal, by_direction) : -1.0;
+}
+
+// One sweep over the contacts: the worst violation and the vector that would help it.
+float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, bool directions, out vec3 towards,
+                      inout bool distrust) {
+  float worst = -2.0;
+  towards = axis;
+  uint w = 0, word = masks[word_base];
+  for (;;) {
+    while (word == 0u && ++w < word_count) word = masks[word_base + w];
+    if (word == 0u) return worst;
+    uint t = lists[parent.list_begin + 32u * w + uint(findLSB(word))];
+    word &= word - 1u;
+    vec3 help;
+    float v;
+    if (directions)
+      v = violation(t, axis, help, distrust);
+    else
+      v = normal_violation(t, axis, help);
+    towards = v > worst ? help : towards;
+    worst = max(worst, v);
+  }
+}
+
+bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, out bool distrust) {
   distrust = false;
-  uint count = counts[item];
-  uint sweeps = min(kSweeps, kLoopBudget / (count + word_count + 1u));
-  vec3 axis = unit_or_zero(axes[item].xyz);
-  for (uint sweep = 0; sweep < sweeps; ++sweep) {
-    float worst = -2.0;
-    vec3 towards = axis;
-    for (uint w = 0; w < word_count; ++w) {
-      uint word = masks[word_base + w];
-      while (word != 0u) {
-        uint t = lists[parent.list_begin + 32u * w + uint(findLSB(word))];
-        word &= word - 1u;
-        vec3 help;
-        float v = violation(t, axis, nearest_distance, g0, help, distrust);
-        towards = v > worst ? help : towards;
-        worst = max(worst, v);
-      }
-    }
+  uint sweeps = kLoopBudget / (2u * (counts[item] + word_count + 1u));
+  vec3 axis = unit_or_zero(axes[item].xyz), towards;
+  uint sweep = 0;
+  for (; sweep < min(kNormalSweeps, sweeps); ++sweep) {
+    float worst = worst_violation(parent, word_base, word_count, axis, false, towards, distrust);
+    if (worst < 0.0) return true;
+    if (worst > 3.0) break;  // an untrusted normal
+    axis = unit_or_zero(axis + (towards - axis) / (float(sweep) + 2.5));
+  }
+  // Directions gather around that of the nearest contact: at a reflex edge or vertex they agree, and normals do not.
+  if (dot(to_nearest, to_nearest) > step.circumradius * step.circumradius) axis = unit_or_zero(to_nearest);
+  for (uint extra = 0; extra < min(kDirectionSweeps + 2u * step.depth, sweeps - min(sweep, sweeps)); ++extra) {
+    float worst = worst_violation(parent, word_base, word_count, axis, true, towards, distrust);
     if (worst < 0.0) return true;
     if (worst > 3.0) return false;  // a contact without any usable direction
-    axis = unit_or_zero(axis + (towards - axis) / (float(sweep) + 2.5));
+    axis = unit_or_zero(axis + (towards - axis) / (float(extra) + 2.5));
   }
   return false;
 }
@@ -85,7 +107,7 @@ void main() {
     return;
   atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level], 1u);
   centre = cell_centre(coordinates);
-  vec3 to_nearest = vector_to_triangle(centre, load_triangle(nearest[item].y));
+  to_nearest = vector_to_triangle(centre, load_triangle(nearest[item].y));
   float nearest_distance = length(to_nearest);
   // Where the radius may pass its threshold, smaller angles count too.
   bool deep = nearest_distance + step.circumradius + step.slack >= step.radius;
@@ -95,8 +117,7 @@ void main() {
   cos_theta = cos(theta) + 1e-6;
   uint word_count = (parent.list_count + 31u) / 32u;
   bool distrust;
-  if (provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count, nearest_distance,
-                     unit_or_zero(to_nearest), distrust))
+  if (provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count, distrust))
     return;
   uint flags = parent.flags & kCellInside;
   if (distrust && nearest_distance <= step.circumradius) flags |= kCellUntrusted;

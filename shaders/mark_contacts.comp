@@ -40,7 +40,7 @@ void main() {
     TriangleTexels texels = load_triangle(lists[parent.list_begin + entry]);
     vec3 v = vector_to_triangle(centre, texels);
     float d = length(v);
-    float excess = d - nearest_distance - step.slack;
+    float excess = d - nearest_distance - 6.0 * step.slack;  // docs/theory.md, "Rounding"
     float reach = far ? radius * length(v / max(d, 1e-30) - nearest_direction) + bend : 2.0 * radius;
     bool contact = excess <= reach;
     word |= contact ? 1u << (entry & 31u) : 0u;
