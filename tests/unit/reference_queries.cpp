@@ -98,10 +98,11 @@ TEST(ReferenceTree, AgreesWithAllTriangles) {
     std::vector<int> within;
     const double radius = random(0, 1.5);
     for (int t = 0; t < tree.triangle_count(); ++t) {
-      const double d = std::sqrt(tree.closest_on(t, p).squared_distance);
-      if (d < best) best = d, nearest = t;
-      if (d <= radius) within.push_back(t);
+      const double d2 = tree.closest_on(t, p).squared_distance;
+      if (d2 < best) best = d2, nearest = t;
+      if (d2 <= radius * radius) within.push_back(t);
     }
+    best = std::sqrt(best);
     const reference::Closest found = tree.closest(p);
     EXPECT_EQ(found.triangle, nearest);
     EXPECT_EQ(found.distance, best);
