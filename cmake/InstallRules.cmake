@@ -1,0 +1,34 @@
+# What `cmake --install` puts where: the library with its headers, CMake package and pkg-config file, the tool, the
+# manual and the licence. Everything can be moved after installation: no file holds an absolute path.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/medial_vk)
+
+install(TARGETS medial_vk EXPORT medial_vk-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/include/medial_vk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+
+# find_package(medial_vk) -> medial_vk::medial_vk
+install(EXPORT medial_vk-targets NAMESPACE medial_vk:: DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/medial_vk-config.cmake.in
+  ${PROJECT_BINARY_DIR}/medial_vk-config.cmake INSTALL_DESTINATION ${package_dir})
+# Before 1.0 the interface may change with the minor version.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/medial_vk-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/medial_vk-config.cmake ${PROJECT_BINARY_DIR}/medial_vk-config-version.cmake
+  DESTINATION ${package_dir})
+
+# pkg-config: the prefix is found from the place of the file.
+file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH pc_includedir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+configure_file(${PROJECT_SOURCE_DIR}/cmake/medial_vk.pc.in ${PROJECT_BINARY_DIR}/medial_vk.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/medial_vk.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+if(TARGET medial-vk)
+  install(TARGETS medial-vk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
