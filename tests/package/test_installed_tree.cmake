@@ -1,0 +1,99 @@
+# Installs the build into an empty folder, moves it, and builds and runs other people's programs against it: by
+# find_package, with a Vulkan of their own, and by pkg-config.
+# Needs: BUILD_DIR SOURCE_DIR CONFIG GENERATOR CXX_COMPILER CXX_FLAGS NM VERSION
+cmake_minimum_required(VERSION 3.25)
+
+set(work ${BUILD_DIR}/package-test)
+set(prefix ${work}/prefix)
+file(REMOVE_RECURSE ${work})
+
+# run(WHAT COMMAND ...): fails the test, with the output, if the command fails. Its standard output is in `output`.
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE stdout ERROR_VARIABLE stderr)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${what}: exit status ${result}\n${stdout}${stderr}")
+  endif()
+  message(STATUS "${what}: ok")
+  set(output "${stdout}" PARENT_SCOPE)
+endfunction()
+
+# At most one line per medial sphere of a box of 3 x 2 x 1, each inside the box, none thicker than it; or no device.
+function(run_embed what program)
+  execute_process(COMMAND ${program} RESULT_VARIABLE result OUTPUT_VARIABLE spheres ERROR_VARIABLE errors)
+  if(result EQUAL 4)
+    message("SKIPPED: running ${what}, there is no Vulkan device: ${errors}")
+    return()
+  elseif(NOT result EQUAL 0)
+    message(FATAL_ERROR "${what}: exit status ${result}\n${errors}")
+  endif()
+  string(REGEX MATCHALL "[^\n]+\n" lines "${spheres}")
+  list(LENGTH lines count)
+  if(count LESS 100)
+    message(FATAL_ERROR "${what}: only ${count} medial spheres of the box\n${spheres}")
+  endif()
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+)\n$" OR CMAKE_MATCH_1 GREATER 3 OR
+       CMAKE_MATCH_2 GREATER 2 OR CMAKE_MATCH_3 GREATER 1 OR CMAKE_MATCH_4 GREATER 0.5)
+      message(FATAL_ERROR "${what}: no sphere inside the box: ${line}")
+    endif()
+  endforeach()
+  message(STATUS "${what}: ${count} medial spheres of the box")
+endfunction()
+
+run("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${work}/first)
+file(RENAME ${work}/first ${prefix})  # nothing in it may depend on where it was installed
+foreach(file bin/medial-vk include/medial_vk/context.h include/medial_vk/extraction.h include/medial_vk/result.h)
+  if(NOT EXISTS ${prefix}/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+foreach(pattern libmedial_vk.a medial_vk.pc medial_vk-config.cmake medial_vk-config-version.cmake LICENSE README.md)
+  file(GLOB_RECURSE ${pattern} ${prefix}/*/${pattern})
+  if(NOT ${pattern})
+    message(FATAL_ERROR "not installed: ${pattern}")
+  endif()
+endforeach()
+file(GLOB_RECURSE installed_text ${prefix}/*.cmake ${prefix}/*.pc ${prefix}/*.h)
+foreach(file IN LISTS installed_text)
+  file(READ ${file} text)
+  foreach(folder ${SOURCE_DIR} ${BUILD_DIR})
+    string(FIND "${text}" "${folder}" position)
+    if(NOT position EQUAL -1)
+      message(FATAL_ERROR "${file} names the folder ${folder}, which its users do not have")
+    endif()
+  endforeach()
+endforeach()
+
+run("medial-vk --version" ${prefix}/bin/medial-vk --version)
+if(NOT output MATCHES "${VERSION}")
+  message(FATAL_ERROR "medial-vk --version does not say ${VERSION}: ${output}")
+endif()
+
+# No symbol of Vulkan or volk may leak out of the library.
+run("symbols" ${NM} --extern-only --defined-only ${libmedial_vk.a})
+string(REGEX MATCHALL "[0-9a-f]+ [A-Z] (vk|volk)[A-Z][A-Za-z0-9]*" leaked "${output}")
+if(leaked)
+  list(LENGTH leaked count)
+  list(GET leaked 0 first)
+  message(FATAL_ERROR "libmedial_vk.a defines ${count} symbols of Vulkan or volk, the first: ${first}")
+endif()
+
+run("consumer: configure" ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package/consumer -B ${work}/consumer -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
+  -DCMAKE_PREFIX_PATH=${prefix} -DVERSION=${VERSION} -DEXAMPLES_DIR=${SOURCE_DIR}/examples)
+run("consumer: build" ${CMAKE_COMMAND} --build ${work}/consumer --config ${CONFIG})
+run("consumer: with the loader" ${work}/consumer/loader_host)
+run("consumer: with its own volk" ${work}/consumer/volk_host)
+run_embed("find_package" ${work}/consumer/embed)
+
+# pkg-config
+get_filename_component(pc_folder ${medial_vk.pc} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+run("pkg-config" pkg-config --cflags --libs "medial_vk = ${VERSION}")
+separate_arguments(flags UNIX_COMMAND "${output}")
+separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
+run("pkg-config: build" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_DIR}/examples/embed.cpp ${flags}
+  -o ${work}/embed_pkg_config)
+run_embed("pkg-config" ${work}/embed_pkg_config)
+
+file(REMOVE_RECURSE ${work})

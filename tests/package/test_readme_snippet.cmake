@@ -1,0 +1,11 @@
+# The C++ in README.md must be the marked part of examples/embed.cpp, word for word. Needs: SOURCE_DIR
+cmake_minimum_required(VERSION 3.25)
+file(READ ${SOURCE_DIR}/examples/embed.cpp example)
+file(READ ${SOURCE_DIR}/README.md readme)
+if(NOT example MATCHES "// \\[README\\]\n(.*)// \\[README\\]\n")
+  message(FATAL_ERROR "examples/embed.cpp has no part between two lines // [README]")
+endif()
+string(FIND "${readme}" "```cpp\n${CMAKE_MATCH_1}```" position)
+if(position EQUAL -1)
+  message(FATAL_ERROR "README.md does not show the marked part of examples/embed.cpp:\n${CMAKE_MATCH_1}")
+endif()
