@@ -1,0 +1,43 @@
+// The arrays that kernels read of a mesh: triangles and tree as texels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial_vk/bvh.h"
+#include "medial_vk/mesh_view.h"
+
+namespace medial_vk {
+
+using Texel = std::array<float, 4>;
+
+/// (x - lower) / longest.
+struct UnitTransform {
+  Point lower = {0, 0, 0};
+  double longest = 1;
+  Point operator()(const Point& p) const {
+    return {(p[0] - lower[0]) / longest, (p[1] - lower[1]) / longest, (p[2] - lower[2]) / longest};
+  }
+};
+
+/// A box in the unit box, rounded outwards so far that it holds the float triangles too.
+struct FloatBox {
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+};
+FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit);
+
+/// Four texels per triangle in leaf order; `flags` as MeshView::flags.
+std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_unit,
+                                        std::span<const std::uint8_t> flags);
+
+/// Inner nodes: 4 texels each with the boxes of both children, and after all of those 8 texels each with the moments
+/// of both children. At least one inner node, even if the mesh fits a leaf.
+std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit);
+
+constexpr std::uint32_t kTexelsPerTriangle = 4;
+constexpr std::uint32_t kTexelsPerNode = 12;
+
+}  // namespace medial_vk

@@ -1,0 +1,130 @@
+#include "scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "context_impl.h"
+#include "device_tree.h"
+#include "point_math.h"
+
+namespace medial_vk {
+namespace {
+
+Result<Buffer> create_filled(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes,
+                             const char* purpose) {
+  Result<Buffer> buffer = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);
+  if (!buffer.ok()) return buffer;
+  if (Status status = upload(context, buffer.value(), bytes); !status.ok()) return status.error();
+  return buffer;
+}
+
+FloatBox join(const FloatBox& a, const FloatBox& b) {
+  FloatBox out;
+  for (int k = 0; k < 3; ++k) {
+    out.lower[k] = std::min(a.lower[k], b.lower[k]);
+    out.upper[k] = std::max(a.upper[k], b.upper[k]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh) {
+  if (mesh.triangles.size() > kMostTriangles) {
+    return Error{ErrorCode::kOutOfMemory, "the mesh has " + std::to_string(mesh.triangles.size()) +
+                                              " triangles, the device code addresses " +
+                                              std::to_string(kMostTriangles)};
+  }
+  Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
+  if (!bvh.ok()) return bvh.error();
+  DeviceMesh device(context);
+  device.lower = bvh.value().nodes()[0].box.lower;
+  device.upper = bvh.value().nodes()[0].box.upper;
+  const Point sides = device.upper - device.lower;
+  device.longest = std::max({sides[0], sides[1], sides[2]});
+  if (!(device.longest > 0) || !std::isfinite(device.longest)) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
+  }
+  device.closed = mesh.closed;
+  device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (Status status = device.upload_mesh(context, mesh, bvh.value()); !status.ok()) return status.error();
+  device.order = bvh.value().order();
+  device.nodes = bvh.value().nodes();
+  return device;
+}
+
+Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh, const Bvh& bvh) {
+  const UnitTransform to_unit_box = {lower, longest};
+  const std::vector<Texel> triangle_data = make_triangle_texels(bvh, to_unit_box, mesh.flags);
+  const std::vector<Texel> tree_data = make_tree_texels(bvh, to_unit_box);
+  node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
+  struct Part {
+    Buffer* buffer;
+    std::span<const std::byte> bytes;
+    const char* purpose;
+  };
+  for (const Part& part : {Part{&triangles, std::as_bytes(std::span(triangle_data)), "triangles"},
+                           Part{&tree, std::as_bytes(std::span(tree_data)), "the tree over the triangles"},
+                           Part{&triangle_info, std::as_bytes(std::span(bvh.order())), "triangle indices"}}) {
+    Result<Buffer> buffer = create_filled(context, arena, part.bytes, part.purpose);
+    if (!buffer.ok()) return buffer.error();
+    *part.buffer = buffer.value();
+  }
+  use_texels = std::max(triangle_data.size(), tree_data.size()) <= context.limits.maxTexelBufferElements;
+  Buffer unread;
+  if (!use_texels) {
+    Result<Buffer> buffer = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+    if (!buffer.ok()) return buffer.error();
+    unread = buffer.value();
+  }
+  Result<VkBufferView> triangle_view = arena.create_texel_view(use_texels ? triangles : unread);
+  if (!triangle_view.ok()) return triangle_view.error();
+  Result<VkBufferView> tree_view = arena.create_texel_view(use_texels ? tree : unread);
+  if (!tree_view.ok()) return tree_view.error();
+  triangle_texels = triangle_view.value();
+  tree_texels = tree_view.value();
+  return {};
+}
+
+// Subtrees of at most `least` triangles, in leaf order, joined until there are enough.
+std::vector<LeafRange> DeviceMesh::leaf_ranges(std::uint32_t least) const {
+  const UnitTransform to_unit_box = {lower, longest};
+  std::vector<std::uint32_t> sizes(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    sizes[i] = nodes[i].count != 0 ? nodes[i].count : sizes[nodes[i].first] + sizes[nodes[i].first + 1];
+  }
+  std::vector<LeafRange> ranges;
+  bool open = false;  // the last range may take more
+  std::vector<std::uint32_t> pending = {0};
+  std::uint32_t position = 0;
+  while (!pending.empty()) {
+    const std::uint32_t i = pending.back();
+    pending.pop_back();
+    if (nodes[i].count == 0 && sizes[i] > least) {
+      pending.push_back(nodes[i].first + 1);
+      pending.push_back(nodes[i].first);
+      continue;
+    }
+    const FloatBox box = float_box(nodes[i].box, to_unit_box);
+    if (!open) {
+      ranges.push_back({box.lower, box.upper, position, 0});
+    } else {
+      const FloatBox both = join({ranges.back().lower, ranges.back().upper}, box);
+      ranges.back().lower = both.lower;
+      ranges.back().upper = both.upper;
+    }
+    position += sizes[i];
+    ranges.back().count += sizes[i];
+    open = ranges.back().count < least;
+  }
+  return ranges;
+}
+
+Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }
+
+Point DeviceMesh::to_input(const std::array<float, 3>& p) const {
+  return lower + longest * Point{double{p[0]}, double{p[1]}, double{p[2]}};
+}
+
+}  // namespace medial_vk

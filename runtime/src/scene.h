@@ -1,0 +1,72 @@
+// A mesh on the device: float, scaled to the unit box, with the tree that finds its triangles.
+#pragma once
+
+#include <volk.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/bvh.h"
+#include "medial_vk/context.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+#include "memory.h"
+
+namespace medial_vk {
+
+/// A run of triangles that are neighbours in leaf order, and a box around them in the unit box, rounded outwards.
+struct LeafRange {
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
+/// Kernels address triangles by leaf position.
+struct DeviceMesh {
+  /// Triangles in a leaf of the device's tree, at most.
+  static constexpr std::uint32_t kLeafSize = 4;
+  /// Positions travel as floats in the tree's texels; 2^24 is the last that is exact. Also what a workgroup of 256
+  /// lanes can look through within lavapipe's 65,535 loop iterations.
+  static constexpr std::uint32_t kMostTriangles = 16'000'000;
+
+  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
+  /// kOutOfMemory.
+  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
+
+  /// Cuts the leaf order into runs of at least `least` triangles (if there are as many) and fewer than twice that.
+  std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
+
+  Point to_unit(const Point& p) const;
+  Point to_input(const std::array<float, 3>& p) const;
+
+  /// Four texels per triangle, by leaf position (shaders/shared/closest_point.glsl).
+  Buffer triangles;
+  VkBufferView triangle_texels = VK_NULL_HANDLE;
+  /// Boxes and moments, twelve texels per inner node (shaders/shared/tree.glsl).
+  Buffer tree;
+  VkBufferView tree_texels = VK_NULL_HANDLE;
+  /// Index into MeshView::triangles, one word per leaf position.
+  Buffer triangle_info;
+  /// Specialization constant 1 of every kernel that reads the mesh: false if a texel view would be too large for the
+  /// device. Then the views are of a buffer that is never read.
+  bool use_texels = true;
+  bool closed = false;
+  std::uint32_t triangle_count = 0;
+  std::uint32_t node_count = 0;  // inner nodes of the tree
+  Point lower = {0, 0, 0};       // of the box around all triangles, input units
+  Point upper = {0, 0, 0};
+  double longest = 0;                // longest side of that box
+  std::vector<std::uint32_t> order;  // triangle_info on the host
+
+ private:
+  explicit DeviceMesh(Context::Impl& context) : arena(context) {}
+  Status upload_mesh(Context::Impl& context, const MeshView& mesh, const Bvh& bvh);
+
+  Arena arena;
+  std::vector<BvhNode> nodes;  // input units
+};
+
+}  // namespace medial_vk
