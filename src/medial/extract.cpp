@@ -1,29 +1,16 @@
 #include "medial/extract.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 #include <utility>
 
 #include "cpu_reference/extract.h"
 #include "medial/reference_bridge.h"
+#include "medial/stopwatch.h"
 #include "medial_vk/bvh.h"
 
 namespace medial_vk {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call, or since construction.
-  double lap() {
-    const Clock::time_point now = Clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 Error interrupted() { return {ErrorCode::kInterrupted, "interrupted"}; }
 

@@ -1,0 +1,13 @@
+// The mesh as the options want it: read, cleaned, perturbed.
+#pragma once
+
+#include "cli/options.h"
+#include "mesh/mesh.h"
+
+namespace medial_vk::cli {
+
+/// Seconds of "read", "prepare" and, if asked for, "perturb" are appended to `times`. Errors: kInvalidMesh,
+/// kInterrupted.
+Result<PreparedMesh> load_mesh(const Options& options, std::vector<StageTime>& times);
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,240 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "cli/parse_number.h"
+
+namespace medial_vk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error usage_error(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
+
+/// Declares options on a CLI11 application. Values arrive as text and are parsed here: CLI11 would take "1e3" or
+/// "12abc" for some numbers, and its messages do not name the range.
+class Declarations {
+ public:
+  explicit Declarations(CLI::App& app) : app_(app) {}
+
+  void text(const char* name, const char* value, std::string& target) {
+    app_.add_option(name, target)->type_name(value);
+  }
+
+  void flag(const char* name, bool& target) { app_.add_flag(name, target); }
+
+  void action(const char* name, Action value, Action& target) {
+    app_.add_flag_callback(name, [value, &target] { target = value; });
+  }
+
+  void real(const char* name, const RealRange& range, const char* unit, double& target) {
+    parsed(
+        name, [=](const std::string& text) { return parse_real(text, range, unit); }, target);
+  }
+
+  template <class T>
+  void whole(const char* name, std::uint64_t least, std::uint64_t greatest, const char* unit, T& target) {
+    parsed(
+        name, [=](const std::string& text) { return parse_whole(text, least, greatest, unit); }, target);
+  }
+
+  void memory(const char* name, std::uint64_t& target) { parsed(name, parse_memory, target); }
+
+  template <class T>
+  void choice(const char* name, std::vector<std::pair<std::string, T>> choices, T& target) {
+    const auto parse = [choices](const std::string& text) -> Result<T> {
+      std::string known;
+      for (const auto& [word, value] : choices) {
+        if (word == text) return value;
+        known += (known.empty() ? "" : " or ") + word;
+      }
+      return usage_error(fmt::format("'{}' is unknown; use {}", text, known));
+    };
+    parsed(name, parse, target);
+  }
+
+ private:
+  template <class Parse, class T>
+  void parsed(const char* name, Parse parse, T& target) {
+    const auto set = [name, parse, &target](const std::string& text) {
+      const auto value = parse(text);
+      if (!value) throw CLI::ValidationError(name, value.error().message);
+      target = static_cast<T>(value.value());
+    };
+    app_.add_option_function<std::string>(name, set)->type_name("value");
+  }
+
+  CLI::App& app_;
+};
+
+void declare(CLI::App& app, Options& options) {
+  ExtractionParameters& parameters = options.parameters;
+  Declarations add(app);
+  add.text("MESH", "file", options.mesh);
+  add.text("-o,--output", "file", options.output);
+  add.flag("--ascii", options.ascii);
+  add.text("--report", "file", options.report);
+  add.text("--picture", "file", options.picture);
+
+  add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
+  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
+  add.real("--radius", {0, 1}, " of the longest side", parameters.radius);
+  add.real("--epsilon", {1e-3, 0.5}, " of the voxel side", parameters.epsilon);
+  add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, parameters.mode);
+  add.whole("--extra-levels", 0, 8, " levels", parameters.extra_levels);
+  add.flag("--simplify", options.simplify);
+  add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);
+  add.whole("--seed", 0, UINT64_MAX, "", options.seed);
+
+  add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
+  add.text("--device", "index or name", options.device);
+  add.memory("--memory", parameters.memory_budget);
+  add.whole("--threads", 0, 1024, " threads", options.threads);
+
+  add.flag("--check", options.check);
+  add.flag("-q,--quiet", options.quiet);
+  add.flag("-v,--verbose", options.verbose);
+  add.action("--list-devices", Action::kListDevices, options.action);
+  add.action("--version", Action::kVersion, options.action);
+  add.action("-h,--help", Action::kHelp, options.action);
+}
+
+/// Insertions, deletions and replacements that turn one word into the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// "; did you mean --resolution?" if there is an option close to the unknown one, else nothing.
+std::string suggestion(const CLI::App& app, const std::string& unknown) {
+  const std::string name = unknown.substr(0, unknown.find('='));
+  std::string best;
+  std::size_t best_distance = 4;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& known : option->get_lnames()) {
+      const std::size_t distance = edit_distance(name, "--" + known);
+      if (distance < best_distance) {
+        best_distance = distance;
+        best = known;
+      }
+    }
+  }
+  return best.empty() ? "" : fmt::format("; did you mean --{}?", best);
+}
+
+Status check_extras(const CLI::App& app) {
+  const std::vector<std::string> extras = app.remaining();
+  for (const std::string& extra : extras) {
+    if (extra.size() > 1 && extra[0] == '-') {
+      return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
+    }
+  }
+  if (!extras.empty()) return usage_error(fmt::format("unexpected '{}': one mesh at a time", extras[0]));
+  return {};
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+bool is_png(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png";
+}
+
+/// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.
+Status check_files_differ(const Options& options) {
+  const std::pair<const char*, const std::string*> outputs[] = {
+      {"--output", &options.output}, {"--report", &options.report}, {"--picture", &options.picture}};
+  for (const auto& [name, file] : outputs) {
+    if (file->empty()) continue;
+    if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
+      return usage_error(fmt::format("{} would overwrite the mesh {}", name, options.mesh));
+    }
+    for (const auto& [other_name, other] : outputs) {
+      if (file == other || other->empty()) continue;
+      const bool same = *file == "-" || *other == "-" ? *file == *other : same_file(*file, *other);
+      if (same) return usage_error(fmt::format("{} and {} are the same file", name, other_name));
+    }
+  }
+  return {};
+}
+
+/// MESH-stem.medial.ply in the current folder.
+std::string default_output(const std::string& mesh) {
+  return (mesh == "-" ? "stdin" : fs::path(mesh).stem().string()) + ".medial.ply";
+}
+
+Status complete_files(Options& options) {
+  if (options.mesh.empty()) return usage_error("no MESH given");
+  if (options.output.empty()) options.output = default_output(options.mesh);
+  if (options.output != "-") {
+    const Result<MedialFormat> format = medial_format_of(options.output);
+    if (!format) return usage_error("--output: " + format.error().message);
+    options.format = format.value();
+  }
+  if (!options.picture.empty() && options.picture != "-" && !is_png(options.picture)) {
+    return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  return check_files_differ(options);
+}
+
+Status check_combinations(const Options& options) {
+  if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
+  if (options.backend == Backend::kCpu && !options.device.empty()) {
+    return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
+  }
+  return {};
+}
+
+Status parse_into(CLI::App& app, std::vector<std::string> arguments, Options& options) {
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::Error& error) {
+    // A misspelt option is the likelier cause of whatever else is wrong.
+    if (Status extras = check_extras(app); !extras) return extras;
+    return usage_error(error.what());
+  }
+  if (Status extras = check_extras(app); !extras) return extras;
+  return check_combinations(options);
+}
+
+}  // namespace
+
+Result<Options> parse_options(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  app.set_help_flag();  // Help is text of our own.
+  app.allow_extras();   // Reported here, with a suggestion.
+  Options options;
+  declare(app, options);
+  if (Status status = parse_into(app, arguments, options); !status) return status.error();
+  if (options.action != Action::kExtract) return options;
+  if (Status status = complete_files(options); !status) return status.error();
+  return options;
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,259 @@
+#include "cli/run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "cli/interrupt.h"
+#include "cli/load.h"
+#include "cli/numbers.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/summary.h"
+#include "cli/tables.h"
+#include "medial/extract.h"
+#include "medial/reference_bridge.h"
+#include "medial/simplify.h"
+#include "medial/stopwatch.h"
+#include "output/atomic_file.h"
+#include "output/picture.h"
+#include "output/report_json.h"
+#include "output/version.h"
+
+namespace medial_vk::cli {
+namespace {
+
+const Error kStopped = {ErrorCode::kInterrupted, "interrupted; nothing was written"};
+
+const char* const kNoDeviceHint =
+    "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device "
+    "(Debian: apt install libvulkan1 mesa-vulkan-drivers), or use --backend cpu, which needs no Vulkan.";
+
+Error with_hint(Error error) {
+  if (error.code == ErrorCode::kNoDevice) error.message += kNoDeviceHint;
+  return error;
+}
+
+Status print_result(const std::string& text) {
+  const OutputFile file = {"-", text};
+  return write_files({&file, 1});
+}
+
+void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+Status list_devices() {
+  const Result<std::vector<DeviceDescription>> devices = Context::list_devices();
+  if (!devices) return with_hint(devices.error());
+  if (devices.value().empty()) return with_hint({ErrorCode::kNoDevice, "Vulkan lists no device"});
+  return print_result(device_table(devices.value()));
+}
+
+/// One run: the straight line from the mesh to the files, and what its steps share.
+class ExtractionRun {
+ public:
+  explicit ExtractionRun(const Options& options) : options_(options), progress_(!options.quiet) {}
+
+  Status run() {
+    if (Status status = check_outputs(); !status) return status;
+    if (Status status = load(); !status) return status;
+    if (Status status = open_device(); !status) return status;
+    if (!options_.quiet) print_message(opening(record_));
+    if (Status status = extract(); !status) return status;
+    simplify();
+    encode_points();
+    if (Status status = check(); !status) return status;
+    if (Status status = draw(); !status) return status;
+    encode_report();
+    progress_.clear();
+    if (interrupted()) return kStopped;
+    if (Status status = write_files(files_); !status) return status;
+    return conclude();
+  }
+
+ private:
+  /// Better now than after an hour of work.
+  Status check_outputs() const {
+    for (const std::string* path : {&options_.output, &options_.report, &options_.picture}) {
+      if (path->empty()) continue;
+      if (Status status = check_writable(*path); !status) return status;
+    }
+    return {};
+  }
+
+  Status load() {
+    progress_.update("read", 0);
+    Result<PreparedMesh> mesh = load_mesh(options_, record_.host_times);
+    progress_.clear();
+    if (!mesh) return mesh.error();
+    mesh_ = std::move(mesh).value();
+    record_.input = options_.mesh;
+    record_.output = options_.output;
+    record_.parameters = options_.parameters;
+    record_.backend = options_.backend;
+    record_.seed = options_.seed;
+    record_.perturb = options_.perturb;
+    record_.simplify = options_.simplify;
+    record_.mesh = mesh_.report;
+    record_.longest_side = longest_side(mesh_.report);
+    return {};
+  }
+
+  Status open_device() {
+    if (options_.backend == Backend::kCpu) return {};
+    Stopwatch stopwatch;
+    ContextOptions wanted;
+    wanted.device = options_.device;
+    Result<Context> context = Context::create(wanted);
+    if (!context) return with_hint(context.error());
+    context_.emplace(std::move(context).value());
+    record_.device = context_->device();
+    record_.host_times.push_back({"device", stopwatch.lap()});
+    return {};
+  }
+
+  Status extract() {
+    const StageProgress on_progress = [this](const char* stage, double done) {
+      progress_.update(stage, done);
+      return !interrupted();
+    };
+    Result<CertifiedExtraction> result = extract_and_certify(
+        mesh_, options_.parameters, options_.backend, context_ ? &*context_ : nullptr, options_.threads, on_progress);
+    progress_.clear();
+    if (!result) return result.error().code == ErrorCode::kInterrupted ? kStopped : with_hint(result.error());
+    spheres_ = std::move(result.value().extraction.spheres);
+    record_.grid = result.value().extraction.grid;
+    record_.counters = std::move(result.value().extraction.counters);
+    record_.device_times = std::move(result.value().extraction.device_times);
+    record_.certify = result.value().certify;
+    for (StageTime& time : result.value().host_times) record_.host_times.push_back(std::move(time));
+    return {};
+  }
+
+  void simplify() {
+    if (options_.simplify) {
+      const double epsilon = options_.parameters.epsilon * record_.grid.voxel_size;
+      record_.simplified = simplify_spheres(epsilon, spheres_);
+    }
+    record_.points = spheres_.size();
+    record_.radii = range_of_radii(spheres_);
+    record_.object_angles = range_of_object_angles(spheres_);
+  }
+
+  void encode_points() {
+    header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
+    files_.push_back({options_.output, encode_medial_points(options_.format, options_.ascii, header_, spheres_)});
+    output_bytes_ = files_.back().bytes.size();
+  }
+
+  /// The numbers as written: read back from the bytes that go to the file. A table holds the same numbers as a PLY but
+  /// no grid, so its points are checked as that PLY.
+  Status check() {
+    if (!options_.check) return {};
+    progress_.update("check", 0);
+    Stopwatch stopwatch;
+    const bool is_ply = options_.format == MedialFormat::kPly;
+    const std::string ply = is_ply ? std::string() : encode_ply(header_, spheres_, false);
+    const Result<MedialFile> written = decode_ply(is_ply ? files_.front().bytes : ply, options_.output);
+    if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
+    const MedialHeader& header = written.value().header;
+    const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
+    record_.certificate = reference::check(to_reference(mesh_), to_reference(grid, written.value().spheres),
+                                           header.epsilon, header.object_angle, header.radius_threshold);
+    record_.host_times.push_back({"check", stopwatch.lap()});
+    progress_.clear();
+    return {};
+  }
+
+  Status draw() {
+    if (options_.picture.empty()) return {};
+    progress_.update("picture", 0);
+    Stopwatch stopwatch;
+    PictureOptions look;
+    look.least_angle = options_.parameters.object_angle;
+    Result<std::string> png = encode_png(draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look));
+    if (!png) return png.error();
+    files_.push_back({options_.picture, std::move(png).value()});
+    record_.host_times.push_back({"picture", stopwatch.lap()});
+    return {};
+  }
+
+  void encode_report() {
+    if (!options_.report.empty()) files_.push_back({options_.report, report_json(record_)});
+  }
+
+  bool standard_output_taken() const {
+    for (const OutputFile& file : files_) {
+      if (file.path == "-") return true;
+    }
+    return false;
+  }
+
+  Status conclude() {
+    if (!options_.quiet) print_message(summary(record_, output_bytes_));
+    if (options_.verbose) print_message(details(record_));
+    if (!record_.certificate) return {};
+    const std::string table = certificate_table(*record_.certificate);
+    if (standard_output_taken()) {
+      print_message(table);
+    } else if (Status status = print_result(table); !status) {
+      return status;
+    }
+    if (record_.certificate->passed()) return {};
+    return Error{ErrorCode::kCheckFailed, "--check failed: not every ball satisfies its certificate"};
+  }
+
+  const Options& options_;
+  Progress progress_;
+  PreparedMesh mesh_;
+  std::optional<Context> context_;
+  std::vector<MedialSphere> spheres_;
+  MedialHeader header_;
+  std::vector<OutputFile> files_;
+  std::uint64_t output_bytes_ = 0;
+  RunRecord record_;
+};
+
+Status run_action(const Options& options) {
+  switch (options.action) {
+    case Action::kHelp:
+      return print_result(help_text());
+    case Action::kVersion:
+      return print_result(fmt::format("medial-vk {}\n", version()));
+    case Action::kListDevices:
+      return list_devices();
+    case Action::kExtract:
+      break;
+  }
+  return ExtractionRun(options).run();
+}
+
+Status parse_and_run(const std::vector<std::string>& arguments) {
+  const Result<Options> options = parse_options(arguments);
+  if (!options) return options.error();
+  return run_action(options.value());
+}
+
+int report_error(const Error& error) {
+  print_message(fmt::format("medial-vk: {}\n", error.message));
+  if (error.code == ErrorCode::kUsage) print_message("Try medial-vk --help.\n");
+  return static_cast<int>(error.code);
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& arguments) {
+  install_interrupt_handlers();
+  try {
+    const Status status = parse_and_run(arguments);
+    return status ? 0 : report_error(status.error());
+  } catch (const std::bad_alloc&) {
+    return report_error({ErrorCode::kOutOfMemory, "out of memory; try a lower --resolution"});
+  } catch (const std::exception& error) {
+    return report_error({ErrorCode::kInternal, fmt::format("internal error: {}", error.what())});
+  }
+}
+
+}  // namespace medial_vk::cli

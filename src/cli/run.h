@@ -1,0 +1,12 @@
+// The command line from options to exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace medial_vk::cli {
+
+/// Parses, works, prints; returns the exit code (0 or a value of ErrorCode). Does not throw.
+int run(const std::vector<std::string>& arguments);
+
+}  // namespace medial_vk::cli
