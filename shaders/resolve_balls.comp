@@ -1,0 +1,23 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// The balls whose walk was too long: a workgroup looks at all triangles for one ball.
+#define QUERY_STORAGE_BUFFERS 7
+#include "tree_query.glsl"
+layout(set = 0, binding = 5) readonly buffer TriangleOrder { uint triangle_order[]; };
+layout(set = 0, binding = 6) writeonly buffer Empty { uint empty[]; };
+
+shared uint found;
+
+void main() {
+  if (group_index() >= unresolved[kUnresolvedCount]) return;
+  uint query = unresolved[kUnresolvedFirst + group_index()];
+  vec4 q = queries[query];
+  if (gl_LocalInvocationID.x == 0u) found = 0u;
+  barrier();
+  bool inside = false;
+  for (uint t = gl_LocalInvocationID.x; t < push.triangle_count; t += gl_WorkGroupSize.x)
+    inside = inside || squared_distance_to_triangle(q.xyz, load_triangle(t)) < q.w;
+  if (inside) atomicOr(found, 1u);
+  barrier();
+  if (gl_LocalInvocationID.x == 0u) empty[query] = 1u - found;
+}

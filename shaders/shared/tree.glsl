@@ -1,0 +1,42 @@
+// The tree over the triangles. Before including, define TREE_STORAGE_BINDING and TREE_TEXEL_BINDING, and include
+// triangles.glsl.
+//
+// An inner node is 4 texels, two for each child: lower corner and where it starts, upper corner and its number of
+// triangles. A child with 0 triangles is the inner node where it starts; else a leaf of the triangles from there on.
+// After all nodes follow 8 texels for each with the moments of the children (winding.glsl).
+#ifndef MEDIAL_VK_TREE_GLSL
+#define MEDIAL_VK_TREE_GLSL
+
+layout(set = 0, binding = TREE_STORAGE_BINDING) readonly buffer TreeStorage { vec4 tree_storage[]; };
+layout(set = 0, binding = TREE_TEXEL_BINDING) uniform samplerBuffer tree_texels;
+
+vec4 tree_texel(uint i) { return kUseTexels ? texelFetch(tree_texels, int(i)) : tree_storage[i]; }
+uint tree_node_count() { return (kUseTexels ? uint(textureSize(tree_texels)) : uint(tree_storage.length())) / 12u; }
+
+// A place in the tree: an inner node, or (count << 24 | first) of a leaf.
+const uint kLeaf = 1u << 24;
+const uint kFirstMask = kLeaf - 1u;
+const uint kSkipped = 0xfffffffeu;   // nothing here, more on the stack
+const uint kFinished = 0xffffffffu;  // nothing left
+const uint kMostLeafTriangles = 4u;  // DeviceMesh::kLeafSize
+const uint kStackSize = 48u;         // Bvh::kMaxDepth: a walk leaves one child behind per level
+
+uint tree_place(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }
+bool is_leaf(uint place) { return place >= kLeaf && place < kSkipped; }
+
+float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
+  vec3 outside = max(max(lower - p, p - upper), vec3(0.0));
+  return dot(outside, outside);
+}
+
+// Every walk goes in rounds: down at most kDescents nodes, through one leaf, back over at most kPops entries of the
+// stack. lavapipe ends all loops of an invocation silently after 65,535 iterations, and it counts for eight invocations
+// together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum, whatever
+// the neighbours do: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more rounds says
+// so, and its query is answered by looking at all triangles (tree_overflow.glsl).
+// Loops are tested at the bottom and conditions are selects: untaken branches and masked loop bodies cost full price.
+const uint kDescents = 8u;
+const uint kPops = 4u;
+const uint kRounds = 60000u / (kDescents + kMostLeafTriangles + kPops + 1u);
+
+#endif
