@@ -31,16 +31,21 @@ Vector3d opposite(const Vector3d& centre, const Vector3d& p, const Vector3d& dir
 
 Flux outward_flux(const Tree& tree, const Vector3d& centre, double radius, const std::vector<Vector3d>& directions,
                   double same) {
+  return outward_flux([&](const Vector3d& p) { return tree.closest(p); }, centre, radius, directions, same);
+}
+
+Flux outward_flux(const ClosestFunction& closest, const Vector3d& centre, double radius,
+                  const std::vector<Vector3d>& directions, double same) {
   Flux flux;
   flux.samples = static_cast<int>(directions.size());
   for (const Vector3d& normal : directions) {
     const Vector3d p = centre + radius * normal;
-    const Closest nearest = tree.closest(p);
+    const Closest nearest = closest(p);
     const Vector3d gradient = direction_to(p, nearest);
     flux.greatest_distance = std::max(flux.greatest_distance, nearest.distance);
     if (nearest.feature != Feature::kFace) {
       const Vector3d q = opposite(centre, p, gradient);
-      if ((direction_to(q, tree.closest(q)) - gradient).norm() <= same) {
+      if ((direction_to(q, closest(q)) - gradient).norm() <= same) {
         ++flux.fans;
         continue;
       }
@@ -56,10 +61,14 @@ Flux outward_flux(const Tree& tree, const Vector3d& centre, double radius, const
 // the tree picks one of them and the interval still shrinks around m.
 Retraction retract(const Tree& tree, Vector3d p, Vector3d q, double epsilon) {
   const double same = 1e-9 * tree.longest_side();
-  Closest at_p = tree.closest(p), at_q = tree.closest(q);
+  return retract([&](const Vector3d& x) { return tree.closest(x); }, p, q, epsilon, same);
+}
+
+Retraction retract(const ClosestFunction& closest, Vector3d p, Vector3d q, double epsilon, double same) {
+  Closest at_p = closest(p), at_q = closest(q);
   while ((p - q).norm() > epsilon) {
     const Vector3d m = (p + q) / 2;
-    const Closest at_m = tree.closest(m);
+    const Closest at_m = closest(m);
     if ((at_m.point - at_p.point).norm() > same) {
       q = m;
       at_q = at_m;

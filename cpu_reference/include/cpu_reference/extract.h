@@ -14,13 +14,16 @@ namespace medial_vk::reference {
 
 struct Parameters {
   bool certified = true;
-  int resolution = 160;      // voxels along the longest side of the bounding box
-  double object_angle = 0.6; // radians
-  double radius = 0;         // fraction of the longest side, 0: off
-  double epsilon = 0.01;     // fraction of the voxel side
-  int extra_levels = 4;      // certified: subdivision below the finest voxel
+  int resolution = 160;                              // voxels along the longest side of the bounding box
+  double object_angle = 0.6;                         // radians
+  double radius = 0;                                 // fraction of the longest side, 0: off
+  double epsilon = 0.01;                             // fraction of the voxel side
+  int extra_levels = 4;                              // certified: subdivision below the finest voxel
   bool narrow_features = true;                       // thesis: Section 2.4.3
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
+  // With a radius threshold on: the object angle that a point of that radius must have (never above object_angle).
+  // Without it every convex edge of a finely faceted solid would put a sheet of tiny angle into the deep voxels.
+  double deep_angle = 0.05;
 };
 
 struct Sphere {
@@ -47,6 +50,7 @@ struct Result {
   bool interrupted = false;
 };
 
+/// Section 2.3 to 2.4 as published, or the certified method; every ball of both passes check() (certificate.h).
 /// `progress` gets the share done and returns false to stop.
 Result extract(const Mesh& mesh, const Parameters& parameters, const std::function<bool(double)>& progress = {});
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cpu_reference/mesh.h"
@@ -114,7 +115,12 @@ struct Flux {
   double greatest_distance = 0;  // from a sample, fans included, to the boundary (2.4.2)
 };
 
+/// Answers nearest boundary points: a tree, or a list that is known to suffice.
+using ClosestFunction = std::function<Closest(const Eigen::Vector3d&)>;
+
 /// `directions` are unit vectors (spiral_points). Two gradients are the same if they differ by at most `same`.
+Flux outward_flux(const ClosestFunction& closest, const Eigen::Vector3d& centre, double radius,
+                  const std::vector<Eigen::Vector3d>& directions, double same = 1e-7);
 Flux outward_flux(const Tree& tree, const Eigen::Vector3d& centre, double radius,
                   const std::vector<Eigen::Vector3d>& directions, double same = 1e-7);
 
@@ -125,7 +131,9 @@ struct Retraction {
   Eigen::Vector3d spoke_p, spoke_q;
 };
 
-/// Algorithm 1: q = p + gamma grad D(p) with different nearest points B(p), B(q).
+/// Algorithm 1: q = p + gamma grad D(p) with different nearest points B(p), B(q). Points at most `same` apart are the
+/// same contact (rounding).
+Retraction retract(const ClosestFunction& closest, Eigen::Vector3d p, Eigen::Vector3d q, double epsilon, double same);
 Retraction retract(const Tree& tree, Eigen::Vector3d p, Eigen::Vector3d q, double epsilon);
 
 /// Half the angle between two unit vectors, accurate for all of [0, pi/2].
