@@ -2,7 +2,9 @@
 #extension GL_GOOGLE_include_directive : enable
 // One narrowing step: of the nine parts that the eight inner points make of a line, the one over which the direction
 // to the boundary turns most. (Bisection towards the first change of the nearest point, Algorithm 1, would end at a
-// crease between neighbouring facets.)
+// crease between neighbouring facets.) Directions also flip where the line crosses the boundary itself, and there the
+// distances at the ends of the part add up to no more than its length: such a part is taken only if no other turns
+// enough.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 4
@@ -18,7 +20,7 @@ void main() {
   vec3 p = lines[index].p.xyz, q = lines[index].q.xyz;
   vec4 last_point = lines[index].p, last_toward = lines[index].toward_p;
   vec4 best_p = last_point, best_q = last_point, best_toward_p = last_toward, best_toward_q = last_toward;
-  float best_turn = 2.0;
+  float best_turn = 4.0;
   for (uint k = 1; k <= kSectionsPerLine + 1u; ++k) {
     vec4 point = lines[index].q, toward = lines[index].toward_q;
     if (k <= kSectionsPerLine) {
@@ -28,6 +30,8 @@ void main() {
       toward.xyz = unit_or_zero(v);
     }
     float turn = dot(last_toward.xyz, toward.xyz);
+    bool may_cross = last_point.w + point.w <= 1.001 * distance(last_point.xyz, point.xyz) + step.slack;
+    turn += may_cross ? 1.0 + step.cos_twice_angle : 0.0;
     if (turn < best_turn) {
       best_turn = turn;
       best_p = last_point;

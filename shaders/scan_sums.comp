@@ -35,6 +35,9 @@ void main() {
   counters[scan.total_x] = total.x;
   counters[scan.total_y] = total.y;
   counters[scan.total_z] = total.z;
+  vec3 share = vec3(total.xyz) / vec3(scan.limit_x, scan.limit_y, scan.limit_z);
+  uint fullest = uint(min(1e6, 1024.0 * max(share.x, max(share.y, share.z))));
+  counters[kUtilisation] = max(counters[kUtilisation], fullest);
   uint overflow = uint(total.x > scan.limit_x) | uint(total.y > scan.limit_y) << 1 | uint(total.z > scan.limit_z) << 2;
   if (overflow != 0u) {
     counters[kOverflow] |= overflow;

@@ -11,12 +11,14 @@ layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // o
 
 // One hundredth of epsilon keeps the test clear of float rounding; certify_spheres() repeats it in double.
 const float kGrowthMargin = 0.01;
+// Closer to the boundary than this many rounding errors, directions are noise.
+const float kLeastRadius = 8.0;
 
 bool is_medial(float distance_before, uint grown, float turn) {
   bool deep = distance_before >= step.radius;
   float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
   float distance_after = sqrt(uintBitsToFloat(nearest[grown].x));
-  return turn <= threshold && distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
+  return distance_before >= kLeastRadius * step.slack && turn <= threshold && distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
 }
 
 void main() {

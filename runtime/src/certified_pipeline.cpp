@@ -12,7 +12,7 @@ namespace {
 
 using gpu::uint;
 
-constexpr uint kMostArguments = 4096; // indirect dispatches of one recorded sequence
+constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
 constexpr uint kTopCellsAlongSide = 16;
 constexpr uint kMostTreelets = 8192;
 constexpr uint kLeastTreelet = 16;
@@ -157,8 +157,8 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   const double size = cell_size(level);
   const bool below = level > coarse_levels_;
   // Lists serve every query of a point in the cell: the growth test reaches epsilon beyond its ball, and at the finest
-  // level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball lies in its parent's, so the same
-  // margin serves all levels above.
+  // level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball lies in its parent's, so the
+  // same margin serves all levels above.
   const double margin = below ? epsilon : std::max(epsilon, (1 - kHalfDiagonal) * voxel);
   const double deep = std::min(kDeepAngle, parameters_.object_angle);
   gpu::StepConstants step{};
@@ -210,13 +210,13 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   ProgramKey key;
   key.shader = kernel.shader;
   key.storage_buffers = static_cast<uint>(kernel.buffers.size());
-  key.texel_buffers = kernel.triangles ? 1 : 0;
+  key.texel_buffers = static_cast<uint>(kernel.reads);
   key.push_constant_bytes = sizeof(step);
   key.workgroup_size = kernel.workgroup_size;
-  if (kernel.triangles) key.constants.push_back(mesh_->use_texels ? 1u : 0u);
+  if (kernel.reads != Reads::kNoMesh) key.constants.push_back(mesh_->use_texels ? 1u : 0u);
   key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
-  const VkBufferView texels[] = {mesh_->triangle_texels};
-  r.dispatch_indirect(key, kernel.buffers, std::span(texels, kernel.triangles ? 1 : 0), bytes_of(step), arguments_,
+  const VkBufferView texels[] = {mesh_->triangle_texels, mesh_->tree_texels};
+  r.dispatch_indirect(key, kernel.buffers, std::span(texels, key.texel_buffers), bytes_of(step), arguments_,
                       VkDeviceSize{argument} * 12);
   r.barrier();
 }
@@ -250,8 +250,8 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
 }
 
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
-  buffers.insert(buffers.begin(), mesh_->triangles.range());
-  return {shader, std::move(buffers), true};
+  buffers.insert(buffers.begin(), {mesh_->triangles.range(), mesh_->tree.range()});
+  return {shader, std::move(buffers), Reads::kTree};
 }
 
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
@@ -274,7 +274,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
              {"find_nearest",
               {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),
                lines_.range(), result_.range(), nearest.range()},
-              true,
+              Reads::kTriangles,
               {static_cast<uint>(source), shape.per_lane, shape.per_item}},
              lanes, s);
 }

@@ -71,11 +71,14 @@ class CertifiedPipeline {
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
 
+  // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
+  // texel views follow its buffers.
+  enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {
     const char* shader;
     std::vector<BufferRange> buffers;
-    bool triangles = false;  // buffers[0] is the triangle data; its texel view follows the buffers
+    Reads reads = Reads::kNoMesh;
     std::vector<std::uint32_t> constants;
     std::uint32_t workgroup_size = 64;
   };

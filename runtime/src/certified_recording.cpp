@@ -56,19 +56,20 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
-  const Kernel count_entries{"gather_contacts",
-                             {treelets_.range(), counters_.range(), states_.range(), offsets_.range(),
-                              cells_[0].range(), lists_[0].range()},
-                             false,
-                             {0},
-                             256};
+  const Kernel count_entries{
+      "gather_contacts",
+      {treelets_.range(), counters_.range(), states_.range(), offsets_.range(), cells_[0].range(), lists_[0].range()},
+      Reads::kNoMesh,
+      {0},
+      256};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
   const Extent groups{gpu::kParents, 256};
   run(r, count_entries, groups, step);
-  gpu::ScanConstants scan_constants{gpu::kParents, 1, gpu::kParents, gpu::kListEntries, gpu::kMaskWords,
-                                    capacity_.cells, capacity_.list_entries,
-                                    capacity_.list_entries / 32 + capacity_.cells};
+  gpu::ScanConstants scan_constants{gpu::kParents,          1,
+                                    gpu::kParents,          gpu::kListEntries,
+                                    gpu::kMaskWords,        capacity_.cells,
+                                    capacity_.list_entries, capacity_.list_entries / 32 + capacity_.cells};
   scan(r, scan_constants);
   run(r, write_entries, groups, step);
 }
@@ -84,28 +85,28 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
              {"mark_contacts",
               {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
                nearest_.range(), masks_.range(), counts_.range(), axes.range()},
-              true},
+              Reads::kTriangles},
              children, step);
   run(r,
       {"dismiss_cells",
        {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
         nearest_.range(), masks_.range(), counts_.range(), axes.range(), states_.range()},
-       true},
+       Reads::kTriangles},
       {gpu::kParents, 8}, step);
   run(r, side_kernel("decide_side", {counters_.range(), level.parents->range(), nearest_.range(), states_.range()}),
       {gpu::kParents, 8}, step);
-  scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells,
-           capacity_.list_entries, capacity_.list_entries / 32 + capacity_.cells});
+  scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
+           capacity_.list_entries / 32 + capacity_.cells});
   if (finest) {  // every finest voxel that is kept gets a slot
     r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
     r.barrier();
   }
   run_rounds(r,
              {"write_children",
-              {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
-               states_.range(), offsets_.range(), nearest_.range(), level.cells->range(), level.lists->range(),
-               counts_.range(), winners_.range(), verdicts_.range()},
-              false,
+              {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(),
+               offsets_.range(), nearest_.range(), level.cells->range(), level.lists->range(), counts_.range(),
+               winners_.range(), verdicts_.range()},
+              Reads::kNoMesh,
               {finest ? 1u : 0u}},
              children, step);
 }
@@ -116,14 +117,14 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
   run(r,
       {"propose_lines",
        {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), points_.range()},
-       true},
+       Reads::kTriangles},
       seeds, step);
-  find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList},
-               step, *level.cells, *level.lists, points_, nearest_);
+  find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
+               *level.cells, *level.lists, points_, nearest_);
   run(r,
       {"keep_turning",
        {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range()},
-       true},
+       Reads::kTriangles},
       seeds, step);
   scan(r, {gpu::kCells, gpu::kLinesPerCell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
            0xffffffffu});
@@ -131,7 +132,7 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
       {"start_lines",
        {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range(),
         offsets_.range(), level.cells->range(), lines_.range()},
-       true},
+       Reads::kTriangles},
       seeds, step);
   record_narrowing(r, step, level);
   const Extent lines{gpu::kLines};
@@ -148,13 +149,15 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
   for (uint i = 0; i < narrowing_steps_; ++i) {
     find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
     run(r,
-        {"narrow_lines", {mesh_->triangles.range(), counters_.range(), lines_.range(), nearest_.range()}, true},
+        {"narrow_lines",
+         {mesh_->triangles.range(), counters_.range(), lines_.range(), nearest_.range()},
+         Reads::kTriangles},
         {gpu::kLines}, step);
   }
   find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
   run(r, {"verify_lines", {counters_.range(), lines_.range(), grown_nearest_.range()}}, {gpu::kLines}, step);
-  run(r, side_kernel("decide_line_side", {counters_.range(), level.cells->range(), lines_.range()}),
-      {gpu::kLines}, step);
+  run(r, side_kernel("decide_line_side", {counters_.range(), level.cells->range(), lines_.range()}), {gpu::kLines},
+      step);
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
@@ -162,8 +165,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
   const Extent cells{gpu::kCells};
   run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, step);
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
-  run(r, {"gather_cells",
-          {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
+  run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
   const BufferRange counters[] = {counters_.range()};
   r.dispatch({"start_level", 1, 0, 0, 1, {gpu::kKept}}, counters, {}, {}, 1);
@@ -173,11 +175,11 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
 void CertifiedPipeline::record_collection(Recorder& r) {
   r.begin_stage("flux");
   const gpu::StepConstants step = level_constants(coarse_levels_);
-  Kernel collect{"collect_points",
-                 {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
-                  result_.range()},
-                 false,
-                 {0}};
+  Kernel collect{
+      "collect_points",
+      {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(), result_.range()},
+      Reads::kNoMesh,
+      {0}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   collect.constants = {1};
@@ -194,7 +196,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   Kernel place{"place_samples",
                {mesh_->triangles.range(), counters_.range(), result_.range(), opposites_.range(),
                 sample_nearest_.range(), samples_.range()},
-               true,
+               Reads::kTriangles,
                {0}};
   run(r, place, samples, step);
   find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], samples_, sample_nearest_);
@@ -207,7 +209,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
       {"measure_flux",
        {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
         opposites_.range(), opposite_nearest_.range()},
-       true},
+       Reads::kTriangles},
       points, step);
 }
 

@@ -30,7 +30,7 @@ VoxelGrid make_grid(const DeviceMesh& mesh, std::uint32_t resolution) {
   grid.voxel_size = mesh.longest / resolution;
   for (int axis = 0; axis < 3; ++axis) {
     const double cells = (mesh.upper[axis] - mesh.lower[axis]) / grid.voxel_size;
-    grid.size[axis] = static_cast<std::uint32_t>(std::clamp(std::ceil(cells - 1e-9), 1.0, double{resolution}));
+    grid.size[axis] = static_cast<std::uint32_t>(std::clamp(std::ceil(cells - 1e-9), 1.0, static_cast<double>(resolution)));
   }
   return grid;
 }
@@ -83,16 +83,15 @@ class CertifiedRun {
       if (progress && !progress(double(first) / total))
         return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
       const std::uint32_t count = std::min(size, total - first);
-      Result<bool> fitted = run_chunk(first, count);
-      if (!fitted.ok()) return fitted.error();
-      if (fitted.value()) {
-        first += count;
-        size = std::min(2 * size, kLargestChunk);
-      } else {
+      Result<Fill> fill = run_chunk(first, count);
+      if (!fill.ok()) return fill.error();
+      if (fill.value().overflow) {
         if (count == 1) return too_small();
-        size = count / 2;
         ++extraction_.counters.retries;
+      } else {
+        first += count;
       }
+      size = next_size(count, fill.value());
     }
     return {};
   }
@@ -101,17 +100,29 @@ class CertifiedRun {
   // Small enough that progress moves and an interruption is heard, large enough to keep a device busy.
   static constexpr std::uint32_t kFirstChunk = 512, kLargestChunk = 4096;
 
+  // How full the fullest buffer has been: 1 is full.
+  struct Fill {
+    double share = 0;
+    bool overflow = false;
+  };
+
+  // Aims at buffers 60 % full: neighbouring chunks hold similar amounts of medial surface, not equal ones.
+  static std::uint32_t next_size(std::uint32_t count, const Fill& fill) {
+    const double factor = std::clamp(0.6 / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
+    return std::clamp(static_cast<std::uint32_t>(count * factor), 1u, kLargestChunk);
+  }
+
   static Error too_small() {
     return {ErrorCode::kOutOfMemory,
             "the contacts of a single top cell do not fit the memory budget; raise --memory or the resolution"};
   }
 
-  // True if the chunk was done, false if a buffer was too small for it.
-  Result<bool> run_chunk(std::uint32_t first, std::uint32_t count) {
+  Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
     auto times = run_commands(context_, [&](Recorder& r) { return pipeline_.record(r, first, count); });
     if (!times.ok()) return times.error();
     const auto counters = pipeline_.read_counters();
-    if (counters[gpu::kOverflow] != 0) return false;
+    const Fill fill{counters[gpu::kUtilisation] / 1024.0, counters[gpu::kOverflow] != 0};
+    if (fill.overflow) return fill;
     if (counters[gpu::kUnresolved] != 0)
       return Error{ErrorCode::kInternal, "a loop on the device reached its bound without an answer"};
     auto points = pipeline_.read_points(counters[gpu::kFound]);
@@ -119,7 +130,7 @@ class CertifiedRun {
     for (const gpu::FoundPoint& p : points.value()) extraction_.spheres.push_back(to_input_units(p, mesh_));
     add_counters(counters, extraction_.counters);
     add_times(times.value(), extraction_.device_times);
-    return true;
+    return fill;
   }
 
   Context::Impl& context_;

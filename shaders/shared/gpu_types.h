@@ -128,10 +128,11 @@ MEDIAL_VK_GPU_CONSTANT kQueries = 12u;          // closest-point queries asked, 
 MEDIAL_VK_GPU_CONSTANT kQueriesHigh = 13u;
 MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
 MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
-MEDIAL_VK_GPU_CONSTANT kStatistics = 16u;       // per level: visited, kept, contacts, found
+MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit
+MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: visited, kept, contacts, found
 MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 4u;
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
-MEDIAL_VK_GPU_CONSTANT kCounterCount = 16u + 4u * 24u;
+MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 4u * 24u;
 
 // Entries of a contact list that one invocation reads in one dispatch. lavapipe ends an invocation's loops silently
 // after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
