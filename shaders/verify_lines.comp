@@ -25,7 +25,10 @@ void main() {
   uint index = invocation_index();
   if (index >= counters[kLines]) return;
   float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
-  bool narrow = distance(lines[index].p.xyz, lines[index].q.xyz) <= step.epsilon;
+  float gap = distance(lines[index].p.xyz, lines[index].q.xyz);
+  // If the distances at the ends add up to more than the gap, the boundary does not pass between them. Else the
+  // directions may differ only because one end lies outside, next to a crease of any angle.
+  bool narrow = gap <= step.epsilon && lines[index].p.w + lines[index].q.w > 1.01 * gap;
   bool p = narrow && is_medial(lines[index].p.w, 2 * index, turn);
   bool q = narrow && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
