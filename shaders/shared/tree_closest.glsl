@@ -16,7 +16,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
   float distances[kStackSize];
   uint size = 0u, place = 0u, rounds = 0u;
   TreeHit hit = TreeHit(bound, 0xffffffffu, false);
-  uint best_index = 0xffffffffu;
+  uint best_index = 0u;  // a point at the bound itself is no hit
   for (;;) {
     uint descents = 0u;
     for (;;) {

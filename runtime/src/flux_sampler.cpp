@@ -1,0 +1,78 @@
+#include "flux_sampler.h"
+
+#include <array>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kNoCounter = 0xffffffffu;
+
+// Nearest points are good to 2e-6 of the unit box at worst (closest_point.glsl) and to some 1e-7 nearly always. A fan's
+// two directions are compared within this; those of different features differ by far more.
+constexpr float kSamePoint = 2e-6f;
+
+struct SampleConstants {
+  std::uint32_t items;
+  std::uint32_t items_counter;
+  std::uint32_t samples;
+  float same_point;
+};
+
+}  // namespace
+
+Result<FluxSampler> FluxSampler::create(Context::Impl& context, const TreeQueries& queries, std::uint32_t capacity) {
+  FluxSampler sampler(context, queries);
+  struct Request {
+    Buffer* buffer;
+    VkDeviceSize stride;
+    const char* purpose;
+  };
+  const VkDeviceSize count = capacity;
+  for (const Request& request : {Request{&sampler.samples_, 16, "flux samples"},
+                                 Request{&sampler.nearest_, 16, "nearest points of flux samples"},
+                                 Request{&sampler.hits_, 4, "triangles of flux samples"},
+                                 Request{&sampler.opposites_, 16, "opposites of flux samples"},
+                                 Request{&sampler.opposite_nearest_, 16, "nearest points of opposites"},
+                                 Request{&sampler.opposite_hits_, 4, "triangles of opposites"}}) {
+    Result<Buffer> buffer = sampler.arena_.create_buffer(count * request.stride, MemoryKind::kDevice, request.purpose);
+    if (!buffer.ok()) return buffer.error();
+    *request.buffer = buffer.value();
+  }
+  return sampler;
+}
+
+void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres,
+                         BufferRange directions, BufferRange fluxes) const {
+  const bool counted = count.counters != nullptr;
+  const SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSamePoint};
+  // A kernel that does not count on the device is given some buffer in place of the counters.
+  const BufferRange counters = counted ? count.counters->range() : samples_.range();
+  const auto run = [&](const char* shader, std::span<const BufferRange> buffers, bool per_sample) {
+    const ProgramKey key{
+        shader, static_cast<std::uint32_t>(buffers.size()), 0, sizeof(constants), TreeQueries::kWorkgroupSize, {}};
+    if (counted) {
+      r.dispatch_indirect(key, buffers, {}, bytes_of(constants), *count.arguments,
+                          per_sample ? count.sample_arguments : count.sphere_arguments);
+    } else {
+      r.dispatch(key, buffers, {}, bytes_of(constants), std::uint64_t{count.spheres} * (per_sample ? samples : 1));
+    }
+    r.barrier();
+  };
+  QueryCount queries = QueryCount::of(count.spheres * samples);
+  if (counted) queries = {0, count.counters, count.counter, samples, count.arguments, count.sample_arguments};
+
+  const std::array<BufferRange, 4> place = {counters, spheres, directions, samples_.range()};
+  run("place_sphere_samples", place, true);
+  queries_->closest(r, queries, samples_.range(), nearest_.range(), hits_.range());
+  const std::array<BufferRange, 6> reflect = {counters,         spheres,       samples_.range(),
+                                              nearest_.range(), hits_.range(), opposites_.range()};
+  run("reflect_sphere_samples", reflect, true);
+  queries_->closest(r, queries, opposites_.range(), opposite_nearest_.range(), opposite_hits_.range());
+  const std::array<BufferRange, 7> sum = {
+      counters, spheres, samples_.range(), nearest_.range(), opposites_.range(), opposite_nearest_.range(), fluxes};
+  run("sum_flux", sum, false);
+}
+
+}  // namespace medial_vk

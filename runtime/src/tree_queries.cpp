@@ -1,0 +1,107 @@
+#include "tree_queries.h"
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kResolveGroup = 256;
+constexpr std::uint32_t kNoCounter = 0xffffffffu;
+
+// Words of the list of unresolved queries, as shaders/shared/tree_query.glsl names them.
+constexpr VkDeviceSize kGroupsOffset = 4;
+constexpr VkDeviceSize kTotalOffset = 20;
+constexpr VkDeviceSize kFirstWord = 8;
+
+struct QueryConstants {
+  std::uint32_t items;
+  std::uint32_t items_counter;
+  std::uint32_t items_multiplier;
+  std::uint32_t triangle_count;
+  float tolerance;
+};
+
+}  // namespace
+
+Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity) {
+  TreeQueries queries(context, mesh);
+  Result<Buffer> list =
+      queries.arena_.create_buffer((kFirstWord + capacity) * 4, MemoryKind::kDevice, "a list of unresolved queries");
+  if (!list.ok()) return list.error();
+  Result<Buffer> total = queries.arena_.create_buffer(4, MemoryKind::kReadback, "a count of unresolved queries");
+  if (!total.ok()) return total.error();
+  queries.unresolved_ = list.value();
+  queries.total_ = total.value();
+  auto cleared = run_commands(context, [&](Recorder& r) {
+    r.fill(queries.unresolved_, 0, kFirstWord * 4, 0);
+    return r.status();
+  });
+  if (!cleared.ok()) return cleared.error();
+  return queries;
+}
+
+void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
+                         BufferRange queries, float tolerance) const {
+  // A kernel that does not count on the device is given some buffer in place of the counters.
+  const BufferRange counters = count.counters != nullptr ? count.counters->range() : mesh_->triangle_info.range();
+  std::vector<BufferRange> buffers = {mesh_->triangles.range(), mesh_->tree.range(), counters, unresolved_.range(),
+                                      queries};
+  buffers.insert(buffers.end(), own.begin(), own.end());
+  const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
+  const QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
+                                    count.multiplier, mesh_->triangle_count, tolerance};
+  ProgramKey key{kernel.walk,
+                 static_cast<std::uint32_t>(buffers.size()),
+                 2,
+                 sizeof(constants),
+                 kWorkgroupSize,
+                 {mesh_->use_texels ? 1u : 0u}};
+  if (count.arguments != nullptr) {
+    r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
+  } else {
+    r.dispatch(key, buffers, texels, bytes_of(constants), count.items);
+  }
+  r.barrier();
+  const std::array<BufferRange, 1> list = {unresolved_.range()};
+  r.dispatch({"prepare_resolve", 1, 0, 0, 1, {}}, list, {}, {}, 1);
+  r.barrier();
+  key.shader = kernel.resolve;
+  key.workgroup_size = kResolveGroup;
+  r.dispatch_indirect(key, buffers, texels, bytes_of(constants), unresolved_, kGroupsOffset);
+  r.barrier();
+}
+
+void TreeQueries::closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest,
+                          BufferRange hits) const {
+  const std::array<BufferRange, 3> own = {mesh_->triangle_info.range(), nearest, hits};
+  record(r, {"find_closest_points", "resolve_closest_points"}, count, own, queries, 0);
+}
+
+void TreeQueries::empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const {
+  const std::array<BufferRange, 2> own = {mesh_->triangle_info.range(), empty};
+  record(r, {"test_balls", "resolve_balls"}, count, own, queries, 0);
+}
+
+void TreeQueries::winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers,
+                          float tolerance) const {
+  const std::array<BufferRange, 1> own = {numbers};
+  record(r, {"find_winding_numbers", "resolve_winding_numbers"}, count, own, queries, tolerance);
+}
+
+Result<std::uint32_t> TreeQueries::read_unresolved_total() {
+  auto copied = run_commands(*context_, [&](Recorder& r) {
+    r.copy(unresolved_, kTotalOffset, total_, 0, 4);
+    r.barrier_to_host();
+    return r.status();
+  });
+  if (!copied.ok()) return copied.error();
+  std::uint32_t total = 0;
+  std::memcpy(&total, total_.mapped, sizeof(total));
+  return total;
+}
+
+}  // namespace medial_vk

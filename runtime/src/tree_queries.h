@@ -1,0 +1,60 @@
+// Recording of the kernels that answer one query per invocation by walking the tree of a DeviceMesh.
+#pragma once
+
+#include <cstdint>
+
+#include "recorder.h"
+#include "scene.h"
+
+namespace medial_vk {
+
+/// How many queries a dispatch answers: a number the host knows, or a counter on the device.
+struct QueryCount {
+  std::uint32_t items = 0;
+  const Buffer* counters = nullptr;  // if given: counters[counter] * multiplier queries,
+  std::uint32_t counter = 0;
+  std::uint32_t multiplier = 1;
+  const Buffer* arguments = nullptr;  // and their groups of TreeQueries::kWorkgroupSize at this place
+  VkDeviceSize arguments_offset = 0;
+
+  static QueryCount of(std::uint32_t items) { return {items, nullptr, 0, 1, nullptr, 0}; }
+};
+
+class TreeQueries {
+ public:
+  static constexpr std::uint32_t kWorkgroupSize = 64;
+
+  /// For dispatches of at most `capacity` queries. The mesh must outlive the object. Errors: kOutOfMemory, kInternal.
+  static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity);
+
+  /// Queries are vec4 in the unit box: xyz, and in w the squared distance within which a point is of interest; negative
+  /// to pass the query over (its results are left as they are). Each call is followed by a barrier.
+  ///
+  /// nearest: vec4, the point and its squared distance (3.4e38: none). hits: uint, feature << 24 | leaf position, or
+  /// 0xffffffff.
+  void closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest, BufferRange hits) const;
+  /// empty: uint, 1 if no point of the mesh is closer than the root of w.
+  void empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const;
+  /// numbers: vec2, the winding number and a bound of its error, at most `tolerance`.
+  void winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers, float tolerance) const;
+
+  /// Queries answered by looking at all triangles since creation. Blocks.
+  Result<std::uint32_t> read_unresolved_total();
+
+ private:
+  struct Kernel {
+    const char* walk;
+    const char* resolve;
+  };
+  TreeQueries(Context::Impl& context, const DeviceMesh& mesh) : context_(&context), mesh_(&mesh), arena_(context) {}
+  void record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
+              BufferRange queries, float tolerance) const;
+
+  Context::Impl* context_;
+  const DeviceMesh* mesh_;
+  Arena arena_;
+  Buffer unresolved_;  // shaders/shared/tree_query.glsl
+  Buffer total_;
+};
+
+}  // namespace medial_vk
