@@ -1,7 +1,9 @@
 // From a file to a prepared mesh.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "medial_vk/result.h"
 #include "mesh/mesh.h"
@@ -11,6 +13,9 @@ namespace medial_vk {
 /// Reads OBJ, PLY, STL or OFF, by content where it is clear and else by extension; "-" is standard input.
 /// Errors: kInvalidMesh with file name and line, face or byte.
 Result<Mesh> read_mesh(const std::string& path);
+
+/// The same from the bytes of a file; `name` is used in messages, and its extension where the content is not clear.
+Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name);
 
 /// Drops degenerate and duplicate faces, unused vertices excluded from the bounding box, makes each component's
 /// orientation consistent (and outward if the whole mesh is inside out), inspects, sets the flags.

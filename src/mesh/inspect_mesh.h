@@ -1,0 +1,30 @@
+// What the connectivity and the shape of a mesh say about it; nothing is changed.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/mesh_topology.h"
+#include "mesh/surface_parts.h"
+
+namespace medial_vk {
+
+/// Counts edges and vertices by kind and decides whether the mesh is closed. Returns, by vertex, whether its triangles
+/// form one closed fan of one orientation.
+std::vector<bool> inspect_topology(const Mesh& mesh, const MeshTopology& topology, MeshReport& report);
+
+/// Bounding box of the vertices, all of which must be in use.
+void measure_box(const Mesh& mesh, MeshReport& report);
+
+/// Volumes by the divergence theorem about the centre of the box.
+struct Volumes {
+  double whole = 0;
+  double parts = 0;     ///< Sum of the absolute volumes of the components.
+  double rounding = 0;  ///< Bound of the rounding error of either.
+};
+Volumes measure_volumes(const Mesh& mesh, const SurfaceParts& parts, const Point& centre);
+
+/// Full sentences about everything in the report that a person should know before trusting the result.
+void write_assumptions(MeshReport& report);
+
+}  // namespace medial_vk

@@ -1,0 +1,34 @@
+// A loop over independent items on all cores.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace medial_vk {
+
+/// Calls body(i) for i in [0, count), in blocks of `block`. The calls must not depend on each other; what they write
+/// then does not depend on the number of cores either.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t block, Body body) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t first = next.fetch_add(block); first < count; first = next.fetch_add(block)) {
+      for (std::size_t i = first; i < std::min(first + block, count); ++i) body(i);
+    }
+  };
+  const std::size_t blocks = (count + block - 1) / block;
+  const std::size_t threads = std::min<std::size_t>({std::max(1u, std::thread::hardware_concurrency()), blocks, 16});
+  std::vector<std::jthread> others;
+  try {
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // No more threads to be had: those there are do it all.
+  }
+  work();
+}
+
+}  // namespace medial_vk

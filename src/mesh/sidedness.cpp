@@ -1,0 +1,162 @@
+#include "mesh/sidedness.h"
+
+#include <cmath>
+#include <limits>
+
+#include "mesh/parallel_for.h"
+#include "mesh/point_ops.h"
+#include "mesh/winding_number.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+class SideFinder {
+ public:
+  SideFinder(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
+             const SelfIntersections& intersections)
+      : mesh_(mesh), topology_(topology), tree_(tree), parts_(parts), closed_(closed), intersections_(intersections) {
+    sides_.beside.assign(mesh.triangles.size(), kUnknown);
+    place_of_.resize(mesh.triangles.size());
+    for (std::uint32_t place = 0; place < tree.order.size(); ++place) place_of_[tree.order[place]] = place;
+    area_.resize(mesh.triangles.size());
+    for (std::size_t place = 0; place < area_.size(); ++place) {
+      const auto& c = tree.corners[place];
+      area_[tree.order[place]] = length(cross(c[1] - c[0], c[2] - c[0])) / 2;
+    }
+  }
+
+  Sidedness run() {
+    // Components that may be evaluated patch by patch.
+    std::vector<bool> is_simple(parts_.components, closed_ && intersections_.known);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (intersections_.crossed[t]) is_simple[parts_.component_of[t]] = false;
+    }
+    evaluate_patches(is_simple);
+    std::vector<std::uint32_t> rest;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) rest.push_back(t);
+    }
+    if (rest.empty()) return std::move(sides_);
+    evaluate(rest);
+    if (turn_components(rest)) evaluate(rest);
+    return std::move(sides_);
+  }
+
+ private:
+  /// One value per patch, from its largest triangle: the one whose centroid is farthest from everything, as a rule.
+  void evaluate_patches(const std::vector<bool>& is_simple) {
+    std::vector<std::uint32_t> largest(parts_.patches, kNone);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) continue;
+      std::uint32_t& best = largest[parts_.patch_of[t]];
+      if (best == kNone || area_[t] > area_[best]) best = t;
+    }
+    std::vector<float> value(parts_.patches, kUnknown);
+    const WindingTree winding(tree_);
+    parallel_for(parts_.patches, 16, [&](std::size_t patch) {
+      if (largest[patch] != kNone) value[patch] = half_integer(winding.beside(place_of_[largest[patch]]));
+    });
+    std::vector<bool> counted(parts_.components, false);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) continue;
+      const float w = value[parts_.patch_of[t]];
+      sides_.beside[t] = std::abs(w);
+      if (w >= 0) continue;
+      turn(t);
+      if (!counted[parts_.component_of[t]]) ++sides_.turned_components;
+      counted[parts_.component_of[t]] = true;
+    }
+  }
+
+  /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.
+  static float half_integer(double w) { return static_cast<float>(std::floor(w) + 0.5); }
+
+  void evaluate(const std::vector<std::uint32_t>& triangles) {
+    const WindingTree winding(tree_);
+    // By place: neighbours in the tree take the same way through it.
+    std::vector<bool> wanted(mesh_.triangles.size(), false);
+    for (const std::uint32_t t : triangles) wanted[t] = true;
+    parallel_for(tree_.order.size(), 256, [&](std::size_t place) {
+      const std::uint32_t t = tree_.order[place];
+      if (!wanted[t]) return;
+      const double w = winding.beside(static_cast<std::uint32_t>(place));
+      // A crossed triangle has no one value.
+      sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
+    });
+  }
+
+  bool turn_components(const std::vector<std::uint32_t>& triangles) {
+    // Half a percent of the surface of a sphere is no side; a sheet in the plane has 0 on both.
+    constexpr float kClear = 0.05f;
+    struct Vote {
+      double area = 0, for_it = 0, against = 0;
+    };
+    std::vector<Vote> votes(parts_.components);
+    for (const std::uint32_t t : triangles) {
+      Vote& vote = votes[parts_.component_of[t]];
+      vote.area += area_[t];
+      if (sides_.beside[t] > kClear) vote.for_it += area_[t];
+      if (sides_.beside[t] < -kClear) vote.against += area_[t];
+    }
+    std::vector<std::vector<std::uint32_t>> members(parts_.components);
+    const auto suspect = [&](const Vote& v) { return v.against > 2 * v.for_it && 2 * v.against > v.area; };
+    for (const std::uint32_t t : triangles) {
+      if (suspect(votes[parts_.component_of[t]])) members[parts_.component_of[t]].push_back(t);
+    }
+    bool any = false;
+    for (const auto& component : members) {
+      if (component.empty() || !is_inside_out_by_itself(component)) continue;
+      for (const std::uint32_t t : component) turn(t);
+      ++sides_.turned_components;
+      any = true;
+    }
+    return any;
+  }
+
+  /// The sum over up to 64 of its triangles of the winding number beside them, of this component alone, by area.
+  bool is_inside_out_by_itself(const std::vector<std::uint32_t>& component) const {
+    const std::size_t step = std::max<std::size_t>(1, component.size() / 64);
+    const std::size_t samples = (component.size() + step - 1) / step;
+    std::vector<double> found(samples, 0);
+    parallel_for(samples, 4, [&](std::size_t i) {
+      const std::uint32_t at = component[i * step];
+      const auto& c = tree_.corners[place_of_[at]];
+      const Point centroid = c[0] + (1.0 / 3) * ((c[1] - c[0]) + (c[2] - c[0]));
+      for (const std::uint32_t t : component) {
+        if (t != at) found[i] += triangle_winding(tree_.corners[place_of_[t]], centroid);
+      }
+      found[i] *= area_[at];
+    });
+    double sum = 0;
+    for (const double w : found) sum += w;
+    return sum < 0;
+  }
+
+  void turn(std::uint32_t t) {
+    turn_triangle(mesh_, topology_, t);
+    std::swap(tree_.corners[place_of_[t]][1], tree_.corners[place_of_[t]][2]);
+    ++sides_.turned_faces;
+  }
+
+  Mesh& mesh_;
+  MeshTopology& topology_;
+  TriangleTree& tree_;
+  const SurfaceParts& parts_;
+  const bool closed_;
+  const SelfIntersections& intersections_;
+  std::vector<std::uint32_t> place_of_;
+  std::vector<double> area_;
+  Sidedness sides_;
+};
+
+}  // namespace
+
+Sidedness decide_sides(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
+                       const SelfIntersections& intersections) {
+  return SideFinder(mesh, topology, tree, parts, closed, intersections).run();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,95 @@
+#include "mesh/surface_parts.h"
+
+#include <utility>
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Numbers the sets of triangles that are connected over the edges for which `passes`, in the order of their first
+/// triangle.
+template <class Passes>
+std::uint32_t number_pieces(const Mesh& mesh, const MeshTopology& topology, Passes passes,
+                            std::vector<std::uint32_t>& piece_of) {
+  piece_of.assign(mesh.triangles.size(), kNone);
+  std::vector<std::uint32_t> stack;
+  std::uint32_t pieces = 0;
+  for (std::uint32_t start = 0; start < piece_of.size(); ++start) {
+    if (piece_of[start] != kNone) continue;
+    piece_of[start] = pieces;
+    stack.assign(1, start);
+    while (!stack.empty()) {
+      const std::uint32_t t = stack.back();
+      stack.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t edge = topology.edge_of(t, k);
+        if (!passes(edge)) continue;
+        for (const std::uint32_t other : topology.triangles_of(edge)) {
+          if (piece_of[other] != kNone) continue;
+          piece_of[other] = pieces;
+          stack.push_back(other);
+        }
+      }
+    }
+    ++pieces;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology) {
+  SurfaceParts parts;
+  parts.components = number_pieces(
+      mesh, topology, [](std::uint32_t) { return true; }, parts.component_of);
+  parts.patches = number_pieces(
+      mesh, topology, [&](std::uint32_t edge) { return topology.triangles_of(edge).size() == 2; }, parts.patch_of);
+  return parts;
+}
+
+void turn_triangle(Mesh& mesh, MeshTopology& topology, std::uint32_t triangle) {
+  std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+  topology.flip_triangle(triangle);
+}
+
+std::uint64_t make_patches_consistent(Mesh& mesh, MeshTopology& topology) {
+  constexpr std::uint8_t kUnseen = 2;
+  std::vector<std::uint8_t> turn(mesh.triangles.size(), kUnseen);
+  std::vector<std::uint32_t> patch;
+  std::uint64_t turned = 0;
+  for (std::uint32_t start = 0; start < turn.size(); ++start) {
+    if (turn[start] != kUnseen) continue;
+    turn[start] = 0;
+    patch.assign(1, start);
+    std::uint64_t wrong_before = 0, wrong_after = 0, minority = 0;  // edges, each counted from both sides
+    for (std::size_t at = 0; at < patch.size(); ++at) {
+      const std::uint32_t t = patch[at];
+      minority += turn[t];
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t edge = topology.edge_of(t, k);
+        const auto beside = topology.triangles_of(edge);
+        if (beside.size() != 2) continue;
+        const std::uint32_t other = beside[0] == t ? beside[1] : beside[0];
+        const bool agrees = runs_upwards(mesh.triangles[t], topology.ends(edge)) !=
+                            runs_upwards(mesh.triangles[other], topology.ends(edge));
+        if (turn[other] == kUnseen) {
+          turn[other] = static_cast<std::uint8_t>(agrees ? turn[t] : 1 - turn[t]);
+          patch.push_back(other);
+        }
+        if (!agrees) ++wrong_before;
+        if (agrees != (turn[t] == turn[other])) ++wrong_after;
+      }
+    }
+    if (wrong_after >= wrong_before) continue;
+    const std::uint8_t majority = 2 * minority > patch.size() ? 1 : 0;
+    for (const std::uint32_t t : patch) {
+      if (turn[t] == majority) continue;
+      turn_triangle(mesh, topology, t);
+      ++turned;
+    }
+  }
+  return turned;
+}
+
+}  // namespace medial_vk
