@@ -1,0 +1,138 @@
+#include "medial/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+namespace medial_vk {
+namespace {
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double norm(const Point& a) { return std::sqrt(dot(a, a)); }
+
+Point widen(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::array<float, 3> unit_float(const Point& v) {
+  const double length = norm(v);
+  return {static_cast<float>(v[0] / length), static_cast<float>(v[1] / length), static_cast<float>(v[2] / length)};
+}
+
+// Half the angle between two vectors, accurate for all angles (Kahan): of the spokes as they are written.
+double half_angle(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  const Point x = widen(a), y = widen(b);
+  const Point u = (1 / norm(x)) * x, v = (1 / norm(y)) * y;
+  return std::atan2(norm(u - v), norm(u + v));
+}
+
+class Certifier {
+ public:
+  Certifier(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side, const VoxelGrid& grid)
+      : bvh_(bvh),
+        parameters_(parameters),
+        grid_(grid),
+        longest_(longest_side),
+        epsilon_(parameters.epsilon * grid.voxel_size),
+        rounding_(distance_rounding(bvh, longest_side)) {}
+
+  /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
+  bool certify(MedialSphere& s) const {
+    if (!in_its_voxel(s)) return false;
+    const BvhHit nearest = bvh_.closest(s.centre);
+    const double distance = std::sqrt(nearest.squared_distance);
+    if (distance <= 2 * rounding_) return false;
+    s.radius = distance - rounding_;
+    const Point toward = (1 / distance) * (nearest.point - s.centre);
+    const Point grown_centre = s.centre - epsilon_ * toward;
+    const BvhHit grown = bvh_.closest(grown_centre);
+    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon.
+    if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
+    set_spokes(s, unit_float(toward), unit_float(grown.point - grown_centre));
+    if (!tip_is_near(s)) return false;
+    s.object_angle = static_cast<float>(half_angle(s.spoke_a, s.spoke_b));
+    return is_salient(s);
+  }
+
+ private:
+  // The distance is the length of a difference of points that are themselves sums of at most three products: with
+  // u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side.
+  // The units of the mesh add one rounding of the coordinates, u times their magnitude, for whoever moves the origin.
+  static double distance_rounding(const Bvh& bvh, double longest) {
+    constexpr double u = 0x1p-53;
+    double magnitude = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const BvhBox& box = bvh.nodes().front().box;
+      magnitude = std::max({magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+    }
+    return 32 * u * longest + 4 * u * magnitude;
+  }
+
+  bool in_its_voxel(const MedialSphere& s) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell = std::floor((s.centre[axis] - grid_.origin[axis]) / grid_.voxel_size);
+      if (cell != static_cast<double>(s.voxel[axis])) return false;
+    }
+    return true;
+  }
+
+  // Spoke b is the direction that the search saw on the other side of the sheet. Where the two contacts tie within the
+  // rounding of the device, exact arithmetic may call the other one nearest: then the device's spoke a is spoke b.
+  void set_spokes(MedialSphere& s, const std::array<float, 3>& a, const std::array<float, 3>& beyond) const {
+    const bool swapped = dot(widen(a), widen(s.spoke_b)) > dot(widen(a), widen(s.spoke_a));
+    const std::array<float, 3> b = swapped ? s.spoke_a : s.spoke_b;
+    s.spoke_a = a;
+    s.spoke_b = unit_float(widen(b));
+    if (!tip_is_near(s)) s.spoke_b = beyond;
+  }
+
+  // Lemma 2.4: the tip of spoke b is within 2 epsilon of the boundary.
+  bool tip_is_near(const MedialSphere& s) const {
+    return bvh_.any_within(s.centre + s.radius * widen(s.spoke_b), 2 * epsilon_ * (1 - 1e-6));
+  }
+
+  bool is_salient(const MedialSphere& s) const {
+    const double angle = half_angle(s.spoke_a, s.spoke_b);
+    return angle >= parameters_.object_angle ||
+           (parameters_.radius > 0 && s.radius >= parameters_.radius * longest_);
+  }
+
+  const Bvh& bvh_;
+  const ExtractionParameters& parameters_;
+  const VoxelGrid& grid_;
+  double longest_, epsilon_, rounding_;
+};
+
+}  // namespace
+
+CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
+                              Extraction& extraction, unsigned threads) {
+  std::vector<MedialSphere>& spheres = extraction.spheres;
+  const Certifier certifier(bvh, parameters, longest_side, extraction.grid);
+  std::vector<std::uint8_t> passed(spheres.size());
+  const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  const auto certify_part = [&](std::size_t part) {
+    for (std::size_t i = part * spheres.size() / count; i < (part + 1) * spheres.size() / count; ++i)
+      passed[i] = certifier.certify(spheres[i]) ? 1 : 0;
+  };
+  std::vector<std::thread> workers;
+  for (std::size_t part = 1; part < count; ++part) workers.emplace_back(certify_part, part);
+  certify_part(0);
+  for (std::thread& worker : workers) worker.join();
+
+  CertifyReport report;
+  std::vector<MedialSphere> kept;
+  kept.reserve(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    if (passed[i]) kept.push_back(spheres[i]);
+  report.passed = kept.size();
+  report.rejected = spheres.size() - kept.size();
+  spheres = std::move(kept);
+  extraction.counters.found -= report.rejected;
+  extraction.counters.undecided += report.rejected;
+  return report;
+}
+
+}  // namespace medial_vk
