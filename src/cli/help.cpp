@@ -6,8 +6,8 @@
 namespace medial_vk::cli {
 
 std::string help_text() {
-  return R"(medial-vk finds the medial spheres of a solid: balls inside a triangle mesh that
-touch its surface in two places, at most one per voxel.
+  return R"(medial-vk finds the medial spheres of a solid: balls inside a triangle mesh
+that touch its surface in two places, at most one per voxel.
 
 Usage:
   medial-vk [options] MESH       MESH is OBJ, PLY, STL or OFF; "-" reads standard input
@@ -19,8 +19,8 @@ Examples:
   medial-vk bunny.obj --check                     proves every ball again on the CPU
 
 Output:
-  -o, --output FILE     medial points as .ply or .csv; "-": PLY on standard output
-                        (default: name of MESH with .medial.ply, in this folder)
+  -o, --output FILE     medial points as .ply or .csv; "-": PLY on standard
+                        output (default: MESH's name with .medial.ply, here)
       --ascii           PLY as text instead of binary
       --picture FILE    a .png of the mesh with its medial points
       --report FILE     everything about the run as JSON; "-": standard output
@@ -28,17 +28,17 @@ Output:
 What is looked for (lengths are fractions, so units do not matter):
       --resolution N    voxels along the longest side of the bounding box,
                         1 to 4096 (default 160)
-      --object-angle A  keep points whose object angle, half the angle between the
-                        directions to the two touching points, is at least A
-                        radians, between 0 and pi/2 (default 0.6)
+      --object-angle A  keep points whose object angle, half the angle between
+                        the directions to the two touching points, is at least
+                        A radians, between 0 and pi/2 (default 0.6)
       --radius R        also keep every ball of radius above R times the longest
                         side, 0 to 1 (default 0: off)
       --epsilon E       how far a point may be from the medial surface, as a
                         fraction of the voxel side, 0.001 to 0.5 (default 0.01)
       --mode MODE       certified: voxels are dismissed by proof (default)
                         thesis: the published search by sampled flux
-      --extra-levels N  how often a difficult voxel is halved before it counts as
-                        undecided, 0 to 8 (default 4)
+      --extra-levels N  how often a difficult voxel is halved before it counts
+                        as undecided, 0 to 8 (default 4)
       --simplify        drop points within E of another one in a voxel beside it
       --perturb A       move every vertex by up to A times the longest side,
                         0 to 0.1, for degenerate solids (default 0: off)
@@ -50,12 +50,12 @@ Where it runs:
                         environment variable MEDIAL_VK_DEVICE, else the best)
       --backend B       vulkan (default), or cpu: the reference in double
                         precision, slow, needs no Vulkan
-      --memory M        device memory to stay below, in MiB or as 2G (default 1G)
+      --memory M        device memory to stay below, MiB or as 2G (default 1G)
       --threads N       CPU threads, 0 for all (default 0)
 
 Other:
-      --check           test every ball of the output against the mesh on the CPU,
-                        print a table, and fail if any ball fails
+      --check           test every ball of the output against the mesh on the
+                        CPU, print a table, and fail if any ball fails
   -q, --quiet           only errors
   -v, --verbose         more about levels and time
       --version         print the version and exit
@@ -64,9 +64,9 @@ Other:
 Results go to files or standard output, messages to standard error. Files appear
 whole or not at all.
 
-Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh unreadable or invalid,
-4 no usable Vulkan device, 5 out of memory, 6 cannot write, 7 --check failed,
-130 interrupted.
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh unreadable or
+invalid, 4 no usable Vulkan device, 5 out of memory, 6 cannot write, 7 --check
+failed, 130 interrupted.
 )";
 }
 

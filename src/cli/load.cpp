@@ -18,8 +18,13 @@ void carry_over(const MeshReport& before, MeshReport& after) {
   after.unused_vertices += before.unused_vertices;
   after.fallback_polygons += before.fallback_polygons;
   after.degenerate_dropped += before.degenerate_dropped;
+  after.caps_repaired += before.caps_repaired;
   after.duplicates_dropped += before.duplicates_dropped;
+  after.inner_walls_dropped += before.inner_walls_dropped;
   after.reoriented_faces += before.reoriented_faces;
+  after.minority_faces += before.minority_faces;
+  after.reoriented_components += before.reoriented_components;
+  after.inside_out = after.inside_out || before.inside_out;
   std::vector<std::string> assumptions = before.assumptions;
   for (std::string& assumption : after.assumptions) {
     const bool known = std::find(assumptions.begin(), assumptions.end(), assumption) != assumptions.end();

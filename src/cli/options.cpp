@@ -142,7 +142,8 @@ std::string suggestion(const CLI::App& app, const std::string& unknown) {
 }
 
 Status check_extras(const CLI::App& app) {
-  const std::vector<std::string> extras = app.remaining();
+  std::vector<std::string> extras = app.remaining();
+  std::erase(extras, "--");  // CLI11 counts the mark itself.
   for (const std::string& extra : extras) {
     if (extra.size() > 1 && extra[0] == '-') {
       return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
@@ -155,7 +156,7 @@ Status check_extras(const CLI::App& app) {
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
 bool is_png(const std::string& path) {

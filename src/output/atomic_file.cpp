@@ -53,6 +53,9 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
+/// As the process acts, not as the user who started it: that is who creates files.
+bool may(const std::string& path, int mode) { return ::faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0; }
+
 Status write_standard_output(std::string_view bytes) {
   if (write_all(STDOUT_FILENO, bytes)) return {};
   return write_error("to standard output", "", errno);
@@ -149,11 +152,10 @@ Status check_writable(const std::string& path) {
   const bool exists = stat(path.c_str(), &existing) == 0;
   if (exists && S_ISDIR(existing.st_mode)) return write_error(path, "", EISDIR);
   if (exists && !S_ISREG(existing.st_mode)) {
-    return access(path.c_str(), W_OK) == 0 ? Status() : Status(write_error(path, "", errno));
+    return may(path, W_OK) ? Status() : Status(write_error(path, "", errno));
   }
   const std::string folder = folder_of(follow_links(path));
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    return write_error(path, fmt::format("folder {}: ", folder).c_str(), errno);
+  if (!may(folder, W_OK | X_OK)) return write_error(path, fmt::format("folder {}: ", folder).c_str(), errno);
   return {};
 }
 

@@ -1,0 +1,235 @@
+// The command line from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "output/medial_file.h"
+#include "support/solids.h"
+#include "tool.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::run_tool;
+using test::ToolCall;
+using test::ToolResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+std::string obj_of(const Mesh& mesh) {
+  std::string text;
+  for (const Point& v : mesh.vertices) text += fmt::format("v {:.17g} {:.17g} {:.17g}\n", v[0], v[1], v[2]);
+  for (const Triangle& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+std::string small_part() {
+  Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);
+  test::rotate(mesh, {1, 2, 3}, 0.4);
+  return obj_of(mesh);
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() { test::write_file(path("part.obj"), small_part()); }
+
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+  ToolResult run(const std::vector<std::string>& arguments) const { return run_tool({arguments, path("")}); }
+
+  /// A quick run on the CPU with further options.
+  ToolResult run_cpu(std::vector<std::string> arguments) const {
+    for (const char* argument : {"--backend", "cpu", "--resolution", "12"}) arguments.push_back(argument);
+    return run(arguments);
+  }
+
+  MedialFile points(const std::string& name) const {
+    Result<MedialFile> file = decode_ply(read_file(path(name)), name);
+    EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.error().message);
+    return file.ok() ? std::move(file).value() : MedialFile{};
+  }
+
+  test::ScratchFolder folder_;
+};
+
+TEST_F(CommandLine, HelpAndVersionGoToStandardOutput) {
+  const ToolResult help = run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr("Usage:"));
+  EXPECT_THAT(help.err, IsEmpty());
+  const ToolResult version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, StartsWith("medial-vk "));
+}
+
+TEST_F(CommandLine, WrongUsageIs2) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"part.obj", "--bogus"},
+                                                    {"part.obj", "--resolution", "0"},
+                                                    {"part.obj", "-o", "part.xyz"},
+                                                    {"part.obj", "other.obj"}}) {
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_THAT(result.err, StartsWith("medial-vk: "));
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
+}
+
+TEST_F(CommandLine, UnreadableOrInvalidMeshIs3) {
+  test::write_file(path("garbage.obj"), "v 1 2\nf 1 2 3\n");
+  test::write_file(path("empty.stl"), "");
+  for (const char* mesh : {"missing.obj", "garbage.obj", "empty.stl"}) {
+    const ToolResult result = run_cpu({mesh});
+    EXPECT_EQ(result.exit_code, 3) << mesh << ": " << result.err;
+    EXPECT_THAT(result.err, HasSubstr(mesh));
+  }
+  EXPECT_THAT(folder_.names(), ElementsAre("empty.stl", "garbage.obj", "part.obj"));
+}
+
+TEST_F(CommandLine, NoDeviceIs4AndSaysWhatToDo) {
+  ToolCall call = {{"part.obj"}, path("")};
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) call.environment[name] = "/nowhere/none.json";
+  const ToolResult result = run_tool(call);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("mesa-vulkan-drivers"));
+  EXPECT_THAT(result.err, HasSubstr("--backend cpu"));
+  call.arguments = {"--list-devices"};
+  EXPECT_EQ(run_tool(call).exit_code, 4);
+  EXPECT_EQ(run({"part.obj", "--device", "no device has this name"}).exit_code, 4);
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
+}
+
+TEST_F(CommandLine, OutOfMemoryIs5) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer needs all of the address space";
+#endif
+  ToolCall call = {{"-", "--backend", "cpu"}, path("")};
+  for (int i = 0; i < 2'000'000; ++i) call.standard_input += "v 1 2 3\n";
+  call.address_space = 40ull << 20;
+  const ToolResult result = run_tool(call);
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("memory"));
+}
+
+TEST_F(CommandLine, CannotWriteIs6AndLeavesNothing) {
+  EXPECT_EQ(run_cpu({"part.obj", "-o", "no/such/folder/a.ply"}).exit_code, 6);
+  EXPECT_EQ(run_cpu({"part.obj", "--report", "no/such/folder/a.json"}).exit_code, 6);
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
+}
+
+TEST_F(CommandLine, AFullDiskIs6AndKeepsTheOldFile) {
+  test::write_file(path("part.medial.ply"), "old");
+  const ToolResult result = run_cpu({"part.obj", "--report", "/dev/full"});
+  EXPECT_EQ(result.exit_code, 6) << result.err;
+  EXPECT_EQ(read_file(path("part.medial.ply")), "old");
+  EXPECT_THAT(folder_.names(), ElementsAre("part.medial.ply", "part.obj"));
+}
+
+TEST_F(CommandLine, WritesThePointsUnderTheirDefaultName) {
+  const ToolResult result = run_cpu({"part.obj"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("part.medial.ply"));
+  EXPECT_THAT(result.err, Not(HasSubstr("\r")));  // No progress bar where there is no terminal.
+  EXPECT_THAT(folder_.names(), ElementsAre("part.medial.ply", "part.obj"));
+  EXPECT_GT(points("part.medial.ply").spheres.size(), 20u);
+}
+
+TEST_F(CommandLine, QuietSaysNothing) {
+  const ToolResult result = run_cpu({"part.obj", "-q"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(CommandLine, SameInputSameBytesInEveryForm) {
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "a.ply"}).exit_code, 0);
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "b.ply"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("a.ply")), read_file(path("b.ply")));
+
+  const ToolResult streamed =
+      run_tool({{"-", "-o", "-", "--backend", "cpu", "--resolution", "12"}, path(""), small_part()});
+  EXPECT_EQ(streamed.exit_code, 0) << streamed.err;
+  EXPECT_EQ(streamed.out, read_file(path("a.ply")));
+
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "text.ply", "--ascii"}).exit_code, 0);
+  const MedialFile binary = points("a.ply");
+  const MedialFile text = points("text.ply");
+  EXPECT_EQ(encode_ply(text.header, text.spheres, false), encode_ply(binary.header, binary.spheres, false));
+
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "table.csv"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("table.csv")), encode_csv(binary.spheres));
+}
+
+TEST_F(CommandLine, StandardInputHasItsOwnDefaultName) {
+  const ToolResult result = run_tool({{"-", "--backend", "cpu", "--resolution", "12"}, path(""), small_part()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "stdin.medial.ply"));
+}
+
+TEST_F(CommandLine, CheckPassesAndPrintsItsTable) {
+  const ToolResult result = run_cpu({"part.obj", "--check", "--report", "r.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.out, StartsWith("condition"));
+  const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
+  EXPECT_EQ(report["certificate"]["passed"], true);
+  EXPECT_EQ(report["points"]["written"], points("part.medial.ply").spheres.size());
+}
+
+TEST_F(CommandLine, ReportAndPicture) {
+  const ToolResult result = run_cpu({"part.obj", "--report", "-", "--picture", "p.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["parameters"]["resolution"], 12);
+  EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
+}
+
+TEST_F(CommandLine, PerturbIsSeededAndSimplifyOnlyRemoves) {
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "plain.ply"}).exit_code, 0);
+  for (const char* name : {"a.ply", "b.ply"}) {
+    ASSERT_EQ(run_cpu({"part.obj", "-o", name, "--perturb", "1e-4", "--seed", "7"}).exit_code, 0);
+  }
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "c.ply", "--perturb", "1e-4", "--seed", "8"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("a.ply")), read_file(path("b.ply")));
+  EXPECT_NE(read_file(path("a.ply")), read_file(path("c.ply")));
+  EXPECT_NE(read_file(path("a.ply")), read_file(path("plain.ply")));
+
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "thin.ply", "--simplify", "--epsilon", "0.5"}).exit_code, 0);
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "thick.ply", "--epsilon", "0.5"}).exit_code, 0);
+  EXPECT_LT(points("thin.ply").spheres.size(), points("thick.ply").spheres.size());
+}
+
+TEST_F(CommandLine, ThesisModeRuns) {
+  const ToolResult result = run_cpu({"part.obj", "--mode", "thesis", "--check"});
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+}
+
+class Interrupted : public CommandLine, public testing::WithParamInterface<int> {};
+
+TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
+  // Far more work than can be done before the signal comes.
+  Mesh torus = test::make_torus(1.0, 0.4, 48, 96);
+  test::write_file(path("torus.obj"), obj_of(torus));
+  test::Tool tool({{"torus.obj", "--backend", "cpu", "--resolution", "512", "--report", "r.json"}, path("")});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ASSERT_TRUE(tool.running());
+  tool.send(GetParam());
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "torus.obj"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,241 @@
+// The command line as a struct: defaults, every option, ranges, and messages that help.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "cli/numbers.h"
+#include "cli/options.h"
+#include "cli/parse_number.h"
+#include "cli/progress.h"
+
+namespace medial_vk::cli {
+namespace {
+
+using testing::HasSubstr;
+
+Options parsed(const std::vector<std::string>& arguments) {
+  Result<Options> options = parse_options(arguments);
+  EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
+  return options.ok() ? options.value() : Options{};
+}
+
+std::string message_of(const std::vector<std::string>& arguments) {
+  const Result<Options> options = parse_options(arguments);
+  EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
+  if (options.ok()) return "";
+  EXPECT_EQ(options.error().code, ErrorCode::kUsage);
+  return options.error().message;
+}
+
+TEST(Options, DefaultsAreThoseOfTheContract) {
+  const Options options = parsed({"models/bunny.obj"});
+  EXPECT_EQ(options.action, Action::kExtract);
+  EXPECT_EQ(options.mesh, "models/bunny.obj");
+  EXPECT_EQ(options.output, "bunny.medial.ply");
+  EXPECT_EQ(options.format, MedialFormat::kPly);
+  EXPECT_EQ(options.parameters.mode, Mode::kCertified);
+  EXPECT_EQ(options.parameters.resolution, 160u);
+  EXPECT_EQ(options.parameters.object_angle, 0.6);
+  EXPECT_EQ(options.parameters.radius, 0.0);
+  EXPECT_EQ(options.parameters.epsilon, 0.01);
+  EXPECT_EQ(options.parameters.extra_levels, 4u);
+  EXPECT_EQ(options.backend, Backend::kVulkan);
+  EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
+  EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty());
+}
+
+TEST(Options, EveryOptionIsUnderstood) {
+  const Options options = parsed({"a.obj",
+                                  "-o",
+                                  "b.csv",
+                                  "--ascii",
+                                  "--report",
+                                  "r.json",
+                                  "--picture",
+                                  "p.png",
+                                  "--resolution",
+                                  "80",
+                                  "--object-angle",
+                                  "0.5",
+                                  "--radius",
+                                  "0.25",
+                                  "--epsilon",
+                                  "0.02",
+                                  "--mode",
+                                  "thesis",
+                                  "--extra-levels",
+                                  "2",
+                                  "--simplify",
+                                  "--perturb",
+                                  "1e-4",
+                                  "--seed",
+                                  "18446744073709551615",
+                                  "--device",
+                                  "llvm",
+                                  "--memory",
+                                  "2G",
+                                  "--threads",
+                                  "3",
+                                  "--check",
+                                  "-v"});
+  EXPECT_EQ(options.output, "b.csv");
+  EXPECT_EQ(options.format, MedialFormat::kCsv);
+  EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
+  EXPECT_EQ(options.report, "r.json");
+  EXPECT_EQ(options.picture, "p.png");
+  EXPECT_EQ(options.parameters.resolution, 80u);
+  EXPECT_EQ(options.parameters.object_angle, 0.5);
+  EXPECT_EQ(options.parameters.radius, 0.25);
+  EXPECT_EQ(options.parameters.epsilon, 0.02);
+  EXPECT_EQ(options.parameters.mode, Mode::kThesis);
+  EXPECT_EQ(options.parameters.extra_levels, 2u);
+  EXPECT_EQ(options.perturb, 1e-4);
+  EXPECT_EQ(options.seed, 18446744073709551615ull);
+  EXPECT_EQ(options.device, "llvm");
+  EXPECT_EQ(options.parameters.memory_budget, 2ull << 30);
+  EXPECT_EQ(options.threads, 3u);
+}
+
+TEST(Options, ShortAndJoinedForms) {
+  EXPECT_EQ(parsed({"--output=b.ply", "a.obj"}).output, "b.ply");
+  EXPECT_TRUE(parsed({"-q", "a.obj"}).quiet);
+  EXPECT_EQ(parsed({"--backend", "cpu", "a.obj"}).backend, Backend::kCpu);
+  EXPECT_EQ(parsed({"--", "-odd-name.obj"}).mesh, "-odd-name.obj");
+}
+
+TEST(Options, StandardStreams) {
+  EXPECT_EQ(parsed({"-"}).output, "stdin.medial.ply");
+  const Options options = parsed({"-", "-o", "-"});
+  EXPECT_EQ(options.output, "-");
+  EXPECT_EQ(options.format, MedialFormat::kPly);
+  EXPECT_THAT(message_of({"a.obj", "-o", "-", "--report", "-"}), HasSubstr("--output and --report are the same"));
+}
+
+TEST(Options, ActionsNeedNoMesh) {
+  EXPECT_EQ(parsed({"--help"}).action, Action::kHelp);
+  EXPECT_EQ(parsed({"-h"}).action, Action::kHelp);
+  EXPECT_EQ(parsed({"--version"}).action, Action::kVersion);
+  EXPECT_EQ(parsed({"--list-devices"}).action, Action::kListDevices);
+}
+
+TEST(Options, MissingAndSuperfluousArguments) {
+  EXPECT_THAT(message_of({}), HasSubstr("no MESH"));
+  EXPECT_THAT(message_of({"a.obj", "b.obj"}), HasSubstr("'b.obj'"));
+  EXPECT_THAT(message_of({"a.obj", "--resolution"}), HasSubstr("--resolution"));
+  EXPECT_THAT(message_of({"a.obj", "--seed", "1", "--seed", "2"}), HasSubstr("--seed"));
+}
+
+TEST(Options, UnknownOptionsGetASuggestion) {
+  EXPECT_THAT(message_of({"a.obj", "--resoltion", "80"}), HasSubstr("did you mean --resolution?"));
+  EXPECT_THAT(message_of({"a.obj", "--resoltion=80"}), HasSubstr("did you mean --resolution?"));
+  EXPECT_THAT(message_of({"--bogus-beyond-recognition", "a.obj"}),
+              HasSubstr("unknown option --bogus-beyond-recognition"));
+  EXPECT_THAT(message_of({"a.obj", "-z"}), HasSubstr("unknown option -z"));
+}
+
+struct BadValue {
+  const char* option;
+  const char* value;
+};
+
+class OptionsOutOfRange : public testing::TestWithParam<BadValue> {};
+
+TEST_P(OptionsOutOfRange, IsRefusedWithTheNameAndTheValue) {
+  const auto& [option, value] = GetParam();
+  const std::string message = message_of({"a.obj", option, value});
+  EXPECT_THAT(message, HasSubstr(option));
+  EXPECT_THAT(message, HasSubstr(value));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , OptionsOutOfRange,
+    testing::Values(BadValue{"--resolution", "0"}, BadValue{"--resolution", "4097"}, BadValue{"--resolution", "-5"},
+                    BadValue{"--resolution", "1e3"}, BadValue{"--resolution", "80x"}, BadValue{"--resolution", "80.5"},
+                    BadValue{"--resolution", "99999999999999999999"}, BadValue{"--object-angle", "0"},
+                    BadValue{"--object-angle", "1.5708"}, BadValue{"--object-angle", "nan"},
+                    BadValue{"--object-angle", "abc"}, BadValue{"--radius", "-0.1"}, BadValue{"--radius", "1.01"},
+                    BadValue{"--epsilon", "0.0009"}, BadValue{"--epsilon", "0.51"}, BadValue{"--epsilon", "inf"},
+                    BadValue{"--mode", "fast"}, BadValue{"--backend", "cuda"}, BadValue{"--extra-levels", "9"},
+                    BadValue{"--perturb", "0.2"}, BadValue{"--seed", "-1"}, BadValue{"--seed", "18446744073709551616"},
+                    BadValue{"--memory", "63"}, BadValue{"--memory", "many"}, BadValue{"--memory", "2X"},
+                    BadValue{"--threads", "-1"}, BadValue{"--picture", "p.jpg"}, BadValue{"--output", "b.stl"},
+                    BadValue{"--output", "noextension"}));
+
+TEST(Options, MessagesNameTheRange) {
+  EXPECT_EQ(message_of({"a.obj", "--resolution", "5000"}), "--resolution: 5000 is not between 1 and 4096 voxels");
+  EXPECT_EQ(message_of({"a.obj", "--mode", "fast"}), "--mode: 'fast' is unknown; use certified or thesis");
+  EXPECT_THAT(message_of({"a.obj", "-o", "b.stl"}), HasSubstr("use .ply or .csv"));
+}
+
+TEST(Options, ContradictionsAreRefused) {
+  message_of({"a.obj", "-q", "-v"});
+  message_of({"a.obj", "--backend", "cpu", "--device", "0"});
+  EXPECT_THAT(message_of({"a.ply", "-o", "./a.ply"}), HasSubstr("would overwrite the mesh"));
+  EXPECT_THAT(message_of({"a.obj", "-o", "b.ply", "--report", "./b.ply"}), HasSubstr("same file"));
+}
+
+TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "options_link";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "a.ply") << "ply\n";
+  std::error_code error;
+  std::filesystem::remove(folder / "link.ply", error);
+  std::filesystem::create_symlink("a.ply", folder / "link.ply");
+  EXPECT_THAT(message_of({(folder / "a.ply").string(), "-o", (folder / "link.ply").string()}),
+              HasSubstr("would overwrite"));
+}
+
+TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
+  const std::string help = help_text();
+  for (const char* name : {"MESH",           "--output",       "--ascii",   "--report",  "--picture",
+                           "--resolution",   "--object-angle", "--radius",  "--epsilon", "--mode",
+                           "--extra-levels", "--simplify",     "--perturb", "--seed",    "--list-devices",
+                           "--device",       "--backend",      "--memory",  "--threads", "--check",
+                           "--quiet",        "--verbose",      "--version", "--help",    "130"}) {
+    EXPECT_THAT(help, HasSubstr(name));
+  }
+  std::size_t begin = 0;
+  for (std::size_t end = help.find('\n'); end != std::string::npos; end = help.find('\n', begin)) {
+    EXPECT_LE(end - begin, 80u) << help.substr(begin, end - begin);
+    begin = end + 1;
+  }
+}
+
+TEST(Options, MemorySuffixes) {
+  EXPECT_EQ(parse_memory("512").value(), 512ull << 20);
+  EXPECT_EQ(parse_memory("512MiB").value(), 512ull << 20);
+  EXPECT_EQ(parse_memory("512mb").value(), 512ull << 20);
+  EXPECT_EQ(parse_memory("1.5G").value(), 1536ull << 20);
+  EXPECT_EQ(parse_memory("1T").value(), 1ull << 40);
+  EXPECT_EQ(parse_memory("131072K").value(), 128ull << 20);
+  EXPECT_FALSE(parse_memory("").ok());
+  EXPECT_FALSE(parse_memory("G").ok());
+  EXPECT_FALSE(parse_memory("1.2.3G").ok());
+}
+
+TEST(OptionsText, NumbersForPeople) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+  EXPECT_EQ(duration(0.123), "0.12 s");
+  EXPECT_EQ(duration(12.3), "12 s");
+  EXPECT_EQ(duration(59.7), "1 min 00 s");
+  EXPECT_EQ(duration(185), "3 min 05 s");
+  EXPECT_EQ(duration(7800), "2 h 10 min");
+  EXPECT_EQ(byte_size(812), "812 B");
+  EXPECT_EQ(byte_size(1234567), "1.2 MB");
+  EXPECT_EQ(memory_size(512ull << 20), "512 MiB");
+  EXPECT_EQ(memory_size(3ull << 29), "1.5 GiB");
+}
+
+TEST(OptionsText, ProgressLine) {
+  EXPECT_THAT(progress_line("extract", 0.5, 10), HasSubstr("50 %, 10 s left"));
+  EXPECT_THAT(progress_line("extract", 0.0, 10), HasSubstr("  0 %"));
+  EXPECT_THAT(progress_line("extract", 2.0, 10), HasSubstr("100 %"));  // A share above 1 does not draw past the end.
+}
+
+}  // namespace
+}  // namespace medial_vk::cli

@@ -1,0 +1,136 @@
+// The report: every documented key is there, with the right type.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/summary.h"
+#include "cli/tables.h"
+#include "output/report_json.h"
+
+namespace medial_vk {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+RunRecord some_record() {
+  RunRecord record;
+  record.input = "part.stl";
+  record.output = "part.medial.ply";
+  record.parameters.radius = 0.1;
+  record.mesh.triangles = 12;
+  record.mesh.closed = true;
+  record.mesh.assumptions = {"Two holes were left open."};
+  record.mesh.upper = {2, 1, 1};
+  record.longest_side = 2;
+  record.grid = {{0, 0, 0}, 0.0125, {160, 80, 80}};
+  record.counters.levels = {{0.1, 1000, 200, 5000, 0}, {0.05, 1600, 300, 3000, 250}};
+  record.counters.found = 250;
+  record.counters.undecided = 3;
+  record.certify = {249, 1};
+  record.points = 249;
+  record.radii = Range{0.01, 0.5};
+  record.host_times = {{"read", 0.01}, {"extract", 2.0}};
+  record.device_times = {{"dismiss cells", 1.5}};
+  record.device = DeviceDescription{0, "Some GPU", "discrete", "driver 1.2", 0, 8ull << 30, true, ""};
+  return record;
+}
+
+TEST(ReportJson, HoldsEveryDocumentedKey) {
+  const json report = json::parse(report_json(some_record()));
+  for (const char* key : {"format", "program", "version", "input", "output", "parameters", "mesh", "grid", "voxels",
+                          "levels", "queries", "retries", "points", "seconds", "device", "certificate"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
+                          "simplify", "perturb", "seed", "memory_bytes"}) {
+    EXPECT_TRUE(report["parameters"].contains(key)) << key;
+  }
+  for (const char* key : {"vertices",
+                          "triangles",
+                          "components",
+                          "closed",
+                          "degenerate_dropped",
+                          "duplicates_dropped",
+                          "open_edges",
+                          "non_manifold_edges",
+                          "inconsistent_edges",
+                          "non_manifold_vertices",
+                          "reoriented_faces",
+                          "intersecting_faces",
+                          "intersections_known",
+                          "signed_volume",
+                          "lower",
+                          "upper",
+                          "longest_side",
+                          "assumptions",
+                          "merged_vertices",
+                          "unused_vertices",
+                          "fallback_polygons"}) {
+    EXPECT_TRUE(report["mesh"].contains(key)) << key;
+  }
+  EXPECT_EQ(report["parameters"]["mode"], "certified");
+  EXPECT_EQ(report["mesh"]["assumptions"][0], "Two holes were left open.");
+  EXPECT_EQ(report["grid"]["size"], json::array({160, 80, 80}));
+  EXPECT_EQ(report["voxels"]["found"], 250);
+  EXPECT_EQ(report["voxels"]["rejected"], 1);
+  EXPECT_EQ(report["levels"][1]["contacts"], 3000);
+  EXPECT_EQ(report["points"]["radius"]["greatest"], 0.5);
+  EXPECT_TRUE(report["points"]["object_angle"].is_null());
+  EXPECT_EQ(report["seconds"]["host"][1]["stage"], "extract");
+  EXPECT_EQ(report["seconds"]["device"][0]["seconds"], 1.5);
+  EXPECT_EQ(report["device"]["name"], "Some GPU");
+  EXPECT_TRUE(report["certificate"].is_null());
+}
+
+TEST(ReportJson, CertificateAndCpu) {
+  RunRecord record = some_record();
+  record.backend = Backend::kCpu;
+  record.device.reset();
+  record.parameters.mode = Mode::kThesis;
+  record.certificate.emplace();
+  record.certificate->lines = {{"radius <= exact distance", 249, 1, 1e-9, "longest sides", "ball 17: too big"}};
+  const json report = json::parse(report_json(record));
+  EXPECT_TRUE(report["device"].is_null());
+  EXPECT_EQ(report["parameters"]["backend"], "cpu");
+  EXPECT_EQ(report["parameters"]["samples"], json::array({400, 200, 100, 50}));
+  EXPECT_EQ(report["certificate"]["passed"], false);
+  EXPECT_EQ(report["certificate"]["conditions"][0]["failed"], 1);
+}
+
+TEST(ReportJson, NamesThatAreNoUtf8AreNoError) {
+  RunRecord record = some_record();
+  record.input = "caf\xe9.obj";
+  EXPECT_TRUE(json::accept(report_json(record)));
+}
+
+TEST(ReportTables, ColumnsAreAligned) {
+  const std::string table = cli::format_table({{"name"}, {"count", true}}, {{"a", "1"}, {"longer", "1,000"}});
+  EXPECT_EQ(table,
+            "name    count\n"
+            "a           1\n"
+            "longer  1,000\n");
+}
+
+TEST(ReportTables, CertificateNamesTheFirstFailure) {
+  reference::Certificate certificate;
+  certificate.lines = {{"centre inside", 10, 0, 0, "", ""}, {"radius", 10, 2, 0.5, "voxels", "ball 3 at (1, 2, 3)"}};
+  const std::string table = cli::certificate_table(certificate);
+  EXPECT_THAT(table, HasSubstr("condition"));
+  EXPECT_THAT(table, HasSubstr("0.5 voxels"));
+  EXPECT_THAT(table, HasSubstr("first failure: ball 3 at (1, 2, 3)"));
+}
+
+TEST(ReportSummary, SaysWhatMatters) {
+  const RunRecord record = some_record();
+  const std::string text = cli::opening(record) + cli::summary(record, 17000);
+  for (const char* part : {"part.stl", "12 triangles", "closed", "Two holes were left open.", "Some GPU", "249",
+                           "250 found", "3 undecided", "0.01 to 0.5", "extract 2.00 s", "part.medial.ply (17.0 kB)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(cli::details(record), HasSubstr("dismiss cells"));
+}
+
+}  // namespace
+}  // namespace medial_vk
