@@ -79,7 +79,7 @@ class CertifiedPipeline {
     const char* shader;
     std::vector<BufferRange> buffers;
     Reads reads = Reads::kNoMesh;
-    std::vector<std::uint32_t> constants;
+    std::vector<std::uint32_t> constants = {};
     std::uint32_t workgroup_size = 64;
   };
   struct Extent {
