@@ -61,7 +61,7 @@ void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const S
                const Sidedness& sides) {
   MeshReport& report = prepared.report;
   // The tree's winding numbers are good to this; where the sides are not clear, nothing is relied on.
-  const float margin = report.closed ? 0.0f : 0.01f;
+  const float margin = report.closed ? 0.0f : 0.03f;
   prepared.flags.assign(prepared.mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < prepared.flags.size(); ++i) {
     const float beside = sides.beside[i];

@@ -23,6 +23,17 @@ int sign_of_determinant(const Point& a, const Point& b, const Point& c) {
   return 0;
 }
 
+/// The sign of w.x, or 0 if rounding could have made it: w is taken as exact, x is a difference of doubles, so the error
+/// stays below 4u times the sum of the magnitudes.
+int sign_along(const Point& w, const Point& x) {
+  const double product = dot(w, x);
+  const double bound =
+      6 * 0x1p-53 * (std::abs(w[0] * x[0]) + std::abs(w[1] * x[1]) + std::abs(w[2] * x[2]));
+  return product > bound ? 1 : product < -bound ? -1 : 0;
+}
+
+Point unit(const Point& a) { return (1 / length(a)) * a; }
+
 }  // namespace
 
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
@@ -68,6 +79,14 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
   // until it touches a cone, and it holds one or two of the four directions. These are the candidates.
   const Point a[2] = {a1 - apex, a2 - apex};
   const Point b[2] = {b1 - apex, b2 - apex};
+  // First a guess that is right for most neighbours on a smooth surface.
+  const Point a_unit[2] = {unit(a[0]), unit(a[1])};
+  const Point b_unit[2] = {unit(b[0]), unit(b[1])};
+  const auto separates = [&](const Point& w) {
+    const int sign = sign_along(w, a[0]);
+    return sign != 0 && sign_along(w, a[1]) == sign && sign_along(w, b[0]) == -sign && sign_along(w, b[1]) == -sign;
+  };
+  if (separates((a_unit[0] + a_unit[1]) - (b_unit[0] + b_unit[1]))) return true;
   // The plane of one triangle: the other one strictly on one side.
   const int plane_a = sign_of_determinant(a[0], a[1], b[0]);
   if (plane_a != 0 && plane_a == sign_of_determinant(a[0], a[1], b[1])) return true;
@@ -94,6 +113,12 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
     if (own_b != 0 && sign_of_determinant(normal_b, b[i], a[0]) == -own_b &&
         sign_of_determinant(normal_b, b[i], a[1]) == -own_b) {
       return true;
+    }
+  }
+  // In one plane and with sides that continue each other's (a grid): between the sides.
+  for (const Point& side_a : a_unit) {
+    for (const Point& side_b : b_unit) {
+      if (separates(cross(normal_a, side_a + side_b))) return true;
     }
   }
   return false;

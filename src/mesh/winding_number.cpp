@@ -8,7 +8,7 @@ namespace medial_vk {
 namespace {
 
 /// Expand from this many radii on. Measured: see the unit test WindingNumber.TreeAgreesWithSum.
-constexpr double kFarRadii = 2.0;
+constexpr double kFarRadii = 2.5;
 
 Point centroid(const std::array<Point, 3>& t) {
   // By differences, so that far from the origin it stays within rounding of the triangle's plane.

@@ -24,7 +24,8 @@ class WindingTree {
   /// The tree must outlive this.
   explicit WindingTree(const TriangleTree& tree);
 
-  /// Error below about 2e-3 in the worst places of ordinary meshes (unit test), typically 1e-4.
+  /// Against the sum term by term: at most 0.03 in the worst places near ordinary meshes, 0.005 in the mean (measured,
+  /// and held by a unit test). Enough to round to the integer of a closed mesh.
   double at(const Point& p) const { return sum(p, kNoPlace); }
 
   /// At the centroid of the triangle at a place of the tree, without that triangle. The surface itself adds 1/2 just
