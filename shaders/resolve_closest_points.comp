@@ -5,12 +5,15 @@
 #include "tree_query.glsl"
 #include "closest_result.glsl"
 
+layout(constant_id = 2) const bool kSmallestIndex = false;  // as in tree_closest.glsl
+
 shared float best_distance[256];
 shared uint best_triangle[256];
 
 bool is_nearer(float d, uint triangle, float other_d, uint other) {
   bool tie = d == other_d && triangle != kNoHit && other != kNoHit;
-  return d < other_d || (tie && triangle_order[triangle] < triangle_order[other]);
+  if (!tie) return d < other_d;
+  return kSmallestIndex ? triangle_order[triangle] < triangle_order[other] : triangle < other;
 }
 
 void main() {

@@ -126,7 +126,7 @@ Status Scene::Impl::closest(std::span<const Point> points, std::size_t first, st
   std::vector<std::byte> bytes(count * 20);
   const auto record = [&](Recorder& r) {
     queries->closest(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
-                     answers.value().range(0, count * 16), hits.value().range());
+                     answers.value().range(0, count * 16), hits.value().range(), TreeQueries::Ties::kIndex);
     r.copy(hits.value(), 0, answers.value(), count * 16, count * 4);
     r.barrier();
   };

@@ -27,7 +27,7 @@ struct LeafRange {
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
   /// Triangles in a leaf of the device's tree, at most.
-  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr std::uint32_t kLeafSize = 8;
   /// Positions travel as floats in the tree's texels; 2^24 is the last that is exact. Also what a workgroup of 256
   /// lanes can look through within lavapipe's 65,535 loop iterations.
   static constexpr std::uint32_t kMostTriangles = 16'000'000;

@@ -54,12 +54,9 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
   const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
   const QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
                                     count.multiplier, mesh_->triangle_count, tolerance};
-  ProgramKey key{kernel.walk,
-                 static_cast<std::uint32_t>(buffers.size()),
-                 2,
-                 sizeof(constants),
-                 kWorkgroupSize,
-                 {mesh_->use_texels ? 1u : 0u}};
+  ProgramKey key{kernel.walk, static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize, {}};
+  key.constants.push_back(mesh_->use_texels ? 1u : 0u);
+  key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
   if (count.arguments != nullptr) {
     r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
   } else {
@@ -76,20 +73,21 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
 }
 
 void TreeQueries::closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest,
-                          BufferRange hits) const {
+                          BufferRange hits, Ties ties) const {
   const std::array<BufferRange, 3> own = {mesh_->triangle_info.range(), nearest, hits};
-  record(r, {"find_closest_points", "resolve_closest_points"}, count, own, queries, 0);
+  record(r, {"find_closest_points", "resolve_closest_points", {static_cast<std::uint32_t>(ties)}}, count, own, queries,
+         0);
 }
 
 void TreeQueries::empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const {
   const std::array<BufferRange, 2> own = {mesh_->triangle_info.range(), empty};
-  record(r, {"test_balls", "resolve_balls"}, count, own, queries, 0);
+  record(r, {"test_balls", "resolve_balls", {}}, count, own, queries, 0);
 }
 
 void TreeQueries::winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers,
                           float tolerance) const {
   const std::array<BufferRange, 1> own = {numbers};
-  record(r, {"find_winding_numbers", "resolve_winding_numbers"}, count, own, queries, tolerance);
+  record(r, {"find_winding_numbers", "resolve_winding_numbers", {}}, count, own, queries, tolerance);
 }
 
 Result<std::uint32_t> TreeQueries::read_unresolved_total() {

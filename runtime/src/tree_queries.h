@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "recorder.h"
 #include "scene.h"
@@ -31,8 +32,10 @@ class TreeQueries {
   /// to pass the query over (its results are left as they are). Each call is followed by a barrier.
   ///
   /// nearest: vec4, the point and its squared distance (3.4e38: none). hits: uint, feature << 24 | leaf position, or
-  /// 0xffffffff.
-  void closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest, BufferRange hits) const;
+  /// 0xffffffff. Among exact ties the smallest leaf position wins, or, for a little more time, the smallest index.
+  enum class Ties : std::uint32_t { kLeafPosition = 0, kIndex = 1 };
+  void closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest, BufferRange hits,
+               Ties ties = Ties::kLeafPosition) const;
   /// empty: uint, 1 if no point of the mesh is closer than the root of w.
   void empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const;
   /// numbers: vec2, the winding number and a bound of its error, at most `tolerance`.
@@ -45,6 +48,7 @@ class TreeQueries {
   struct Kernel {
     const char* walk;
     const char* resolve;
+    std::vector<std::uint32_t> constants;  // specialization constants from 2 on
   };
   TreeQueries(Context::Impl& context, const DeviceMesh& mesh) : context_(&context), mesh_(&mesh), arena_(context) {}
   void record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,

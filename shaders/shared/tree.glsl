@@ -18,7 +18,7 @@ const uint kLeaf = 1u << 24;
 const uint kFirstMask = kLeaf - 1u;
 const uint kSkipped = 0xfffffffeu;   // nothing here, more on the stack
 const uint kFinished = 0xffffffffu;  // nothing left
-const uint kMostLeafTriangles = 4u;  // DeviceMesh::kLeafSize
+const uint kMostLeafTriangles = 8u;  // DeviceMesh::kLeafSize
 const uint kStackSize = 48u;         // Bvh::kMaxDepth: a walk leaves one child behind per level
 
 uint tree_place(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }

@@ -9,8 +9,11 @@ struct TreeHit {
   bool complete;           // false: the walk was too long, ask all triangles
 };
 
-// Nearest triangle closer than sqrt(bound); if `any`, the first one that is found. Among exact ties the smallest index
-// of the input wins (triangle_order: leaf position to index).
+// Among exact ties the smallest index of the input wins (triangle_order: leaf position to index), which costs a seventh
+// more; else the smallest leaf position.
+layout(constant_id = 2) const bool kSmallestIndex = false;
+
+// Nearest triangle closer than sqrt(bound); if `any`, the first one that is found.
 TreeHit walk_tree(vec3 p, float bound, bool any) {
   uint places[kStackSize];
   float distances[kStackSize];
@@ -41,7 +44,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
     uint i = 0u;
     for (;;) {
       float d = squared_distance_to_triangle(p, load_triangle(first + i));
-      uint index = triangle_order[first + i];
+      uint index = kSmallestIndex && !any ? triangle_order[first + i] : first + i;
       bool nearer = i < count && (d < hit.squared_distance || (d == hit.squared_distance && index < best_index));
       hit.squared_distance = nearer ? d : hit.squared_distance;
       hit.triangle = nearer ? first + i : hit.triangle;
