@@ -44,15 +44,15 @@ Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, floa
   return best;
 }
 
-// The part of the line through the centre that lies in the cell's ball and, by a hair, inside the finest voxel.
+// The part of the line through the centre that lies in the cell's ball and in the finest voxel, both enlarged by
+// epsilon: a point within epsilon of the medial surface may stand for a sheet that runs along a face of its voxel, just
+// outside. Only ends inside the voxel are accepted (verify_lines.comp).
 bool clip_line(Cell cell, vec3 centre, vec3 direction, out float from, out float to) {
-  uint per_voxel = 1u << step.depth;
-  vec3 lower = vec3(uvec3(cell.x, cell.y, cell.z) / per_voxel) * step.voxel_size;
-  float margin = 1e-4 * step.voxel_size + step.slack * 0.25;
-  vec3 a = (lower + margin - centre) / direction, b = (lower + step.voxel_size - margin - centre) / direction;
+  vec3 lower = finest_voxel_corner(cell) - step.epsilon, upper = lower + step.voxel_size + 2.0 * step.epsilon;
+  vec3 a = (lower - centre) / direction, b = (upper - centre) / direction;
   vec3 low = min(a, b), high = max(a, b);
-  from = -step.circumradius;
-  to = step.circumradius;
+  from = -step.circumradius - step.epsilon;
+  to = step.circumradius + step.epsilon;
   for (uint k = 0; k < 3u; ++k) {
     if (abs(direction[k]) < 1e-6) continue;  // the centre is inside
     from = max(from, low[k]);

@@ -8,11 +8,19 @@
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // of the two grown ends
+layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
 
 // One hundredth of epsilon keeps the test clear of float rounding; certify_spheres() repeats it in double.
 const float kGrowthMargin = 0.01;
 // Closer to the boundary than this many rounding errors, directions are noise.
 const float kLeastRadius = 8.0;
+
+// By a hair, so that the point is in the voxel in double precision too.
+bool is_in_voxel(vec3 p, Cell cell) {
+  vec3 x = p - finest_voxel_corner(cell);
+  float margin = 1e-4 * step.voxel_size + 0.25 * step.slack;
+  return all(greaterThan(x, vec3(margin))) && all(lessThan(x, vec3(step.voxel_size - margin)));
+}
 
 bool is_medial(float distance_before, uint grown, float turn) {
   bool deep = distance_before >= step.radius;
@@ -29,7 +37,8 @@ void main() {
   // If the distances at the ends add up to more than the gap, the boundary does not pass between them. Else the
   // directions may differ only because one end lies outside, next to a crease of any angle.
   bool narrow = gap <= step.epsilon && lines[index].p.w + lines[index].q.w > 1.01 * gap;
-  bool p = narrow && is_medial(lines[index].p.w, 2 * index, turn);
-  bool q = narrow && is_medial(lines[index].q.w, 2 * index + 1, turn);
+  Cell cell = cells[lines[index].cell];
+  bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, 2 * index, turn);
+  bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
 }

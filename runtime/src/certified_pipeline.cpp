@@ -63,7 +63,8 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   // docs/theory.md, "How far to narrow". Four fifths of that leave room for D >= 4 epsilon and for rounding.
   const double angle = parameters.radius > 0 ? std::min(kDeepAngle, parameters.object_angle) : parameters.object_angle;
   const double sine = std::sin(angle);
-  p.narrowing_steps_ = steps_to_narrow(2 * kHalfDiagonal, 0.8 * parameters.epsilon * sine * sine);
+  p.narrowing_steps_ =
+      steps_to_narrow(2 * (kHalfDiagonal + parameters.epsilon), 0.8 * parameters.epsilon * sine * sine);
   p.rounds_ = divide_up(mesh.triangle_count, gpu::kEntriesPerRound);
   if (Status s = p.allocate(parameters.memory_budget); !s.ok()) return s.error();
   if (Status s = p.upload_treelets(); !s.ok()) return s.error();
@@ -156,10 +157,10 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   const double voxel = 1.0 / parameters_.resolution, epsilon = parameters_.epsilon * voxel;
   const double size = cell_size(level);
   const bool below = level > coarse_levels_;
-  // Lists serve every query of a point in the cell: the growth test reaches epsilon beyond its ball, and at the finest
-  // level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball lies in its parent's, so the
-  // same margin serves all levels above.
-  const double margin = below ? epsilon : std::max(epsilon, (1 - kHalfDiagonal) * voxel);
+  // Lists serve every query of a point in the cell: lines reach epsilon beyond its ball, the growth test epsilon
+  // beyond them, and at the finest level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball
+  // lies in its parent's, so the same margin serves all levels above.
+  const double margin = below ? 2 * epsilon : std::max(2 * epsilon, (1 - kHalfDiagonal) * voxel);
   const double deep = std::min(kDeepAngle, parameters_.object_angle);
   gpu::StepConstants step{};
   step.cell_size = static_cast<float>(size);

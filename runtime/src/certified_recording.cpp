@@ -155,7 +155,8 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
         {gpu::kLines}, step);
   }
   find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
-  run(r, {"verify_lines", {counters_.range(), lines_.range(), grown_nearest_.range()}}, {gpu::kLines}, step);
+  run(r, {"verify_lines", {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range()}},
+      {gpu::kLines}, step);
   run(r, side_kernel("decide_line_side", {counters_.range(), level.cells->range(), lines_.range()}), {gpu::kLines},
       step);
 }

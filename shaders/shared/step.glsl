@@ -18,6 +18,11 @@ uvec3 child_coordinates(Cell parent, uint child) {
 
 vec3 cell_centre(uvec3 coordinates) { return (vec3(coordinates) + 0.5) * step.cell_size; }
 
+// Lower corner of the finest voxel that a cell at or below the finest level is or lies in.
+vec3 finest_voxel_corner(Cell cell) {
+  return vec3(uvec3(cell.x, cell.y, cell.z) >> step.depth) * step.voxel_size;
+}
+
 vec3 unit_or_zero(vec3 v) {
   float squared = dot(v, v);
   return squared > 0.0 ? v * inversesqrt(squared) : vec3(0.0);
