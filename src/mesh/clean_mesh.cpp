@@ -135,8 +135,9 @@ void drop_degenerate(PreparedMesh& prepared) {
 }
 
 /// Pairs of opposite faces between two solids that touch: removing both leaves the same points inside, and the mesh
-/// closed. Such a wall is a connected set of pairs, all of whose rim is held by other faces; a sheet that is covered on
-/// both sides has a free rim, a surface that is doubled all over has none, and both keep one face of each pair.
+/// closed. Such a wall is a connected set of pairs, all of whose rim is held by an even number of other faces. A sheet
+/// that is covered on both sides has a free rim, a surface that is doubled all over has none, and where a closed
+/// surface has a face too much its rim is held by one face: all of these keep one face of each pair.
 void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint32_t>& first,
                       std::vector<std::uint8_t>& copies, std::vector<bool>& is_wall) {
   const std::vector<Triangle>& triangles = prepared.mesh.triangles;
@@ -148,7 +149,7 @@ void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint3
     if (first[start] != start || !is_pair(start) || seen[start]) continue;
     region.assign(1, start);
     seen[start] = true;
-    bool held = false, free_rim = false;
+    bool held = false, loose = false;
     for (std::size_t at = 0; at < region.size(); ++at) {
       for (int k = 0; k < 3; ++k) {
         std::uint32_t pairs = 0, others = 0;
@@ -164,11 +165,12 @@ void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint3
             region.push_back(t);
           }
         }
-        held = held || others > 0;
-        free_rim = free_rim || (pairs == 1 && others == 0);
+        const bool is_rim = pairs == 1;
+        held = held || (is_rim && others > 0);
+        loose = loose || (is_rim && (others == 0 || others % 2 != 0));
       }
     }
-    if (held && !free_rim) {
+    if (held && !loose) {
       for (const std::uint32_t t : region) is_wall[t] = true;
     }
   }

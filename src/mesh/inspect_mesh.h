@@ -16,11 +16,11 @@ std::vector<bool> inspect_topology(const Mesh& mesh, const MeshTopology& topolog
 /// Bounding box of the vertices, all of which must be in use.
 void measure_box(const Mesh& mesh, MeshReport& report);
 
-/// Volumes by the divergence theorem about the centre of the box.
+/// Volumes by the divergence theorem.
 struct Volumes {
-  double whole = 0;
-  double parts = 0;     ///< Sum of the absolute volumes of the components.
-  double rounding = 0;  ///< Bound of the rounding error of either.
+  double whole = 0;           ///< Signed, about `centre`.
+  double parts = 0;           ///< Sum of the absolute volumes of the components.
+  double parts_rounding = 0;  ///< Bound of the rounding error of `parts`.
 };
 Volumes measure_volumes(const Mesh& mesh, const SurfaceParts& parts, const Point& centre);
 

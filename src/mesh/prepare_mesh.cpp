@@ -79,7 +79,7 @@ void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const S
 /// Only what certainly encloses nothing is refused.
 Status check_enclosure(const MeshReport& report, const Volumes& volumes, const Sidedness& sides) {
   if (report.closed) {
-    if (volumes.parts > volumes.rounding) return {};
+    if (volumes.parts > volumes.parts_rounding) return {};
     return invalid("the mesh encloses nothing: it is closed, but its volume is 0");
   }
   constexpr float kClear = 0.01f;  // well above the error of the winding numbers; a flat sheet has 0
@@ -113,7 +113,7 @@ Result<PreparedMesh> prepare(Mesh mesh) {
   Point centre;
   for (int k = 0; k < 3; ++k) centre[k] = report.lower[k] + (report.upper[k] - report.lower[k]) / 2;
   Volumes volumes = measure_volumes(clean, parts, centre);
-  if (report.closed && volumes.whole < -volumes.rounding) {
+  if (report.closed && volumes.whole < 0) {
     for (std::uint32_t t = 0; t < clean.triangles.size(); ++t) turn_triangle(clean, topology, t);
     report.inside_out = true;
   }

@@ -23,12 +23,11 @@ int sign_of_determinant(const Point& a, const Point& b, const Point& c) {
   return 0;
 }
 
-/// The sign of w.x, or 0 if rounding could have made it: w is taken as exact, x is a difference of doubles, so the error
-/// stays below 4u times the sum of the magnitudes.
+/// The sign of w.x, or 0 if rounding could have made it: w is taken as exact, x is a difference of doubles, so the
+/// error stays below 4u times the sum of the magnitudes.
 int sign_along(const Point& w, const Point& x) {
   const double product = dot(w, x);
-  const double bound =
-      6 * 0x1p-53 * (std::abs(w[0] * x[0]) + std::abs(w[1] * x[1]) + std::abs(w[2] * x[2]));
+  const double bound = 6 * 0x1p-53 * (std::abs(w[0] * x[0]) + std::abs(w[1] * x[1]) + std::abs(w[2] * x[2]));
   return product > bound ? 1 : product < -bound ? -1 : 0;
 }
 

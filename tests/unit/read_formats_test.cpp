@@ -131,7 +131,7 @@ TEST(ReadFormats, DecimalCommaLocaleChangesNothing) {
   expect_same(read_text(to_off(mesh), "a.off"), mesh);
   expect_same(read_text(to_ascii_ply(mesh), "a.ply"), mesh);
   expect_same_corners(read_text(to_ascii_stl(mesh), "a.stl"), mesh);
-  EXPECT_EQ(message_of("f 1 2 12345\nv 1.5 0 0\n", "mesh.obj"), "mesh.obj:1: face uses vertex 12345 of 1");
+  EXPECT_EQ(message_of("f 1 1 12345\nv 1.5 0 0\n", "mesh.obj"), "mesh.obj:1: face uses vertex 12345 of 1");
   std::locale::global(before);
   std::setlocale(LC_ALL, "C");
 }
