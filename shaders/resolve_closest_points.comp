@@ -4,8 +4,7 @@
 #define QUERY_STORAGE_BUFFERS 8
 #include "tree_query.glsl"
 #include "closest_result.glsl"
-
-layout(constant_id = 2) const bool kSmallestIndex = false;  // as in tree_closest.glsl
+#include "tree_closest.glsl"
 
 shared float best_distance[256];
 shared uint best_triangle[256];
@@ -24,7 +23,9 @@ void main() {
   float best = q.w;
   uint triangle = kNoHit;
   for (uint t = lane; t < push.triangle_count; t += gl_WorkGroupSize.x) {
-    float d = squared_distance_to_triangle(q.xyz, load_triangle(t));
+    TriangleTexels texels = load_triangle(t);
+    float d = squared_distance_to_triangle(q.xyz, texels);
+    d *= foot_is_inside(q.xyz, texels) ? kPreferFaces : 1.0;
     bool nearer = is_nearer(d, t, best, triangle);
     best = nearer ? d : best;
     triangle = nearer ? t : triangle;

@@ -22,10 +22,7 @@ void main() {
     vec3 direction = unit_or_zero(to_boundary);
     bool edge_or_vertex = opposites[index].w >= 0.0;
     vec3 from_opposite = edge_or_vertex ? opposite_nearest[index].xyz - opposites[index].xyz : vec3(0.0);
-    // Nearest points are off by same_point, so directions by that over the distance.
-    float same = push.same_point * (inversesqrt(max(dot(to_boundary, to_boundary), 1e-20)) +
-                                    inversesqrt(max(dot(from_opposite, from_opposite), 1e-20)));
-    bool fan = edge_or_vertex && distance(direction, unit_or_zero(from_opposite)) <= same;
+    bool fan = edge_or_vertex && distance(direction, unit_or_zero(from_opposite)) <= push.same_direction;
     sum += fan ? 0.0 : dot(direction, point - s.xyz) / s.w;
     fans += fan ? 1.0 : 0.0;
     greatest = max(greatest, length(to_boundary));

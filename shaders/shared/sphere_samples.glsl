@@ -7,7 +7,7 @@ layout(push_constant) uniform Push {
   uint items;             // spheres, if items_counter is 0xffffffff
   uint items_counter;     // else counters[items_counter]
   uint samples;           // per sphere
-  float same_point;       // error of a nearest point, for telling two directions apart
+  float same_direction;   // directions that differ by less count as the same
 } push;
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };

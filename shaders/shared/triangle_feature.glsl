@@ -4,6 +4,13 @@
 #define MEDIAL_VK_TRIANGLE_FEATURE_GLSL
 #include "closest_point.glsl"
 
+bool foot_is_inside(vec3 p, TriangleTexels t) {
+  vec3 e = p - t.a.xyz;
+  vec3 f = e - t.ab.xyz;
+  return dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0 && dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0 &&
+         dot(cross(t.ac.xyz - t.ab.xyz, f), t.normal.xyz) > 0.0;
+}
+
 uint feature_of_triangle(vec3 p, TriangleTexels t) {
   vec3 e = p - t.a.xyz;
   vec3 f = e - t.ab.xyz;
@@ -18,9 +25,7 @@ uint feature_of_triangle(vec3 p, TriangleTexels t) {
   float d_ac = dot(to_ac, to_ac);
   float s = d_ac < d_ab ? s_ac : s_ab;
   s = dot(to_bc, to_bc) < min(d_ab, d_ac) ? s_bc : s;
-  bool inside = dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0 && dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0 &&
-                dot(cross(bc, f), t.normal.xyz) > 0.0;
-  return inside ? 0u : (s > 0.0 && s < 1.0 ? 1u : 2u);
+  return foot_is_inside(p, t) ? 0u : (s > 0.0 && s < 1.0 ? 1u : 2u);
 }
 
 #endif
