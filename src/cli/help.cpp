@@ -10,13 +10,13 @@ std::string help_text() {
 that touch its surface in two places, at most one per voxel.
 
 Usage:
-  medial-vk [options] MESH       MESH is OBJ, PLY, STL or OFF; "-" reads standard input
+  medial-vk [options] MESH     MESH is OBJ, PLY, STL or OFF; "-": standard input
 
 Examples:
-  medial-vk bunny.obj                             writes bunny.medial.ply here
-  medial-vk bunny.obj --picture bunny.png         and a picture of it
-  medial-vk part.stl -o part.csv --resolution 80  coarser, as a table
-  medial-vk bunny.obj --check                     proves every ball again on the CPU
+  medial-vk bunny.obj                          writes bunny.medial.ply here
+  medial-vk bunny.obj --picture bunny.png      and a picture of it
+  medial-vk part.stl -o p.csv --resolution 80  coarser, as a table
+  medial-vk bunny.obj --check                  tests every ball again on the CPU
 
 Output:
   -o, --output FILE     medial points as .ply or .csv; "-": PLY on standard

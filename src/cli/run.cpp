@@ -32,8 +32,10 @@ const char* const kNoDeviceHint =
     "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device "
     "(Debian: apt install libvulkan1 mesa-vulkan-drivers), or use --backend cpu, which needs no Vulkan.";
 
-Error with_hint(Error error) {
-  if (error.code == ErrorCode::kNoDevice) error.message += kNoDeviceHint;
+/// `wanted` is what --device named, or empty.
+Error with_hint(Error error, const std::string& wanted = {}) {
+  if (error.code != ErrorCode::kNoDevice) return error;
+  error.message += wanted.empty() ? kNoDeviceHint : "\nmedial-vk --list-devices shows what is here.";
   return error;
 }
 
@@ -107,7 +109,7 @@ class ExtractionRun {
     ContextOptions wanted;
     wanted.device = options_.device;
     Result<Context> context = Context::create(wanted);
-    if (!context) return with_hint(context.error());
+    if (!context) return with_hint(context.error(), options_.device);
     context_.emplace(std::move(context).value());
     record_.device = context_->device();
     record_.host_times.push_back({"device", stopwatch.lap()});
