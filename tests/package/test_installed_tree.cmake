@@ -1,5 +1,5 @@
 # Installs the build into an empty folder, moves it, and builds and runs other people's programs against it: by
-# find_package, with a Vulkan of their own, and by pkg-config.
+# find_package, with a Vulkan of their own, by pkg-config; and with the source folder inside theirs.
 # Needs: BUILD_DIR SOURCE_DIR CONFIG GENERATOR CXX_COMPILER CXX_FLAGS NM VERSION
 cmake_minimum_required(VERSION 3.25)
 
@@ -95,5 +95,12 @@ separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
 run("pkg-config: build" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_DIR}/examples/embed.cpp ${flags}
   -o ${work}/embed_pkg_config)
 run_embed("pkg-config" ${work}/embed_pkg_config)
+
+# add_subdirectory
+run("embedded: configure" ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package/embedded -B ${work}/embedded -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
+  -DMEDIAL_VK_DIR=${SOURCE_DIR})
+run("embedded: build" ${CMAKE_COMMAND} --build ${work}/embedded --config ${CONFIG} --parallel 2)
+run_embed("add_subdirectory" ${work}/embedded/embed)
 
 file(REMOVE_RECURSE ${work})
