@@ -41,7 +41,7 @@ struct MeshReport {
   std::uint64_t minority_faces = 0;         ///< Turned over to agree with their neighbours.
   std::uint64_t reoriented_components = 0;  ///< Turned over as a whole, inside out where they lie.
   bool inside_out = false;                  ///< All turned over: the signed volume was negative.
-  std::uint64_t intersecting_faces = 0;     ///< Triangles crossed by another one that is no neighbour.
+  std::uint64_t intersecting_faces = 0;     ///< Triangles that meet another one elsewhere than in shared corners.
   bool intersections_known = true;          ///< False if the test was cut short by its budget.
   bool closed = false;                      ///< No open edge, orientation cancels on every edge.
   std::uint64_t faces_within = 0;           ///< Faces with the inside on both sides.
