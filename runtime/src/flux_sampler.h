@@ -29,6 +29,10 @@ class FluxSampler {
   void record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres, BufferRange directions,
               BufferRange fluxes) const;
 
+  /// After record(): the sample points of all spheres, `samples` each, and their nearest points with squared distances.
+  BufferRange samples() const { return samples_.range(); }
+  BufferRange nearest() const { return nearest_.range(); }
+
   static constexpr VkDeviceSize kBytesPerSample = 4 * 16 + 2 * 4;
 
  private:

@@ -1,10 +1,65 @@
 #include "thesis_extraction.h"
 
-namespace medial_vk {
+#include "extraction_result.h"
+#include "thesis_pipeline.h"
 
-Result<Extraction> extract_thesis(Context::Impl&, const MeshView&, const ExtractionParameters&,
-                                  const ProgressCallback&) {
-  return Error{ErrorCode::kUsage, "the mode \"thesis\" is not there yet"};
+namespace medial_vk {
+namespace {
+
+void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const ThesisPipeline& pipeline,
+                  ExtractionCounters& sum) {
+  for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {
+    const std::uint32_t* counts = &c[gpu::kThesisLevels + gpu::kThesisCountsPerLevel * level];
+    sum.levels[level].visited += counts[0];
+    sum.levels[level].kept += counts[1];
+    sum.queries += std::uint64_t{counts[2]} * pipeline.samples(level);
+  }
+  sum.levels.back().found += c[gpu::kThesisFound];
+  sum.found += c[gpu::kThesisFound];
+  sum.undecided += c[gpu::kThesisKept] - c[gpu::kThesisFound];
+  sum.queries += c[gpu::kThesisQueries];
+}
+
+Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline& pipeline, std::uint32_t first,
+                 std::uint32_t count, Extraction& extraction) {
+  auto times = run_commands(context, [&](Recorder& r) { return pipeline.record(r, first, count); });
+  if (!times.ok()) return times.error();
+  const auto counters = pipeline.read_counters();
+  auto points = pipeline.read_points(counters[gpu::kThesisFound]);
+  if (!points.ok()) return points.error();
+  for (const gpu::FoundPoint& point : points.value()) extraction.spheres.push_back(to_input_units(point, mesh));
+  add_counters(counters, pipeline, extraction.counters);
+  add_times(times.value(), extraction.device_times);
+  return {};
+}
+
+}  // namespace
+
+Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
+                                  const ProgressCallback& progress) {
+  Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
+  if (!mesh.ok()) return mesh.error();
+  Extraction extraction;
+  extraction.grid = make_grid(mesh.value(), parameters.resolution);
+  Result<ThesisPipeline> created = ThesisPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
+  if (!created.ok()) return created.error();
+  ThesisPipeline pipeline = std::move(created).value();
+  extraction.counters.levels.resize(pipeline.level_count());
+  for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {
+    extraction.counters.levels[level].cell_size = pipeline.cell_size(level);
+  }
+  const std::uint32_t total = pipeline.top_cells();
+  for (std::uint32_t first = 0; first < total; first += pipeline.chunk_size()) {
+    if (progress && !progress(static_cast<double>(first) / total)) {
+      return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
+    }
+    const std::uint32_t count = std::min(pipeline.chunk_size(), total - first);
+    Status status = run_chunk(context, mesh.value(), pipeline, first, count, extraction);
+    if (!status.ok()) return status.error();
+  }
+  sort_by_voxel(extraction.spheres);
+  if (progress) progress(1.0);
+  return extraction;
 }
 
 }  // namespace medial_vk
