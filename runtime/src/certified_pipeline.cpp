@@ -37,12 +37,6 @@ std::uint32_t steps_to_narrow(double from, double to) {
   return steps;
 }
 
-// Treelet, as shaders/gather_contacts.comp declares it.
-struct Treelet {
-  gpu::vec4 lower, upper;
-  uint first, count, padding_0, padding_1;
-};
-
 }  // namespace
 
 CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh,
@@ -136,9 +130,9 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
 
 Status CertifiedPipeline::upload_treelets() {
   const auto least = std::max(kLeastTreelet, divide_up(mesh_->triangle_count, kMostTreelets / 2));
-  std::vector<Treelet> treelets;
+  std::vector<gpu::Treelet> treelets;
   for (const LeafRange& range : mesh_->leaf_ranges(least)) {
-    Treelet t{};
+    gpu::Treelet t{};
     t.lower = {range.lower[0], range.lower[1], range.lower[2], 0};
     t.upper = {range.upper[0], range.upper[1], range.upper[2], 0};
     t.first = range.first;
@@ -147,10 +141,10 @@ Status CertifiedPipeline::upload_treelets() {
   }
   treelet_count_ = static_cast<uint>(treelets.size());
   Result<Buffer> buffer =
-      arena_.create_buffer(treelets.size() * sizeof(Treelet), MemoryKind::kDevice, "boxes of runs of triangles");
+      arena_.create_buffer(treelets.size() * sizeof(gpu::Treelet), MemoryKind::kDevice, "boxes of runs of triangles");
   if (!buffer.ok()) return buffer.error();
   treelets_ = buffer.value();
-  return upload(*context_, treelets_, std::as_bytes(std::span<const Treelet>(treelets)));
+  return upload(*context_, treelets_, std::as_bytes(std::span<const gpu::Treelet>(treelets)));
 }
 
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {

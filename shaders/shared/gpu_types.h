@@ -57,6 +57,13 @@ struct FoundPoint {
   uint cell;  // slot of the finest voxel
 };
 
+// A run of triangles that are neighbours in leaf order, and the box around them.
+struct Treelet {
+  vec4 lower;
+  vec4 upper;
+  uint first, count, padding_0, padding_1;
+};
+
 // What every kernel of the certified pipeline gets as push constants (at most 128 bytes). Lengths are fractions of the
 // longest side of the bounding box.
 struct StepConstants {

@@ -1,0 +1,91 @@
+#include "support/extraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "cpu_reference/certificate.h"
+#include "medial/reference_bridge.h"
+#include "mesh/load_mesh.h"
+
+namespace medial_vk::test {
+namespace {
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result.ok()) throw std::runtime_error(result.error().message);
+  return std::move(result).value();
+}
+
+}  // namespace
+
+PreparedMesh prepare(Mesh mesh) { return value_or_throw(prepare_mesh(std::move(mesh))); }
+
+Context make_context(bool validation) {
+  return value_or_throw(Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"}));
+}
+
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
+                                      const ExtractionParameters& parameters) {
+  return value_or_throw(extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1));
+}
+
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionParameters& parameters) {
+  return reference::extract(medial_vk::to_reference(mesh), medial_vk::to_reference(parameters));
+}
+
+testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
+                                            const ExtractionParameters& parameters) {
+  const VoxelGrid& grid = extraction.grid;
+  const reference::Certificate certificate = reference::check(
+      medial_vk::to_reference(mesh), medial_vk::to_reference(grid, extraction.spheres),
+      parameters.epsilon * grid.voxel_size, parameters.object_angle, parameters.radius * longest_side(mesh.report));
+  if (certificate.passed()) return testing::AssertionSuccess();
+  testing::AssertionResult failure = testing::AssertionFailure();
+  for (const reference::CertificateLine& line : certificate.lines) {
+    if (line.failed == 0) continue;
+    failure << line.condition << ": " << line.failed << " of " << line.tested << " fail, worst " << line.worst << " "
+            << line.unit << "; " << line.first_failure << "\n";
+  }
+  return failure;
+}
+
+std::string describe(const CertifiedExtraction& result) {
+  const ExtractionCounters& c = result.extraction.counters;
+  std::ostringstream out;
+  out << "found " << c.found << ", undecided " << c.undecided << ", rejected " << result.certify.rejected
+      << ", proved empty " << c.proved_empty << ", queries " << c.queries << ", retries " << c.retries << "; levels";
+  for (const ExtractionCounters::Level& level : c.levels) {
+    out << " [" << level.cell_size << ": " << level.visited << " visited, " << level.kept << " kept, " << level.contacts
+        << " contacts, " << level.found << " found]";
+  }
+  out << "; seconds";
+  for (const StageTime& t : result.host_times) out << " " << t.stage << " " << t.seconds;
+  for (const StageTime& t : result.extraction.device_times) out << ", device " << t.stage << " " << t.seconds;
+  return out.str();
+}
+
+SphereByVoxel spheres_by_voxel(const Extraction& extraction) {
+  SphereByVoxel out;
+  for (std::size_t i = 0; i < extraction.spheres.size(); ++i) {
+    const std::array<std::uint32_t, 3>& v = extraction.spheres[i].voxel;
+    out[{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])}] = i;
+  }
+  return out;
+}
+
+Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
+
+Voxel voxel_of(const VoxelGrid& grid, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d place = ((p - to_eigen(grid.origin)) / grid.voxel_size).array().floor();
+  return {static_cast<int>(place.x()), static_cast<int>(place.y()), static_cast<int>(place.z())};
+}
+
+double depth_in_voxel(const VoxelGrid& grid, const Eigen::Vector3d& p) {
+  const Eigen::Array3d place = (p - to_eigen(grid.origin)).array() / grid.voxel_size;
+  const Eigen::Array3d inside = place - place.floor();
+  return inside.min(1 - inside).minCoeff();
+}
+
+}  // namespace medial_vk::test

@@ -1,0 +1,50 @@
+// Extractions for tests: prepare a mesh, run it on the device or with the reference, ask for the certificate.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "cpu_reference/extract.h"
+#include "medial/extract.h"
+#include "mesh/mesh.h"
+
+namespace medial_vk::test {
+
+/// prepare_mesh() of a mesh that must be good; throws std::runtime_error (a test failure) if it is not.
+PreparedMesh prepare(Mesh mesh);
+
+/// A context that leaves the user's pipeline cache alone; throws without a device: ask no_device_reason() first.
+Context make_context(bool validation = false);
+
+/// extract_and_certify() on the device, on one host thread; throws with the error's message.
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
+                                      const ExtractionParameters& parameters);
+
+/// The independent reference with the same parameters: double precision, certified inside.
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionParameters& parameters);
+
+/// Does every sphere pass every condition of the certificate, recomputed by the reference? The message names the
+/// conditions that fail and the first sphere of each.
+testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
+                                            const ExtractionParameters& parameters);
+
+/// Counters and times in one line, for the messages of failed tests.
+std::string describe(const CertifiedExtraction& result);
+
+using Voxel = std::array<int, 3>;
+/// Index of the sphere by its voxel.
+using SphereByVoxel = std::map<Voxel, std::size_t>;
+SphereByVoxel spheres_by_voxel(const Extraction& extraction);
+
+Eigen::Vector3d to_eigen(const Point& p);
+/// The voxel of a point, as the medial PLY defines it.
+Voxel voxel_of(const VoxelGrid& grid, const Eigen::Vector3d& p);
+/// Distance from a point to the faces of its voxel, as a fraction of the voxel's side: 0 to 1/2.
+double depth_in_voxel(const VoxelGrid& grid, const Eigen::Vector3d& p);
+
+}  // namespace medial_vk::test
