@@ -82,11 +82,12 @@ void ThesisPipeline::record_round(Recorder& r, std::uint32_t first_sample) {
   std::swap(active_, still_active_);
 }
 
-// Algorithm 1: segments are chords of a sphere whose radius is a voxel's side; halved until they are within epsilon.
+// Algorithm 1: segments are chords of a sphere whose radius is a voxel's side; halved until they are within epsilon / 2
+// (judge_retractions.comp needs the other half).
 void ThesisPipeline::record_narrowing(Recorder& r, const ThesisConstants& step) {
   const Items lines{kThesisRetractions};
   const QueryCount count = query_count(r, lines);
-  const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(2.0 / parameters_.epsilon))));
+  const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(4.0 / parameters_.epsilon))));
   for (int k = 0; k < halvings; ++k) {
     queries_->empty(r, count, queries_at_.range(), empty_.range());
     const bool last = k + 1 == halvings;
