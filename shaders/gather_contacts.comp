@@ -25,22 +25,17 @@ void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
   uint treelet_count = step.node_count;
-  bool exists = item < counters[kWrite ? kCells : kParents];
-  uvec3 coordinates = uvec3(0);
-  if (exists) coordinates = kWrite ? top_cell_coordinates(step.first_item + order[item]) : top_cell_coordinates(step.first_item + item);
+  // Items are counted along x, y, z of the grid of top cells.
+  uvec3 grid = (uvec3(step.grid_x, step.grid_y, step.grid_z) + step.voxels_per_cell - 1u) / step.voxels_per_cell;
+  uint index = step.first_item + item;
+  bool exists = item < counters[kParents];
+  uvec3 coordinates = uvec3(index % grid.x, index / grid.x % grid.y, index / (grid.x * grid.y));
   vec3 centre = cell_centre(coordinates);
-  if (lane == 0u) {
-    shared_bound = 0x7f800000u;
-    shared_clearance = 0x7f800000u;
-  }
+  if (lane == 0u) shared_bound = 0x7f800000u;
   barrier();
-  float bound = uintBitsToFloat(0x7f800000u), clearance = bound;
-  for (uint i = lane; i < treelet_count; i += lanes) {
-    bound = min(bound, farthest_in_box(centre, treelets[i]));
-    clearance = min(clearance, nearest_in_box(centre, treelets[i]));
-  }
+  float bound = uintBitsToFloat(0x7f800000u);
+  for (uint i = lane; i < treelet_count; i += lanes) bound = min(bound, farthest_in_box(centre, treelets[i]));
   atomicMin(shared_bound, floatBitsToUint(bound));
-  atomicMin(shared_clearance, floatBitsToUint(clearance));
   barrier();
   float reach = uintBitsToFloat(shared_bound) + 2.0 * step.list_radius + step.slack;
   uint run = (treelet_count + lanes - 1u) / lanes;
