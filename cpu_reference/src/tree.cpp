@@ -35,7 +35,6 @@ Tree::Tree(const Mesh& mesh) {
     normals_.push_back(length > 0 ? Vector3d(cross / length) : Vector3d::Zero());
     areas_.push_back(length / 2);
     centroids.push_back((a + b + c) / 3);
-    area_ += length / 2;
   }
   order_.resize(n);
   std::iota(order_.begin(), order_.end(), 0);

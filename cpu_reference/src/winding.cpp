@@ -32,6 +32,7 @@ void Tree::add_moments(Node& node) const {
     weighted += areas_[t] * (corners_[t][0] + corners_[t][1] + corners_[t][2]) / 3;
     node.area_normal += areas_[t] * normals_[t];
   }
+  node.area = area;
   node.centre = area > 0 ? Vector3d(weighted / area) : Vector3d((node.lower + node.upper) / 2);
   node.moment.setZero();
   for (int i = node.first; i < node.last; ++i) {
@@ -53,25 +54,28 @@ double winding_number(const Tree& tree, const Vector3d& p) {
 // w(p) is the integral of f(x) . n / 4 pi with f(x) = (x - p) / |x - p|^3. Around a node's centre, at distance d, f is
 // replaced by its first two Taylor terms. f is minus the gradient of 1/|x - p|, whose third derivatives are bounded
 // by 3! / |x - p|^4, so the rest is at most reach^2 / 2 * 6 / (d - reach)^4 on the node: an error of
-// area * 3 reach^2 / (4 pi (d - reach)^4). A node is used if that is at most its share by area of the tolerance.
-double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
+// area * 3 reach^2 / (4 pi (d - reach)^4). Nodes with reach <= opening * d are used, and their errors added up.
+double Tree::winding_number_by_moments(const Vector3d& p, double opening, double& error) const {
   double sum = 0;
-  std::vector<int> stack = {0};
-  while (!stack.empty()) {
-    const Tree::Node& node = tree.nodes_[stack.back()];
-    stack.pop_back();
+  error = 0;
+  std::array<int, 128> stack;
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
     const Vector3d r = node.centre - p;
     const double d = r.norm();
-    const double gap2 = (d - node.reach) * (d - node.reach);
-    if (d > node.reach && 3 * node.reach * node.reach * tree.area_ <= 4 * std::numbers::pi * tolerance * gap2 * gap2) {
+    if (node.reach <= opening * d && d > 0) {
       const double d3 = d * d * d;
-      sum += r.dot(node.area_normal) / d3 + node.moment.trace() / d3 - 3 * r.dot(node.moment * r) / (d3 * d * d);
+      const double gap2 = (d - node.reach) * (d - node.reach);
+      sum += (r.dot(node.area_normal) + node.moment.trace() - 3 * r.dot(node.moment * r) / (d * d)) / d3;
+      error += 3 * node.area * node.reach * node.reach / (4 * std::numbers::pi * gap2 * gap2);
     } else if (node.left >= 0) {
-      stack.push_back(node.right);
-      stack.push_back(node.left);
+      stack[size++] = node.right;
+      stack[size++] = node.left;
     } else {
       for (int i = node.first; i < node.last; ++i) {
-        const auto& [a, b, c] = tree.corners_[tree.order_[i]];
+        const auto& [a, b, c] = corners_[order_[i]];
         sum += solid_angle(p, a, b, c);
       }
     }
@@ -79,10 +83,23 @@ double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
   return sum / (4 * std::numbers::pi);
 }
 
+// The sum of area / d^2 over a mesh is about 4 pi per layer seen from p, so the errors add up to about
+// 3 opening^2 / (1 - opening)^4 per layer; the first opening allows for two layers or so.
+double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
+  for (double opening = 0.3 * std::sqrt(tolerance); opening > 1e-3; opening *= 0.6) {
+    double error;
+    const double sum = tree.winding_number_by_moments(p, opening, error);
+    if (error <= tolerance) return sum;
+  }
+  return winding_number(tree, p);
+}
+
+// A closed mesh has integers only, so there the first tolerance decides.
 bool is_inside(const Tree& tree, const Vector3d& p) {
-  constexpr double kTolerance = 0.2;  // a closed mesh has integers only, so nearly every point is decided here
-  const double estimate = winding_number(tree, p, kTolerance);
-  if (std::abs(estimate - 0.5) > kTolerance) return estimate > 0.5;
+  for (double tolerance : {0.2, 0.02, 0.002}) {
+    const double estimate = winding_number(tree, p, tolerance);
+    if (std::abs(estimate - 0.5) > tolerance) return estimate > 0.5;
+  }
   return winding_number(tree, p) >= 0.5;
 }
 

@@ -73,12 +73,14 @@ class Tree {
     int first = 0, last = 0;    // a range of order_
     int left = -1, right = -1;  // -1 in a leaf
     // Moments for the winding number (winding.cpp).
-    Eigen::Vector3d centre;       // area-weighted centroid
-    double reach = 0;             // largest distance of a corner from the centre
+    Eigen::Vector3d centre;  // area-weighted centroid
+    double reach = 0;        // largest distance of a corner from the centre
+    double area = 0;
     Eigen::Vector3d area_normal;  // sum of area times normal
     Eigen::Matrix3d moment;       // sum of area times (centroid - centre) normal^T
   };
 
+  double winding_number_by_moments(const Eigen::Vector3d& p, double opening, double& error) const;
   int build(int first, int last, const std::vector<Eigen::Vector3d>& centroids);
   void add_moments(Node& node) const;
 
@@ -87,7 +89,6 @@ class Tree {
   std::vector<double> areas_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
-  double area_ = 0;
   double rounding_ = 0;
 };
 
