@@ -7,6 +7,7 @@
 
 #include "certified_pipeline.h"
 #include "context_impl.h"
+#include "extraction_result.h"
 #include "scene.h"
 #include "thesis_extraction.h"
 
@@ -23,31 +24,6 @@ Status check_parameters(const ExtractionParameters& p) {
   return {};
 }
 
-// Voxels of side longest / resolution that cover the bounding box.
-VoxelGrid make_grid(const DeviceMesh& mesh, std::uint32_t resolution) {
-  VoxelGrid grid;
-  grid.origin = mesh.lower;
-  grid.voxel_size = mesh.longest / resolution;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cells = (mesh.upper[axis] - mesh.lower[axis]) / grid.voxel_size;
-    grid.size[axis] = static_cast<std::uint32_t>(std::clamp(std::ceil(cells - 1e-9), 1.0, static_cast<double>(resolution)));
-  }
-  return grid;
-}
-
-MedialSphere to_input_units(const gpu::FoundPoint& found, const DeviceMesh& mesh) {
-  MedialSphere sphere;
-  const float centre[3] = {found.centre.x, found.centre.y, found.centre.z};
-  for (int axis = 0; axis < 3; ++axis) sphere.centre[axis] = mesh.lower[axis] + mesh.longest * double{centre[axis]};
-  sphere.radius = mesh.longest * double{found.centre.w};
-  sphere.spoke_a = {found.spoke_a.x, found.spoke_a.y, found.spoke_a.z};
-  sphere.spoke_b = {found.spoke_b.x, found.spoke_b.y, found.spoke_b.z};
-  sphere.object_angle = found.spoke_a.w;
-  sphere.flux = found.spoke_b.w;
-  sphere.voxel = {found.voxel_x, found.voxel_y, found.voxel_z};
-  return sphere;
-}
-
 void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, ExtractionCounters& sum) {
   for (std::size_t level = 0; level < sum.levels.size(); ++level) {
     const std::uint32_t* s = &c[gpu::kStatistics + gpu::kStatisticsPerLevel * level];
@@ -59,16 +35,6 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
   sum.found += c[gpu::kFound];
   sum.undecided += c[gpu::kUndecided];
   sum.queries += c[gpu::kQueries] + (std::uint64_t{c[gpu::kQueriesHigh]} << 32);
-}
-
-void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sum) {
-  for (const StageTime& t : times) {
-    const auto same = std::find_if(sum.begin(), sum.end(), [&](const StageTime& s) { return s.stage == t.stage; });
-    if (same == sum.end())
-      sum.push_back(t);
-    else
-      same->seconds += t.seconds;
-  }
 }
 
 class CertifiedRun {
@@ -155,9 +121,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   ExtractionCounters& c = extraction.counters;
   const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
   c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
-  std::sort(extraction.spheres.begin(), extraction.spheres.end(), [](const MedialSphere& a, const MedialSphere& b) {
-    return std::lexicographical_compare(a.voxel.rbegin(), a.voxel.rend(), b.voxel.rbegin(), b.voxel.rend());
-  });
+  sort_by_voxel(extraction.spheres);
   if (progress) progress(1.0);
   return extraction;
 }
