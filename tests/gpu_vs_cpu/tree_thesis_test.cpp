@@ -1,0 +1,213 @@
+// The published method on the device against the reference in double precision: the same voxels level by level, points
+// in the same voxels, every ball certified.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "cpu_reference/extract.h"
+#include "medial/certify.h"
+#include "medial_vk/bvh.h"
+#include "medial_vk/extraction.h"
+#include "support/device.h"
+#include "support/reference_mesh.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kResolution = 20;
+
+/// One context for all tests, with validation where the layer is installed; no message may come.
+class TreeThesisTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    const bool validation = test::no_validation_reason().empty();
+    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
+    ASSERT_TRUE(created.ok()) << created.error().message;
+    context_.emplace(std::move(created).value());
+  }
+  void TearDown() override {
+    if (context_) {
+      EXPECT_EQ(context_->validation_messages(), 0u);
+    }
+  }
+  std::optional<Context> context_;
+};
+
+struct Solid {
+  std::string name;
+  Mesh mesh;
+  std::vector<std::uint8_t> flags;
+
+  MeshView view() const { return {mesh.vertices, mesh.triangles, flags, true}; }
+};
+
+std::vector<Solid> solids() {
+  std::vector<Solid> all = {{"box", test::make_box({1, 2, 3}), {}},
+                            {"spheroid", test::make_ellipsoid({1, 1, 0.5}, 40), {}},
+                            {"cup", test::make_cup(1, 0.25, 1.5, 40), {}},
+                            {"L", test::make_l_shape(2, 0.5, 1), {}},
+                            {"plate", test::make_plate_with_hole(2, 0.1, 0.7), {}}};
+  for (Solid& solid : all) {
+    test::rotate(solid.mesh, {1, 2, 3}, 0.7);
+    solid.flags.assign(solid.mesh.triangles.size(), kTrustedNormal);
+  }
+  return all;
+}
+
+ExtractionParameters thesis_parameters() {
+  ExtractionParameters parameters;
+  parameters.mode = Mode::kThesis;
+  parameters.resolution = kResolution;
+  return parameters;
+}
+
+reference::Result extract_with_reference(const Mesh& mesh, const ExtractionParameters& parameters) {
+  reference::Parameters p;
+  p.certified = false;
+  p.resolution = static_cast<int>(parameters.resolution);
+  p.radius = parameters.radius;
+  p.narrow_features = parameters.narrow_features;
+  return reference::extract(test::to_reference(mesh), p);
+}
+
+using Voxel = std::array<int, 3>;
+
+/// Voxels that only one of both has got a point in.
+int voxels_apart(const Extraction& device, const reference::Result& truth) {
+  std::map<Voxel, int> seen;
+  for (const MedialSphere& s : device.spheres) {
+    seen[{static_cast<int>(s.voxel[0]), static_cast<int>(s.voxel[1]), static_cast<int>(s.voxel[2])}] += 1;
+  }
+  for (const reference::Sphere& s : truth.spheres) seen[{s.voxel[0], s.voxel[1], s.voxel[2]}] += 2;
+  return static_cast<int>(std::count_if(seen.begin(), seen.end(), [](const auto& voxel) { return voxel.second != 3; }));
+}
+
+/// Float decides otherwise than double where a number is within rounding of its threshold: a few of a thousand cells.
+void expect_close(std::uint64_t device, std::uint64_t truth) {
+  const auto larger = static_cast<double>(std::max(device, truth));
+  EXPECT_LE(std::abs(static_cast<double>(device) - static_cast<double>(truth)), 1 + larger / 200);
+}
+
+void expect_same_levels(const Extraction& device, const reference::Result& truth) {
+  ASSERT_EQ(device.counters.levels.size(), truth.levels.size());
+  for (std::size_t level = 0; level < truth.levels.size(); ++level) {
+    expect_close(device.counters.levels[level].visited, truth.levels[level].visited);
+    expect_close(device.counters.levels[level].kept, truth.levels[level].kept);
+  }
+}
+
+CertifyReport certify(const Solid& solid, const ExtractionParameters& parameters, Extraction& extraction) {
+  const Result<Bvh> bvh = Bvh::build(solid.view());
+  const double longest = extraction.grid.voxel_size * parameters.resolution;
+  return certify_spheres(bvh.value(), parameters, longest, extraction, 1);
+}
+
+TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
+  for (const Solid& solid : solids()) {
+    SCOPED_TRACE(solid.name);
+    const ExtractionParameters parameters = thesis_parameters();
+    auto device = extract_medial_spheres(*context_, solid.view(), parameters);
+    ASSERT_TRUE(device.ok()) << device.error().message;
+    Extraction& found = device.value();
+    const reference::Result truth = extract_with_reference(solid.mesh, parameters);
+    ASSERT_GT(truth.spheres.size(), 100u);
+    expect_same_levels(found, truth);
+    // A point within epsilon of a face of its voxel may be found on the other side of it: 3 pairs of faces, 2 epsilon.
+    EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
+    const CertifyReport report = certify(solid, parameters, found);
+    EXPECT_LE(report.rejected, found.spheres.size() / 200);
+  }
+}
+
+TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
+  const Solid solid = solids()[0];
+  ExtractionParameters parameters = thesis_parameters();
+  parameters.narrow_features = false;
+  const auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  const reference::Result truth = extract_with_reference(solid.mesh, parameters);
+  expect_same_levels(found, truth);
+  EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
+  // 2.4.3: no sphere smaller than (1 - sqrt(3)/2) voxels is found.
+  for (const MedialSphere& s : found.spheres) EXPECT_GT(s.radius, 0.13 * found.grid.voxel_size);
+}
+
+TEST_F(TreeThesisTest, RadiusThreshold) {
+  const Solid solid = solids()[3];
+  ExtractionParameters parameters = thesis_parameters();
+  const std::size_t by_angle = extract_medial_spheres(*context_, solid.view(), parameters).value().spheres.size();
+  parameters.radius = 0.11;
+  auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  EXPECT_GE(found.spheres.size(), by_angle);
+  EXPECT_LE(certify(solid, parameters, found).rejected, found.spheres.size() / 200);
+}
+
+TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
+  const Solid solid = solids()[1];
+  const auto first = extract_medial_spheres(*context_, solid.view(), thesis_parameters()).value();
+  const auto second = extract_medial_spheres(*context_, solid.view(), thesis_parameters()).value();
+  ASSERT_EQ(first.spheres.size(), second.spheres.size());
+  std::array<std::uint32_t, 3> last = {};
+  for (std::size_t i = 0; i < first.spheres.size(); ++i) {
+    EXPECT_EQ(first.spheres[i].centre, second.spheres[i].centre);
+    EXPECT_EQ(first.spheres[i].spoke_b, second.spheres[i].spoke_b);
+    const std::array<std::uint32_t, 3> v = first.spheres[i].voxel;
+    if (i > 0) {
+      EXPECT_TRUE(std::lexicographical_compare(last.rbegin(), last.rend(), v.rbegin(), v.rend()));
+    }
+    last = v;
+  }
+}
+
+// A small budget cuts the grid into many chunks; the points are the same.
+TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
+  const Solid solid = solids()[2];
+  ExtractionParameters parameters = thesis_parameters();
+  const auto whole = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  parameters.memory_budget = 8u << 20;
+  const auto parts = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  ASSERT_EQ(whole.spheres.size(), parts.spheres.size());
+  for (std::size_t i = 0; i < whole.spheres.size(); ++i) EXPECT_EQ(whole.spheres[i].centre, parts.spheres[i].centre);
+  EXPECT_EQ(whole.counters.queries, parts.counters.queries);
+  parameters.memory_budget = 1u << 10;
+  EXPECT_EQ(extract_medial_spheres(*context_, solid.view(), parameters).error().code, ErrorCode::kOutOfMemory);
+}
+
+TEST_F(TreeThesisTest, CanBeInterrupted) {
+  const Solid solid = solids()[0];
+  const auto stopped =
+      extract_medial_spheres(*context_, solid.view(), thesis_parameters(), [](double) { return false; });
+  EXPECT_EQ(stopped.error().code, ErrorCode::kInterrupted);
+}
+
+TEST_F(TreeThesisTest, CoarseGridsHaveFewerLevels) {
+  const Solid solid = solids()[0];
+  ExtractionParameters parameters = thesis_parameters();
+  for (const std::uint32_t resolution : {1u, 2u, 3u, 5u, 9u}) {
+    parameters.resolution = resolution;
+    auto found = extract_medial_spheres(*context_, solid.view(), parameters);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    expect_same_levels(found.value(), extract_with_reference(solid.mesh, parameters));
+    EXPECT_EQ(certify(solid, parameters, found.value()).rejected, 0u);
+  }
+}
+
+// One face is missing: no side of a whole cell can be proved, but the points are where the winding number says inside.
+TEST_F(TreeThesisTest, OpenMesh) {
+  Solid solid = solids()[0];
+  solid.mesh.triangles.pop_back();
+  solid.flags.assign(solid.mesh.triangles.size(), 0);
+  MeshView view = solid.view();
+  view.closed = false;
+  const auto found = extract_medial_spheres(*context_, view, thesis_parameters());
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_GT(found.value().spheres.size(), 100u);
+}
+
+}  // namespace
+}  // namespace medial_vk
