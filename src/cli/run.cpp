@@ -203,8 +203,7 @@ class ExtractionRun {
     } else if (Status status = print_result(table); !status) {
       return status;
     }
-    if (record_.certificate->passed()) return {};
-    return Error{ErrorCode::kCheckFailed, "--check failed: not every ball satisfies its certificate"};
+    return verdict(*record_.certificate);
   }
 
   const Options& options_;

@@ -62,6 +62,11 @@ std::string certificate_table(const reference::Certificate& certificate) {
   return format_table({{"condition"}, {"tested", true}, {"failed", true}, {"worst"}}, rows) + failures;
 }
 
+Status verdict(const reference::Certificate& certificate) {
+  if (certificate.passed()) return {};
+  return Error{ErrorCode::kCheckFailed, "--check failed: not every ball satisfies its certificate"};
+}
+
 std::string level_table(const ExtractionCounters& counters) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < counters.levels.size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "cpu_reference/certificate.h"
 #include "medial_vk/context.h"
+#include "medial_vk/result.h"
 #include "output/run_record.h"
 
 namespace medial_vk::cli {
@@ -21,6 +22,8 @@ std::string format_table(const std::vector<Column>& columns, const std::vector<s
 std::string device_table(const std::vector<DeviceDescription>& devices);
 /// The conditions, then the first failure of each that failed.
 std::string certificate_table(const reference::Certificate& certificate);
+/// What --check comes to: ok, or kCheckFailed.
+Status verdict(const reference::Certificate& certificate);
 std::string level_table(const ExtractionCounters& counters);
 
 }  // namespace medial_vk::cli

@@ -120,6 +120,12 @@ TEST(ReportTables, CertificateNamesTheFirstFailure) {
   EXPECT_THAT(table, HasSubstr("condition"));
   EXPECT_THAT(table, HasSubstr("0.5 voxels"));
   EXPECT_THAT(table, HasSubstr("first failure: ball 3 at (1, 2, 3)"));
+
+  const Status verdict = cli::verdict(certificate);
+  ASSERT_FALSE(verdict.ok());
+  EXPECT_EQ(static_cast<int>(verdict.error().code), 7);
+  certificate.lines.pop_back();
+  EXPECT_TRUE(cli::verdict(certificate).ok());
 }
 
 TEST(ReportSummary, SaysWhatMatters) {
