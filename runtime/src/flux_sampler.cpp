@@ -3,23 +3,17 @@
 #include <array>
 
 #include "context_impl.h"
+#include "tree_types.h"
 
 namespace medial_vk {
 namespace {
 
-constexpr std::uint32_t kNoCounter = 0xffffffffu;
+using gpu::kNoCounter;
 
 // Along an edge, or from an edge to its end, a nearest point is only as good as squares can be told apart: sqrt(2^-22)
 // of its distance. A fan's two directions are compared within twice that; those of different features differ by more
 // unless a smooth surface has millions of triangles, and then their flux hardly does.
 constexpr float kSameDirection = 1e-3f;
-
-struct SampleConstants {
-  std::uint32_t items;
-  std::uint32_t items_counter;
-  std::uint32_t samples;
-  float same_direction;
-};
 
 }  // namespace
 
@@ -47,7 +41,7 @@ Result<FluxSampler> FluxSampler::create(Context::Impl& context, const TreeQuerie
 void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres,
                          BufferRange directions, BufferRange fluxes) const {
   const bool counted = count.counters != nullptr;
-  const SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSameDirection};
+  const gpu::SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSameDirection};
   // A kernel that does not count on the device is given some buffer in place of the counters.
   const BufferRange counters = counted ? count.counters->range() : samples_.range();
   const auto run = [&](const char* shader, std::span<const BufferRange> buffers, bool per_sample) {

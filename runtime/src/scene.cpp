@@ -11,6 +11,8 @@
 namespace medial_vk {
 namespace {
 
+static_assert(gpu::kStackSize == Bvh::kMaxDepth);
+
 Result<Buffer> create_filled(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes,
                              const char* purpose) {
   Result<Buffer> buffer = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);

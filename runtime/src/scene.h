@@ -12,6 +12,7 @@
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "memory.h"
+#include "tree_types.h"
 
 namespace medial_vk {
 
@@ -27,7 +28,7 @@ struct LeafRange {
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
   /// Triangles in a leaf of the device's tree, at most.
-  static constexpr std::uint32_t kLeafSize = 8;
+  static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
   /// Positions travel as floats in the tree's texels; 2^24 is the last that is exact. Also what a workgroup of 256
   /// lanes can look through within lavapipe's 65,535 loop iterations.
   static constexpr std::uint32_t kMostTriangles = 16'000'000;

@@ -5,39 +5,28 @@
 #include <vector>
 
 #include "context_impl.h"
+#include "tree_types.h"
 
 namespace medial_vk {
 namespace {
 
+using gpu::kNoCounter;
+
 constexpr std::uint32_t kResolveGroup = 256;
-constexpr std::uint32_t kNoCounter = 0xffffffffu;
-
-// Words of the list of unresolved queries, as shaders/shared/tree_query.glsl names them.
-constexpr VkDeviceSize kGroupsOffset = 4;
-constexpr VkDeviceSize kTotalOffset = 20;
-constexpr VkDeviceSize kFirstWord = 8;
-
-struct QueryConstants {
-  std::uint32_t items;
-  std::uint32_t items_counter;
-  std::uint32_t items_multiplier;
-  std::uint32_t triangle_count;
-  float tolerance;
-};
 
 }  // namespace
 
 Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity) {
   TreeQueries queries(context, mesh);
-  Result<Buffer> list =
-      queries.arena_.create_buffer((kFirstWord + capacity) * 4, MemoryKind::kDevice, "a list of unresolved queries");
+  Result<Buffer> list = queries.arena_.create_buffer((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4,
+                                                     MemoryKind::kDevice, "a list of unresolved queries");
   if (!list.ok()) return list.error();
   Result<Buffer> total = queries.arena_.create_buffer(4, MemoryKind::kReadback, "a count of unresolved queries");
   if (!total.ok()) return total.error();
   queries.unresolved_ = list.value();
   queries.total_ = total.value();
   auto cleared = run_commands(context, [&](Recorder& r) {
-    r.fill(queries.unresolved_, 0, kFirstWord * 4, 0);
+    r.fill(queries.unresolved_, 0, gpu::kUnresolvedFirst * 4, 0);
     return r.status();
   });
   if (!cleared.ok()) return cleared.error();
@@ -52,8 +41,8 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
                                       queries};
   buffers.insert(buffers.end(), own.begin(), own.end());
   const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
-  const QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
-                                    count.multiplier, mesh_->triangle_count, tolerance};
+  const gpu::QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
+                                         count.multiplier, mesh_->triangle_count, tolerance};
   ProgramKey key{kernel.walk, static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize, {}};
   key.constants.push_back(mesh_->use_texels ? 1u : 0u);
   key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
@@ -68,7 +57,7 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
   r.barrier();
   key.shader = kernel.resolve;
   key.workgroup_size = kResolveGroup;
-  r.dispatch_indirect(key, buffers, texels, bytes_of(constants), unresolved_, kGroupsOffset);
+  r.dispatch_indirect(key, buffers, texels, bytes_of(constants), unresolved_, gpu::kUnresolvedGroups * 4);
   r.barrier();
 }
 
@@ -92,7 +81,7 @@ void TreeQueries::winding(Recorder& r, const QueryCount& count, BufferRange quer
 
 Result<std::uint32_t> TreeQueries::read_unresolved_total() {
   auto copied = run_commands(*context_, [&](Recorder& r) {
-    r.copy(unresolved_, kTotalOffset, total_, 0, 4);
+    r.copy(unresolved_, gpu::kUnresolvedTotal * 4, total_, 0, 4);
     r.barrier_to_host();
     return r.status();
   });

@@ -1,14 +1,10 @@
 // What the kernels around the flux through spheres share: `samples` spiral points on each sphere (Section 2.3.2).
 #ifndef MEDIAL_VK_SPHERE_SAMPLES_GLSL
 #define MEDIAL_VK_SPHERE_SAMPLES_GLSL
+#include "tree_types.h"
 
 layout(local_size_x_id = 0) in;
-layout(push_constant) uniform Push {
-  uint items;             // spheres, if items_counter is 0xffffffff
-  uint items_counter;     // else counters[items_counter]
-  uint samples;           // per sphere
-  float same_direction;   // directions that differ by less count as the same
-} push;
+layout(push_constant) uniform Push { SampleConstants push; };
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) readonly buffer Spheres { vec4 spheres[]; };  // centre, radius; negative: passed over
@@ -20,7 +16,7 @@ uint invocation_index() {
   return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-uint sphere_count() { return push.items_counter == 0xffffffffu ? push.items : counters[push.items_counter]; }
+uint sphere_count() { return push.items_counter == kNoCounter ? push.items : counters[push.items_counter]; }
 
 vec3 unit_or_zero(vec3 v) {
   float squared = dot(v, v);

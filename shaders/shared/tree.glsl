@@ -6,6 +6,7 @@
 // After all nodes follow 8 texels for each with the moments of the children (winding.glsl).
 #ifndef MEDIAL_VK_TREE_GLSL
 #define MEDIAL_VK_TREE_GLSL
+#include "tree_types.h"
 
 layout(set = 0, binding = TREE_STORAGE_BINDING) readonly buffer TreeStorage { vec4 tree_storage[]; };
 layout(set = 0, binding = TREE_TEXEL_BINDING) uniform samplerBuffer tree_texels;
@@ -18,8 +19,6 @@ const uint kLeaf = 1u << 24;
 const uint kFirstMask = kLeaf - 1u;
 const uint kSkipped = 0xfffffffeu;   // nothing here, more on the stack
 const uint kFinished = 0xffffffffu;  // nothing left
-const uint kMostLeafTriangles = 8u;  // DeviceMesh::kLeafSize
-const uint kStackSize = 48u;         // Bvh::kMaxDepth: a walk leaves one child behind per level
 
 uint tree_place(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }
 bool is_leaf(uint place) { return place >= kLeaf && place < kSkipped; }
@@ -33,7 +32,7 @@ float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
 // stack. lavapipe ends all loops of an invocation silently after 65,535 iterations, and it counts for eight invocations
 // together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum, whatever
 // the neighbours do: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more rounds says
-// so, and its query is answered by looking at all triangles (tree_overflow.glsl).
+// so, and its query is answered by looking at all triangles (resolve_*.comp).
 // Loops are tested at the bottom and conditions are selects: untaken branches and masked loop bodies cost full price.
 const uint kDescents = 8u;
 const uint kPops = 4u;

@@ -2,15 +2,10 @@
 // Bindings from 5 on are the kernel's own.
 #ifndef MEDIAL_VK_TREE_QUERY_GLSL
 #define MEDIAL_VK_TREE_QUERY_GLSL
+#include "tree_types.h"
 
 layout(local_size_x_id = 0) in;
-layout(push_constant) uniform Push {
-  uint items;             // queries, if items_counter is 0xffffffff
-  uint items_counter;     // else counters[items_counter] * items_multiplier
-  uint items_multiplier;
-  uint triangle_count;
-  float tolerance;        // of winding numbers
-} push;
+layout(push_constant) uniform Push { QueryConstants push; };
 
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING QUERY_STORAGE_BUFFERS
@@ -20,23 +15,17 @@ layout(push_constant) uniform Push {
 #include "tree.glsl"
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
-// Words: queries that gave up; three group counts; the same number, kept; all of them so far; then their indices.
 layout(set = 0, binding = 3) buffer Unresolved { uint unresolved[]; };
 layout(set = 0, binding = 4) readonly buffer Queries { vec4 queries[]; };
-
-const uint kUnresolvedGroups = 1u;
-const uint kUnresolvedCount = 4u;
-const uint kUnresolvedTotal = 5u;
-const uint kUnresolvedFirst = 8u;
 
 // Groups beyond the limit of the first dimension go to the second.
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint invocation_index() { return group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 uint query_count() {
-  return push.items_counter == 0xffffffffu ? push.items : counters[push.items_counter] * push.items_multiplier;
+  return push.items_counter == kNoCounter ? push.items : counters[push.items_counter] * push.items_multiplier;
 }
 
-void leave_unresolved(uint query) { unresolved[kUnresolvedFirst + atomicAdd(unresolved[0], 1u)] = query; }
+void leave_unresolved(uint query) { unresolved[kUnresolvedFirst + atomicAdd(unresolved[kUnresolvedWaiting], 1u)] = query; }
 
 #endif

@@ -1,0 +1,155 @@
+// A mesh on the device: runs of its leaf order, units, the tree's fallbacks.
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "context_impl.h"
+#include "device_tree.h"
+#include "medial_vk/queries.h"
+#include "spiral.h"
+#include "support/device.h"
+#include "support/solids.h"
+#include "tree_queries.h"
+
+namespace medial_vk {
+namespace {
+
+MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
+
+Mesh rotated_torus() {
+  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
+  test::rotate(mesh, {1, 2, 3}, 0.7);
+  test::translate(mesh, {7, -3, 2});
+  return mesh;
+}
+
+class SceneTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    const bool validation = test::no_validation_reason().empty();
+    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
+    ASSERT_TRUE(created.ok()) << created.error().message;
+    context_.emplace(std::move(created).value());
+  }
+  void TearDown() override {
+    if (context_) {
+      EXPECT_EQ(context_->validation_messages(), 0u);
+    }
+  }
+  std::optional<Context> context_;
+};
+
+TEST_F(SceneTest, UnitBox) {
+  const Mesh mesh = rotated_torus();
+  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
+  double largest = 0;
+  for (const Point& p : mesh.vertices) {
+    const Point unit = device.to_unit(p);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GE(unit[k], 0.0);
+      EXPECT_LE(unit[k], 1.0);
+      largest = std::max(largest, unit[k]);
+    }
+  }
+  EXPECT_EQ(largest, 1.0);
+  const Point back = device.to_input({0.25f, 0.5f, 0.75f});
+  EXPECT_NEAR(device.to_unit(back)[1], 0.5, 1e-15);
+}
+
+TEST_F(SceneTest, LeafRangesCoverTheMeshInOrder) {
+  const Mesh mesh = rotated_torus();
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
+  for (const std::uint32_t least : {1u, 8u, 16u, 100u, count, 10 * count}) {
+    SCOPED_TRACE(least);
+    std::uint32_t next = 0;
+    const std::vector<LeafRange> ranges = device.leaf_ranges(least);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const LeafRange& range = ranges[i];
+      EXPECT_EQ(range.first, next);
+      EXPECT_LT(range.count, 2 * std::max(least, DeviceMesh::kLeafSize));
+      if (i + 1 < ranges.size()) {
+        EXPECT_GE(range.count, least);
+      }
+      next += range.count;
+      for (std::uint32_t t = range.first; t < next; ++t) {
+        for (const std::uint32_t v : mesh.triangles[device.order[t]]) {
+          const Point corner = device.to_unit(mesh.vertices[v]);
+          for (int k = 0; k < 3; ++k) {
+            EXPECT_LE(range.lower[k], corner[k]);
+            EXPECT_GE(range.upper[k], corner[k]);
+          }
+        }
+      }
+    }
+    EXPECT_EQ(next, count);
+  }
+}
+
+// Where a mesh has more texels than the device allows in a view, kernels read storage buffers: the same answers.
+TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
+  const Mesh mesh = rotated_torus();
+  std::vector<Point> points;
+  for (const Point& d : spiral_points(300)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
+  Scene with_texels = Scene::create(*context_, view_of(mesh)).value();
+  const auto expected = with_texels.closest_points(points).value();
+  const auto expected_numbers = with_texels.winding_numbers(points).value();
+  context_->impl().limits.maxTexelBufferElements = 1000;
+  Scene without = Scene::create(*context_, view_of(mesh)).value();
+  const auto found = without.closest_points(points).value();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(found[i].triangle, expected[i].triangle);
+    EXPECT_EQ(found[i].point, expected[i].point);
+  }
+  EXPECT_EQ(without.winding_numbers(points).value(), expected_numbers);
+}
+
+// At the centre of a sphere every walk gives up, a little off it none does.
+TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
+  Context::Impl& context = context_->impl();
+  const Mesh mesh = test::make_sphere(1.0, 100000);
+  const DeviceMesh device = DeviceMesh::create(context, view_of(mesh)).value();
+  TreeQueries queries = TreeQueries::create(context, device, 64).value();
+  Arena arena(context);
+  const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
+  const Buffer nearest = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
+  const Buffer hits = arena.create_buffer(64 * 4, MemoryKind::kDevice, "a test").value();
+  const auto ask = [&](const Point& p) {
+    const Point unit = device.to_unit(p);
+    const std::vector<Texel> texels(
+        64, {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), 3.4e38f});
+    ASSERT_TRUE(upload(context, asked, std::as_bytes(std::span<const Texel>(texels))).ok());
+    ASSERT_TRUE(run_commands(context, [&](Recorder& r) {
+                  queries.closest(r, QueryCount::of(10), asked.range(), nearest.range(), hits.range());
+                  return r.status();
+                }).ok());
+  };
+  ask({0.5, 0.1, 0.2});
+  EXPECT_EQ(queries.read_unresolved_total().value(), 0u);
+  ask({0, 0, 0});
+  EXPECT_EQ(queries.read_unresolved_total().value(), 10u);
+  ask({0, 0, 0});
+  EXPECT_EQ(queries.read_unresolved_total().value(), 20u);
+}
+
+TEST(Spiral, SpreadsPointsEvenly) {
+  for (const std::uint32_t count : {1u, 2u, 50u, 400u}) {
+    const std::vector<Point> points = spiral_points(count);
+    ASSERT_EQ(points.size(), count);
+    Point sum = {0, 0, 0};
+    for (const Point& p : points) {
+      EXPECT_NEAR(p[0] * p[0] + p[1] * p[1] + p[2] * p[2], 1.0, 1e-14);
+      for (int k = 0; k < 3; ++k) sum[k] += p[k] / count;
+    }
+    if (count >= 50) {
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(sum[k], 0.0, 0.02);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk
