@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// On which side of a closed boundary a kept child lies, if its ball does not meet the boundary: the winding number of
-// the centre holds for all of it. Outside, it is dropped; inside, its descendants need not ask again.
+// Drops the cells that lie outside, and marks those that lie inside: their descendants need not ask again. Children
+// that are kept know the distance of their centre to the boundary; top cells know a lower bound of it.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
@@ -10,24 +10,31 @@
 #include "triangles.glsl"
 #include "tree.glsl"
 #include "winding.glsl"
+#include "cell_side.glsl"
+
+layout(constant_id = 2) const bool kTop = false;
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) buffer States { uvec4 states[]; };
 
-// The winding number is whole here: an error below 1/4 decides between 0 and 1.
-const float kTolerance = 0.2;
-
 void main() {
   uint item = invocation_index();
-  if (item >= 8u * counters[kParents] || step.closed == 0u) return;
-  if (states[item].x == 0u || (states[item].w & kCellInside) != 0u) return;
-  if (sqrt(uintBitsToFloat(nearest[item].x)) <= step.circumradius + step.slack) return;
-  Winding w = winding_number(cell_centre(child_coordinates(parents[item / 8], item % 8)), kTolerance);
-  if (!w.complete) return;  // not known: the cell is kept, and its points will be asked one by one
-  if (w.number >= 0.5)
-    states[item].w |= kCellInside;
-  else
-    states[item] = uvec4(0);
+  if (item >= counters[kParents] * (kTop ? 1u : 8u)) return;
+  if (states[item].x == 0u) return;
+  vec3 centre;
+  float clearance;
+  if (kTop) {
+    centre = cell_centre(top_cell_coordinates(step.first_item + item));
+    clearance = uintBitsToFloat(states[item].w);
+    states[item].w = 0u;
+  } else {
+    if ((states[item].w & kCellInside) != 0u) return;
+    centre = cell_centre(child_coordinates(parents[item / 8], item % 8));
+    clearance = sqrt(uintBitsToFloat(nearest[item].x));
+  }
+  uint side = side_of_ball(centre, step.circumradius, clearance - step.slack, step.closed != 0u);
+  if (side == kSideInside) states[item].w |= kCellInside;
+  if (side == kSideOutside) states[item] = uvec4(0);
 }

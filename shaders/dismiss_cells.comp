@@ -36,17 +36,24 @@ float normal_violation(uint t, vec3 axis, out vec3 help) {
   return normal.w > 0.5 ? cos_theta - dot(normal.xyz, axis) : 4.0;
 }
 
+// Lemma A for the cell's own ball: lists serve a larger one.
+bool is_contact(float d, vec3 g) {
+  float nearest_distance = length(to_nearest), rho = step.circumradius;
+  float reach = nearest_distance > rho
+                    ? rho * length(g - unit_or_zero(to_nearest)) + rho * rho / (2.0 * nearest_distance)
+                    : 2.0 * rho;
+  return d - nearest_distance - 6.0 * step.slack <= reach;
+}
+
 // The same by its normal or its direction, and the vector that would help.
 float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   TriangleTexels texels = load_triangle(t);
   bool trusted = texels.normal.w > 0.5;
   float by_normal = trusted ? cos_theta - dot(texels.normal.xyz, axis) : 4.0;
   vec3 v = vector_to_triangle(centre, texels);
-  float d = length(v), nearest_distance = length(to_nearest), rho = step.circumradius;
+  float d = length(v), rho = step.circumradius;
   vec3 g = unit_or_zero(v);
-  bool far = nearest_distance > rho;
-  float reach = far ? rho * length(g - unit_or_zero(to_nearest)) + rho * rho / (2.0 * nearest_distance) : 2.0 * rho;
-  bool contact = d - nearest_distance - 6.0 * step.slack <= reach;  // else listed only for a larger ball
+  bool contact = is_contact(d, g);
   distrust = distrust || (contact && !trusted);
   float spread = d > rho ? asin(min(1.0, (rho + step.slack) / d)) : 4.0;
   float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
@@ -54,11 +61,12 @@ float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   return contact ? min(by_normal, by_direction) : -1.0;
 }
 
-// One sweep over the contacts: the worst violation and the vector that would help it.
+// One sweep over the contacts: the worst violation, the contact that makes it, and the vector that would help it.
 float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, bool directions, out vec3 towards,
-                      inout bool distrust) {
+                      out uint offender, inout bool distrust) {
   float worst = -2.0;
   towards = axis;
+  offender = 0u;
   uint w = 0, word = masks[word_base];
   for (;;) {
     while (word == 0u && ++w < word_count) word = masks[word_base + w];
@@ -72,27 +80,65 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
     else
       v = normal_violation(t, axis, help);
     towards = v > worst ? help : towards;
+    offender = v > worst ? t : offender;
     worst = max(worst, v);
   }
+}
+
+// The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: none). Whatever is
+// no contact obeys all.
+struct Obedience {
+  vec3 normal, direction;
+  float by_normal, by_direction;
+};
+
+Obedience obedience_of(uint t) {
+  TriangleTexels texels = load_triangle(t);
+  vec3 v = vector_to_triangle(centre, texels);
+  vec3 g = unit_or_zero(v);
+  float d = length(v), rho = step.circumradius;
+  if (!is_contact(d, g)) return Obedience(g, g, 4.0, 4.0);
+  return Obedience(texels.normal.xyz, g, texels.normal.w > 0.5 ? theta : -8.0,
+                   d > rho ? theta - asin(min(1.0, rho / d)) : -8.0);
+}
+
+bool cones_meet(vec3 a, float half_a, vec3 b, float half_b) {
+  float sum = half_a + half_b;
+  return half_a > 0.0 && half_b > 0.0 && (sum >= 3.1 || dot(a, b) > cos(sum));
+}
+
+// No axis obeys both contacts: more sweeps are useless.
+bool incompatible(Obedience a, Obedience b) {
+  return !cones_meet(a.normal, a.by_normal, b.normal, b.by_normal) &&
+         !cones_meet(a.normal, a.by_normal, b.direction, b.by_direction) &&
+         !cones_meet(a.direction, a.by_direction, b.normal, b.by_normal) &&
+         !cones_meet(a.direction, a.by_direction, b.direction, b.by_direction);
 }
 
 bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, out bool distrust) {
   distrust = false;
   uint sweeps = kLoopBudget / (parent.list_count + 8u * word_count + 8u);
   vec3 axis = unit_or_zero(axes[item].xyz), towards;
-  uint sweep = 0;
+  uint sweep = 0, offender;
+  Obedience last = obedience_of(nearest[item].y);
   for (; sweep < min(kNormalSweeps, sweeps); ++sweep) {
-    float worst = worst_violation(parent, word_base, word_count, axis, false, towards, distrust);
+    float worst = worst_violation(parent, word_base, word_count, axis, false, towards, offender, distrust);
     if (worst < 0.0) return true;
     if (worst > 3.0) break;  // an untrusted normal
+    Obedience next = obedience_of(offender);
+    if (incompatible(last, next)) return false;
+    last = next;
     axis = unit_or_zero(axis + (towards - axis) / (float(sweep) + 2.5));
   }
   // Directions gather around that of the nearest contact: at a reflex edge or vertex they agree, and normals do not.
   if (dot(to_nearest, to_nearest) > step.circumradius * step.circumradius) axis = unit_or_zero(to_nearest);
   for (uint extra = 0; extra < min(kDirectionSweeps + 2u * step.depth, sweeps - min(sweep, sweeps)); ++extra) {
-    float worst = worst_violation(parent, word_base, word_count, axis, true, towards, distrust);
+    float worst = worst_violation(parent, word_base, word_count, axis, true, towards, offender, distrust);
     if (worst < 0.0) return true;
     if (worst > 3.0) return false;  // a contact without any usable direction
+    Obedience next = obedience_of(offender);
+    if (incompatible(last, next)) return false;
+    last = next;
     axis = unit_or_zero(axis + (towards - axis) / (float(extra) + 2.5));
   }
   return false;

@@ -3,19 +3,20 @@
 // The contact lists of the top cells. The triangles come in treelets (consecutive leaves of the BVH with their box);
 // one workgroup per cell keeps the treelets that may hold the nearest triangle of some point of the cell's ball:
 // with U an upper bound of the distance from the centre to the mesh, those no farther than U + 2R.
-// Each lane looks at one run of treelets, so that lists are in order. Run twice: to count, then to write.
+// Each lane looks at one run of treelets, so that lists are in order. Run twice: to count, then, without the cells that
+// lie outside, to write.
 #include "step.glsl"
 
 layout(constant_id = 1) const bool kWrite = false;
 
 layout(set = 0, binding = 0) readonly buffer Treelets { Treelet treelets[]; };
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 2) writeonly buffer States { uvec4 states[]; };
+layout(set = 0, binding = 2) buffer States { uvec4 states[]; };
 layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 5) writeonly buffer Lists { uint lists[]; };
 
-shared uint shared_bound;
+shared uint shared_bound, shared_clearance;
 shared uint shared_counts[256];
 
 float nearest_in_box(vec3 p, Treelet t) { return length(max(max(t.lower.xyz - p, p - t.upper.xyz), vec3(0.0))); }
@@ -25,17 +26,21 @@ void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
   uint treelet_count = step.node_count;
-  // Items are counted along x, y, z of the grid of top cells.
-  uvec3 grid = (uvec3(step.grid_x, step.grid_y, step.grid_z) + step.voxels_per_cell - 1u) / step.voxels_per_cell;
-  uint index = step.first_item + item;
   bool exists = item < counters[kParents];
-  uvec3 coordinates = uvec3(index % grid.x, index / grid.x % grid.y, index / (grid.x * grid.y));
+  uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);
-  if (lane == 0u) shared_bound = 0x7f800000u;
+  if (lane == 0u) {
+    shared_bound = 0x7f800000u;
+    shared_clearance = 0x7f800000u;
+  }
   barrier();
-  float bound = uintBitsToFloat(0x7f800000u);
-  for (uint i = lane; i < treelet_count; i += lanes) bound = min(bound, farthest_in_box(centre, treelets[i]));
+  float bound = uintBitsToFloat(0x7f800000u), clearance = bound;
+  for (uint i = lane; i < treelet_count; i += lanes) {
+    bound = min(bound, farthest_in_box(centre, treelets[i]));
+    clearance = min(clearance, nearest_in_box(centre, treelets[i]));
+  }
   atomicMin(shared_bound, floatBitsToUint(bound));
+  atomicMin(shared_clearance, floatBitsToUint(clearance));
   barrier();
   float reach = uintBitsToFloat(shared_bound) + 2.0 * step.list_radius + step.slack;
   uint run = (treelet_count + lanes - 1u) / lanes;
@@ -51,13 +56,16 @@ void main() {
   }
   if (!exists) return;
   if (!kWrite) {
-    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, 0u);
+    // decide_side.comp replaces the clearance by flags.
+    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, shared_clearance);
     return;
   }
-  uvec4 offset = offsets[item];
+  uvec4 state = states[item], offset = offsets[item];
+  if (state.x == 0u) return;
   if (lane == 0u) {
-    cells[item] = Cell(coordinates.x, coordinates.y, coordinates.z, 0u, offset.y, total, offset.z, 0u, 0u, 0u, 0u, 0u);
-    atomicMax(counters[kLongestParentList], total);
+    cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, 0u, offset.y, total, offset.z, state.w, 0u, 0u,
+                           0u, 0u);
+    atomicMax(counters[kLongestCellList], total);
   }
   uint position = offset.y + before;
   for (uint i = begin; i < end; ++i) {

@@ -13,7 +13,7 @@ namespace {
 using gpu::uint;
 
 constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
-constexpr uint kTopCellsAlongSide = 16;
+constexpr uint kTopCellsAlongSide = 8;
 constexpr uint kMostTreelets = 8192;
 constexpr uint kLeastTreelet = 16;
 
@@ -48,7 +48,7 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
                                                     const std::array<std::uint32_t, 3>& grid) {
   CertifiedPipeline p(context, mesh, parameters);
   p.grid_ = grid;
-  // Top cells of 2^k voxels so that 16 to 31 of them lie along the longest side; always one level of children.
+  // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side; always one level of children.
   const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
   const auto shift = static_cast<std::uint32_t>(std::max(1, static_cast<int>(std::bit_width(coarsest)) - 1));
   p.coarse_levels_ = shift - 1;

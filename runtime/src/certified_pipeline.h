@@ -64,6 +64,7 @@ class CertifiedPipeline {
   gpu::StepConstants level_constants(std::uint32_t level) const;
 
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
+  void start_level(Recorder& r, std::uint32_t source);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);

@@ -21,9 +21,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
       record_search(r, step, buffers);
       record_drop_found(r, step, buffers, cells_[0]);
     } else {
-      const BufferRange counters[] = {counters_.range()};
-      r.dispatch({"start_level", 1, 0, 0, 1, {gpu::kCells}}, counters, {}, {}, 1);
-      r.barrier();
+      start_level(r, gpu::kCells);
     }
     parents = lists = target;
   }
@@ -66,12 +64,19 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   write_entries.constants = {1};
   const Extent groups{gpu::kParents, 256};
   run(r, count_entries, groups, step);
-  gpu::ScanConstants scan_constants{gpu::kParents,          1,
-                                    gpu::kParents,          gpu::kListEntries,
-                                    gpu::kMaskWords,        capacity_.cells,
-                                    capacity_.list_entries, capacity_.list_entries / 32 + capacity_.cells};
-  scan(r, scan_constants);
+  Kernel side = side_kernel("decide_side", {counters_.range(), cells_[0].range(), nearest_.range(), states_.range()});
+  side.constants = {1};
+  run(r, side, {gpu::kParents}, step);
+  scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
+           capacity_.list_entries / 32 + capacity_.cells});
   run(r, write_entries, groups, step);
+  start_level(r, gpu::kCells);
+}
+
+void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source) {
+  const BufferRange counters[] = {counters_.range()};
+  r.dispatch({"start_level", 1, 0, 0, 1, {source}}, counters, {}, {}, 1);
+  r.barrier();
 }
 
 void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
@@ -168,9 +173,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
-  const BufferRange counters[] = {counters_.range()};
-  r.dispatch({"start_level", 1, 0, 0, 1, {gpu::kKept}}, counters, {}, {}, 1);
-  r.barrier();
+  start_level(r, gpu::kKept);
 }
 
 void CertifiedPipeline::record_collection(Recorder& r) {

@@ -16,6 +16,13 @@ uvec3 child_coordinates(Cell parent, uint child) {
   return 2 * uvec3(parent.x, parent.y, parent.z) + uvec3(child & 1u, (child >> 1) & 1u, child >> 2);
 }
 
+// Top cells are counted along x, then y, then z.
+uvec3 top_cell_coordinates(uint index) {
+  uvec3 voxels = uvec3(step.grid_x, step.grid_y, step.grid_z);
+  uvec3 grid = (voxels + step.voxels_per_cell - 1u) / step.voxels_per_cell;
+  return uvec3(index % grid.x, index / grid.x % grid.y, index / (grid.x * grid.y));
+}
+
 vec3 cell_centre(uvec3 coordinates) { return (vec3(coordinates) + 0.5) * step.cell_size; }
 
 // Lower corner of the finest voxel that a cell at or below the finest level is or lies in.

@@ -1,0 +1,28 @@
+// On which side of the boundary a whole ball lies that does not meet it. Include winding.glsl before.
+//
+// On a closed mesh the winding number is constant on the ball. On an open mesh it is harmonic there, and Harnack's
+// inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at most
+// R (R + r) / (R - r)^2 times its value at c. It is used for w + kSpill (outside) and 1 + kSpill - w (inside), which are
+// positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about open meshes (docs/theory.md).
+#ifndef MEDIAL_VK_CELL_SIDE_GLSL
+#define MEDIAL_VK_CELL_SIDE_GLSL
+
+const uint kSideUnknown = 0u, kSideInside = 1u, kSideOutside = 2u;
+const float kSpill = 0.05;
+
+// `clearance`: a lower bound of the distance from the centre to the boundary.
+uint side_of_ball(vec3 centre, float radius, float clearance, bool closed) {
+  if (clearance <= radius) return kSideUnknown;
+  float tolerance = closed ? 0.2 : 0.02;
+  Winding w = winding_number(centre, tolerance);
+  if (!w.complete) return kSideUnknown;
+  if (closed) return w.number >= 0.5 ? kSideInside : kSideOutside;
+  float gap = clearance - radius;
+  float harnack = clearance * (clearance + radius) / (gap * gap);
+  float above = w.number + tolerance + kSpill, below = 1.0 + kSpill + tolerance - w.number;
+  if (above > 0.0 && above * harnack < 0.5 + kSpill) return kSideOutside;
+  if (below > 0.0 && below * harnack < 0.5 + kSpill) return kSideInside;
+  return kSideUnknown;
+}
+
+#endif
