@@ -13,17 +13,15 @@
 #include "winding.glsl"
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
-layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
-layout(set = 0, binding = 4) buffer Lines { Line lines[]; };
+layout(set = 0, binding = 3) buffer Lines { Line lines[]; };
+layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
 
 const float kRounding = 1e-4;  // of the sum of solid angles in float
 
 void main() {
-  uint index = invocation_index();
-  if (index >= counters[kLines]) return;
-  uint accepted = lines[index].accepted;
-  if (accepted == 0u || (cells[lines[index].cell].flags & kCellInside) != 0u) return;
-  vec3 point = accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
+  if (invocation_index() >= counters[kAsked]) return;
+  uint index = asked[invocation_index()];
+  vec3 point = lines[index].accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
   float tolerance = step.closed != 0u ? 0.2 : 0.02;
   Winding w;
   for (uint attempt = 0;; ++attempt) {

@@ -1,12 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Drops the cells that lie outside, and marks those that lie inside: their descendants need not ask again. Children
-// that are kept know the distance of their centre to the boundary; top cells know a lower bound of it.
+// that are kept know the distance of their centre to the boundary; top cells know a lower bound of it. Children that do
+// not know their side come packed (dismiss_cells.comp), so that neighbouring invocations have equal work.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
-#define TRIANGLE_TEXEL_BINDING 6
-#define TREE_TEXEL_BINDING 7
+#define TRIANGLE_TEXEL_BINDING 7
+#define TREE_TEXEL_BINDING 8
 #include "triangles.glsl"
 #include "tree.glsl"
 #include "winding.glsl"
@@ -18,11 +19,12 @@ layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) buffer States { uvec4 states[]; };
+layout(set = 0, binding = 6) readonly buffer Asked { uint asked[]; };
 
 void main() {
-  uint item = invocation_index();
-  if (item >= counters[kParents] * (kTop ? 1u : 8u)) return;
-  if (states[item].x == 0u) return;
+  uint index = invocation_index();
+  if (index >= counters[kTop ? kParents : kAsked]) return;
+  uint item = kTop ? index : asked[index];
   vec3 centre;
   float clearance;
   if (kTop) {
@@ -30,7 +32,6 @@ void main() {
     clearance = uintBitsToFloat(states[item].w);
     states[item].w = 0u;
   } else {
-    if ((states[item].w & kCellInside) != 0u) return;
     centre = cell_centre(child_coordinates(parents[item / 8], item % 8));
     clearance = sqrt(uintBitsToFloat(nearest[item].x));
   }

@@ -7,7 +7,7 @@
 // towards the contact that violates most (as Badoiu and Clarkson do for smallest enclosing balls).
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 9
+#define TRIANGLE_TEXEL_BINDING 10
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
@@ -18,6 +18,7 @@ layout(set = 0, binding = 5) readonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 7) readonly buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 8) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
+layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };       // kept children that do not know their side
 
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most
 const uint kDirectionSweeps = 3;  // with directions too; two more for every level below the finest voxel
@@ -169,5 +170,8 @@ void main() {
     return;
   uint flags = parent.flags & kCellInside;
   if (distrust && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
+  // Their order does not matter: every answer goes to its own state.
+  if ((flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.slack)
+    asked[atomicAdd(counters[kAsked], 1u)] = item;
   states[item] = uvec4(1u, counts[item], (counts[item] + 31u) / 32u, flags);
 }

@@ -5,10 +5,11 @@
 // the boundary elsewhere (Lemma 2.3). Whether the end lies in the solid is asked afterwards.
 #include "step.glsl"
 
-layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // of the two grown ends
 layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 4) writeonly buffer Asked { uint asked[]; };  // accepted lines that do not know their side
 
 // One hundredth of epsilon keeps the test clear of float rounding; certify_spheres() repeats it in double.
 const float kGrowthMargin = 0.01;
@@ -41,4 +42,5 @@ void main() {
   bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, 2 * index, turn);
   bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
+  if ((p || q) && (cell.flags & kCellInside) == 0u) asked[atomicAdd(counters[kAsked], 1u)] = index;
 }

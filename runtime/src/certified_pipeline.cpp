@@ -71,7 +71,7 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   // Bytes per kept cell and per list entry, from the table below.
-  constexpr std::uint64_t kBytesPerCell = 1280, kBytesPerEntry = 13;
+  constexpr std::uint64_t kBytesPerCell = 1312, kBytesPerEntry = 13;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
   const std::uint64_t cells = std::min({memory_budget * 3 / 10 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
@@ -103,6 +103,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&grown_nearest_, 2 * lines * 8, "nearest triangles of grown balls"},
       {&masks_, 8 * words * 4, "contact masks"},
       {&counts_, 8 * c * 4, "contact counts"},
+      {&asked_, 8 * c * 4, "cells and lines whose side is asked"},
       {&states_, scanned * 16, "states"},
       {&offsets_, scanned * 16, "offsets"},
       {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},

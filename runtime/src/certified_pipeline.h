@@ -64,6 +64,7 @@ class CertifiedPipeline {
   gpu::StepConstants level_constants(std::uint32_t level) const;
 
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
+  void clear_counter(Recorder& r, std::uint32_t counter);
   void start_level(Recorder& r, std::uint32_t source);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
@@ -116,7 +117,7 @@ class CertifiedPipeline {
 
   Buffer treelets_, counters_, counters_readback_, arguments_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
-  Buffer nearest_, grown_nearest_, masks_, counts_, states_, offsets_, block_sums_;
+  Buffer nearest_, grown_nearest_, masks_, counts_, asked_, states_, offsets_, block_sums_;
   Buffer points_, lines_, winners_, verdicts_, voxel_points_, result_;
   Buffer samples_, opposites_, sample_nearest_, opposite_nearest_;
 };

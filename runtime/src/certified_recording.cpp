@@ -64,7 +64,8 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   write_entries.constants = {1};
   const Extent groups{gpu::kParents, 256};
   run(r, count_entries, groups, step);
-  Kernel side = side_kernel("decide_side", {counters_.range(), cells_[0].range(), nearest_.range(), states_.range()});
+  Kernel side = side_kernel("decide_side",
+                            {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});
   side.constants = {1};
   run(r, side, {gpu::kParents}, step);
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
@@ -76,6 +77,11 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
 void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source) {
   const BufferRange counters[] = {counters_.range()};
   r.dispatch({"start_level", 1, 0, 0, 1, {source}}, counters, {}, {}, 1);
+  r.barrier();
+}
+
+void CertifiedPipeline::clear_counter(Recorder& r, std::uint32_t counter) {
+  r.fill(counters_, VkDeviceSize{counter} * 4, 4, 0);
   r.barrier();
 }
 
@@ -92,14 +98,17 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
                nearest_.range(), masks_.range(), counts_.range(), axes.range()},
               Reads::kTriangles},
              children, step);
+  clear_counter(r, gpu::kAsked);
   run(r,
       {"dismiss_cells",
        {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), masks_.range(), counts_.range(), axes.range(), states_.range()},
+        nearest_.range(), masks_.range(), counts_.range(), axes.range(), states_.range(), asked_.range()},
        Reads::kTriangles},
       {gpu::kParents, 8}, step);
-  run(r, side_kernel("decide_side", {counters_.range(), level.parents->range(), nearest_.range(), states_.range()}),
-      {gpu::kParents, 8}, step);
+  run(r,
+      side_kernel("decide_side",
+                  {counters_.range(), level.parents->range(), nearest_.range(), states_.range(), asked_.range()}),
+      {gpu::kAsked}, step);
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
   if (finest) {  // every finest voxel that is kept gets a slot
@@ -160,10 +169,12 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
         {gpu::kLines}, step);
   }
   find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
-  run(r, {"verify_lines", {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range()}},
+  clear_counter(r, gpu::kAsked);
+  run(r,
+      {"verify_lines",
+       {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range(), asked_.range()}},
       {gpu::kLines}, step);
-  run(r, side_kernel("decide_line_side", {counters_.range(), level.cells->range(), lines_.range()}), {gpu::kLines},
-      step);
+  run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range()}), {gpu::kAsked}, step);
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,

@@ -136,6 +136,7 @@ MEDIAL_VK_GPU_CONSTANT kQueriesHigh = 13u;
 MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
 MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
 MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit
+MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known
 MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: visited, kept, contacts, found
 MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 4u;
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
