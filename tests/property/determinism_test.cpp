@@ -1,0 +1,100 @@
+// The same input, options and device give the same bytes, however the work is cut into chunks; and the validation layer
+// has nothing to say. In both modes.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+#include "support/device.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+// No padding: comparing memory compares every number.
+static_assert(sizeof(MedialSphere) ==
+              sizeof(Point) + sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t) + 3 * sizeof(std::uint32_t));
+
+void expect_same_bytes(const Extraction& a, const Extraction& b) {
+  EXPECT_EQ(a.grid.origin, b.grid.origin);
+  EXPECT_EQ(a.grid.voxel_size, b.grid.voxel_size);
+  EXPECT_EQ(a.grid.size, b.grid.size);
+  ASSERT_EQ(a.spheres.size(), b.spheres.size());
+  for (std::size_t i = 0; i < a.spheres.size(); ++i) {
+    ASSERT_EQ(std::memcmp(&a.spheres[i], &b.spheres[i], sizeof(MedialSphere)), 0) << "sphere " << i;
+  }
+  EXPECT_EQ(a.counters.found, b.counters.found);
+  EXPECT_EQ(a.counters.undecided, b.counters.undecided);
+  EXPECT_EQ(a.counters.proved_empty, b.counters.proved_empty);
+  ASSERT_EQ(a.counters.levels.size(), b.counters.levels.size());
+  for (std::size_t i = 0; i < a.counters.levels.size(); ++i) {
+    const ExtractionCounters::Level &x = a.counters.levels[i], &y = b.counters.levels[i];
+    EXPECT_EQ(x.visited, y.visited) << "level " << i;
+    EXPECT_EQ(x.kept, y.kept) << "level " << i;
+    EXPECT_EQ(x.contacts, y.contacts) << "level " << i;
+    EXPECT_EQ(x.found, y.found) << "level " << i;
+  }
+}
+
+class BothModes : public testing::TestWithParam<Mode> {
+ protected:
+  void SetUp() override {
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    parameters_.mode = GetParam();
+    parameters_.resolution = 24;
+  }
+
+  static PreparedMesh solid() {
+    Mesh mesh = test::make_torus(1, 0.4, 40, 80, 0.5);
+    test::rotate(mesh, {0.3, 0.5, 0.8}, 0.7);
+    return test::prepare(std::move(mesh));
+  }
+
+  ExtractionParameters parameters_;
+};
+
+TEST_P(BothModes, TwiceTheSameBytes) {
+  const PreparedMesh mesh = solid();
+  Context context = test::make_context();
+  const CertifiedExtraction first = test::extract_on_device(context, mesh, parameters_);
+  const CertifiedExtraction second = test::extract_on_device(context, mesh, parameters_);
+  EXPECT_GT(first.extraction.spheres.size(), 100u);
+  expect_same_bytes(first.extraction, second.extraction);
+  EXPECT_TRUE(test::passes_certificate(mesh, first.extraction, parameters_));
+}
+
+TEST_P(BothModes, MemoryOnlyCutsTheWork) {
+  const PreparedMesh mesh = solid();
+  Context context = test::make_context();
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, parameters_);
+  parameters_.memory_budget = 64ull << 20;
+  const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters_);
+  expect_same_bytes(roomy.extraction, tight.extraction);
+  // So little that chunks overflow and run again in parts.
+  parameters_.memory_budget = 16ull << 20;
+  const CertifiedExtraction cut = test::extract_on_device(context, mesh, parameters_);
+  expect_same_bytes(roomy.extraction, cut.extraction);
+  if (GetParam() == Mode::kCertified) {
+    EXPECT_GT(cut.extraction.counters.retries, roomy.extraction.counters.retries);
+  }
+}
+
+TEST_P(BothModes, NoValidationMessages) {
+  MEDIAL_VK_SKIP_WITHOUT_VALIDATION();
+  Mesh box = test::make_box({1, 0.7, 0.5});
+  test::rotate(box, {0.3, 0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(std::move(box));
+  parameters_.resolution = 12;
+  Context context = test::make_context(true);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters_);
+  EXPECT_GT(result.extraction.spheres.size(), 50u);
+  EXPECT_EQ(context.validation_messages(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, BothModes, testing::Values(Mode::kCertified, Mode::kThesis), [](const auto& mode) {
+  return std::string(mode.param == Mode::kCertified ? "Certified" : "Thesis");
+});
+
+}  // namespace
+}  // namespace medial_vk
