@@ -36,10 +36,8 @@ class FluxSampler {
   static constexpr VkDeviceSize kBytesPerSample = 4 * 16 + 2 * 4;
 
  private:
-  explicit FluxSampler(Context::Impl& context, const TreeQueries& queries)
-      : context_(&context), queries_(&queries), arena_(context) {}
+  explicit FluxSampler(Context::Impl& context, const TreeQueries& queries) : queries_(&queries), arena_(context) {}
 
-  Context::Impl* context_;
   const TreeQueries* queries_;
   Arena arena_;
   Buffer samples_, nearest_, hits_, opposites_, opposite_nearest_, opposite_hits_;

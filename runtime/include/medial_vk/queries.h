@@ -37,7 +37,9 @@ struct FluxSample {
   std::uint32_t fans = 0;        ///< Samples left out.
 };
 
-/// A mesh on the device, in float, scaled to the unit box.
+/// A mesh on the device, in float, scaled to the unit box. Queries may lie anywhere; beyond the mesh's box the accuracy
+/// is that of a float of their distance from it. Errors of every query: kUsage (a coordinate that is not finite, or
+/// further away than 1e15 box sizes), kOutOfMemory, kInternal (device lost).
 class Scene {
  public:
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite), kOutOfMemory.
