@@ -1,0 +1,62 @@
+// lavapipe ends an invocation's loops silently after 65,535 iterations. A finely faceted sphere is the worst case: near
+// its centre every triangle is a contact, and each must be looked at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/device.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint64_t kLoopBudget = 65535;
+
+/// Extracts a sphere of radius 1 and more than three budgets of triangles; checks the one point at its centre. An odd
+/// resolution: the centre is the middle of a voxel, not a corner of eight.
+void expect_centre_found(std::uint32_t odd_resolution, CertifiedExtraction& result) {
+  const PreparedMesh mesh = test::prepare(test::make_sphere(1, 200000));
+  ASSERT_GT(mesh.mesh.triangles.size(), 3 * kLoopBudget);
+  ExtractionParameters parameters;
+  parameters.resolution = odd_resolution;
+  parameters.object_angle = 0.6;
+  Context context = test::make_context();
+  result = test::extract_on_device(context, mesh, parameters);
+  SCOPED_TRACE(test::describe(result));
+  ASSERT_EQ(result.extraction.spheres.size(), 1u);
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  const MedialSphere& s = result.extraction.spheres[0];
+  const std::uint32_t middle = odd_resolution / 2;
+  EXPECT_EQ(s.voxel, (std::array<std::uint32_t, 3>{middle, middle, middle}));
+  // Frequency 100: edges up to 0.02, facets up to edge^2 / 5 = 8e-5 below the sphere, their normals turned by 0.02 at
+  // most. A point that passes as salient lies within (2 epsilon + 2 * 8e-5) / (cos 0.02 - cos 0.6) of the centre: see
+  // salient_reach() in tests/analytic/smooth_solids_test.cpp.
+  const double epsilon = parameters.epsilon * result.extraction.grid.voxel_size;
+  const double reach = (2 * epsilon + 2 * 8e-5) / (std::cos(0.02) - std::cos(0.6));
+  EXPECT_LE(test::to_eigen(s.centre).norm(), reach);
+  EXPECT_LE(s.radius, 1.0);
+  EXPECT_GE(s.radius, 1.0 - 8e-5 - test::to_eigen(s.centre).norm());
+}
+
+TEST(LoopBudget, SphereOfTwoHundredThousandTriangles) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  CertifiedExtraction result;
+  expect_centre_found(41, result);
+}
+
+// Voxels so large that the lists of kept cells are longer than the budget on average, so one at least is.
+TEST(LoopBudget, ListsLongerThanTheBudget) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  CertifiedExtraction result;
+  expect_centre_found(3, result);
+  std::uint64_t longest_mean = 0;
+  for (const ExtractionCounters::Level& level : result.extraction.counters.levels) {
+    if (level.kept > 0) longest_mean = std::max(longest_mean, level.contacts / level.kept);
+  }
+  EXPECT_GT(longest_mean, kLoopBudget) << test::describe(result);
+}
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,60 @@
+// Real models, if their folder lies beside the source tree: closed ones and ones with holes, cracks and double walls.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "mesh/load_mesh.h"
+#include "support/device.h"
+#include "support/extraction.h"
+
+namespace medial_vk {
+namespace {
+
+struct Model {
+  const char* name;
+  bool closed;
+};
+
+class RealModel : public testing::TestWithParam<Model> {};
+
+TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  const std::filesystem::path file = std::filesystem::path(MEDIAL_VK_SOURCE_DIR) / ".." / "shared" / "models" /
+                                     (std::string(GetParam().name) + ".obj");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "there is no folder of models beside the source tree";
+  Result<Mesh> input = read_mesh(file.string());
+  ASSERT_TRUE(input.ok()) << input.error().message;
+  const PreparedMesh mesh = test::prepare(std::move(input).value());
+  EXPECT_EQ(mesh.report.closed, GetParam().closed);
+  if (!GetParam().closed) {
+    EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never taken without saying so";
+  }
+  ExtractionParameters parameters;
+  // Open boundaries cannot be dismissed near their rims, and their sides are asked point by point: several times
+  // slower.
+  parameters.resolution = GetParam().closed ? 160 : 80;
+  Context context = test::make_context();
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  std::cout << GetParam().name << ": " << test::describe(result) << "\n";
+  const ExtractionCounters& c = result.extraction.counters;
+  EXPECT_GT(c.found, 500u);
+  EXPECT_EQ(c.found, result.extraction.spheres.size());
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  // Balls that the device believed in and double precision did not: rounding, so hardly any.
+  EXPECT_LE(result.certify.rejected, c.found / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, RealModel,
+                         testing::Values(Model{"spot", true}, Model{"homer", true}, Model{"rocker-arm", true},
+                                         Model{"fandisk", true}, Model{"stanford-bunny", false}, Model{"teapot", false},
+                                         Model{"suzanne", false}, Model{"beetle", false}),
+                         [](const auto& model) {
+                           std::string name = model.param.name;
+                           for (char& c : name) c = c == '-' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace medial_vk
