@@ -13,17 +13,21 @@ const float kSpill = 0.05;
 // `clearance`: a lower bound of the distance from the centre to the boundary.
 uint side_of_ball(vec3 centre, float radius, float clearance, bool closed) {
   if (clearance <= radius) return kSideUnknown;
-  float tolerance = closed ? 0.4 : 0.05;
+  if (closed) {
+    Winding w = winding_number(centre, 0.4);
+    return !w.complete ? kSideUnknown : w.number >= 0.5 ? kSideInside : kSideOutside;
+  }
   float gap = clearance - radius;
   float harnack = clearance * (clearance + radius) / (gap * gap);
-  // Not even a winding number of 0 or 1 could decide.
-  if (!closed && (tolerance + kSpill) * harnack >= 0.5 + kSpill) return kSideUnknown;
-  Winding w = winding_number(centre, tolerance);
-  if (!w.complete) return kSideUnknown;
-  if (closed) return w.number >= 0.5 ? kSideInside : kSideOutside;
-  float above = w.number + tolerance + kSpill, below = 1.0 + kSpill + tolerance - w.number;
-  if (above > 0.0 && above * harnack < 0.5 + kSpill) return kSideOutside;
-  if (below > 0.0 && below * harnack < 0.5 + kSpill) return kSideInside;
+  for (float tolerance = 0.2; tolerance > 0.01; tolerance *= 0.2) {
+    // Not even a winding number of 0 or 1 could decide.
+    if ((tolerance + kSpill) * harnack >= 0.5 + kSpill) continue;
+    Winding w = winding_number(centre, tolerance);
+    if (!w.complete) return kSideUnknown;
+    float above = w.number + w.bound + kSpill, below = 1.0 + kSpill + w.bound - w.number;
+    if (above > 0.0 && above * harnack < 0.5 + kSpill) return kSideOutside;
+    if (below > 0.0 && below * harnack < 0.5 + kSpill) return kSideInside;
+  }
   return kSideUnknown;
 }
 
