@@ -50,10 +50,12 @@ class Certifier {
     const BvhHit grown = bvh_.closest(grown_centre);
     // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon.
     if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
-    set_spokes(s, unit_float(toward), unit_float(grown.point - grown_centre));
-    if (!tip_is_near(s)) return false;
-    s.object_angle = static_cast<float>(half_angle(s.spoke_a, s.spoke_b));
-    return is_salient(s);
+    const std::array<float, 3> a = unit_float(toward), beyond = unit_float(grown.point - grown_centre);
+    set_spokes(s, a);
+    if (tip_is_near(s) && is_salient(s)) return set_angle(s);
+    // Where many contacts tie (the centre of a sphere), the exact nearest one may lie between the two of the device.
+    s.spoke_b = beyond;
+    return tip_is_near(s) && is_salient(s) && set_angle(s);
   }
 
  private:
@@ -70,6 +72,11 @@ class Certifier {
     return 32 * u * longest + 4 * u * magnitude;
   }
 
+  static bool set_angle(MedialSphere& s) {
+    s.object_angle = static_cast<float>(half_angle(s.spoke_a, s.spoke_b));
+    return true;
+  }
+
   bool in_its_voxel(const MedialSphere& s) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double cell = std::floor((s.centre[axis] - grid_.origin[axis]) / grid_.voxel_size);
@@ -80,12 +87,11 @@ class Certifier {
 
   // Spoke b is the direction that the search saw on the other side of the sheet. Where the two contacts tie within the
   // rounding of the device, exact arithmetic may call the other one nearest: then the device's spoke a is spoke b.
-  void set_spokes(MedialSphere& s, const std::array<float, 3>& a, const std::array<float, 3>& beyond) const {
+  void set_spokes(MedialSphere& s, const std::array<float, 3>& a) const {
     const bool swapped = dot(widen(a), widen(s.spoke_b)) > dot(widen(a), widen(s.spoke_a));
     const std::array<float, 3> b = swapped ? s.spoke_a : s.spoke_b;
     s.spoke_a = a;
     s.spoke_b = unit_float(widen(b));
-    if (!tip_is_near(s)) s.spoke_b = beyond;
   }
 
   // Lemma 2.4: the tip of spoke b is within 2 epsilon of the boundary.
@@ -95,8 +101,7 @@ class Certifier {
 
   bool is_salient(const MedialSphere& s) const {
     const double angle = half_angle(s.spoke_a, s.spoke_b);
-    return angle >= parameters_.object_angle ||
-           (parameters_.radius > 0 && s.radius >= parameters_.radius * longest_);
+    return angle >= parameters_.object_angle || (parameters_.radius > 0 && s.radius >= parameters_.radius * longest_);
   }
 
   const Bvh& bvh_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "support/device.h"
 #include "support/extraction.h"
@@ -74,20 +75,26 @@ double salient_reach(double epsilon, double delta, double facet) {
 
 // An odd resolution puts the centre in the middle of a voxel: the box around a geodesic sphere is symmetric. At an even
 // one it is a corner of eight voxels, and any of them may hold it.
-TEST(SmoothSphere, OnlyTheCentreIsMedial) {
+class SmoothSphere : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(SmoothSphere, OnlyTheCentreIsMedial) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const double radius = 1;
-  const TurnedSolid r = extract_turned(test::make_sphere(radius, 8000), 33);
+  const TurnedSolid r = extract_turned(test::make_sphere(radius, GetParam()), 33);
   SCOPED_TRACE(test::describe(r.result));
   ASSERT_EQ(r.result.extraction.spheres.size(), 1u);
   // Facets lie 1 - sqrt(1 - c^2) <= c^2 / 2 + c^4 / 4 below a unit sphere, c^2 <= edge^2 / 3: edge^2 / 5 covers both.
-  const double edge = longest_edge(8000), delta = radius * edge * edge / 5;
+  const double edge = longest_edge(GetParam()), delta = radius * edge * edge / 5;
   const MedialSphere& s = r.result.extraction.spheres[0];
   EXPECT_LE(test::to_eigen(s.centre).norm(), salient_reach(r.epsilon, delta, facet_radius(edge)));
   EXPECT_LE(s.radius, radius);
   EXPECT_GE(s.radius, radius - delta - test::to_eigen(s.centre).norm());
   EXPECT_EQ(s.voxel, (std::array<std::uint32_t, 3>{16, 16, 16}));
 }
+
+// In double precision another of the facets that tie may be the nearest than in float: 20,000 once lost their point.
+INSTANTIATE_TEST_SUITE_P(Smooth, SmoothSphere, testing::Values(2000u, 8000u, 20000u),
+                         [](const auto& triangles) { return std::to_string(triangles.param); });
 
 // The exact medial curve of a regular prism is a single line where all facets tie: the hardest thing to hit. What is
 // missed must have been called undecided, and most of the chain must be there.
@@ -100,6 +107,7 @@ TEST(SmoothCapsule, PointsFormAChainAlongItsAxis) {
   const double step = std::numbers::pi / segments;  // half of a facet's turn, in both directions on the caps
   const double delta = radius * (1 - std::cos(step) * std::cos(step));
   const double reach = salient_reach(r.epsilon, delta, std::sqrt(2.0) * step);
+  EXPECT_EQ(r.result.certify.rejected, 0u);
   for (const MedialSphere& s : r.result.extraction.spheres) {
     const Vector3d p = r.in_body(s);
     const Vector3d on_axis(0, 0, std::clamp(p.z(), -length / 2, length / 2));

@@ -27,6 +27,8 @@ void expect_centre_found(std::uint32_t odd_resolution, CertifiedExtraction& resu
   SCOPED_TRACE(test::describe(result));
   ASSERT_EQ(result.extraction.spheres.size(), 1u);
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  EXPECT_EQ(result.extraction.counters.undecided, 0u);
+  EXPECT_EQ(result.certify.rejected, 0u);
   const MedialSphere& s = result.extraction.spheres[0];
   const std::uint32_t middle = odd_resolution / 2;
   EXPECT_EQ(s.voxel, (std::array<std::uint32_t, 3>{middle, middle, middle}));
