@@ -26,10 +26,6 @@ const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
-// Smallest object angle that counts where the radius suffices (docs/decisions.md): creases between the facets of a
-// smooth solid turn by less, medial sheets by more.
-constexpr double kDeepAngle = 0.15;
-
 // Steps that narrow a line of length `from` below `to`, nine parts a step.
 std::uint32_t steps_to_narrow(double from, double to) {
   std::uint32_t steps = 1;
@@ -55,7 +51,8 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << shift);
   // The growth test holds if the ends are within h of each other, h < epsilon sin^2(theta) D / (D + epsilon):
   // docs/theory.md, "How far to narrow". Four fifths of that leave room for D >= 4 epsilon and for rounding.
-  const double angle = parameters.radius > 0 ? std::min(kDeepAngle, parameters.object_angle) : parameters.object_angle;
+  const double angle =
+      parameters.radius > 0 ? std::min(parameters.deep_angle, parameters.object_angle) : parameters.object_angle;
   const double sine = std::sin(angle);
   p.narrowing_steps_ =
       steps_to_narrow(2 * (kHalfDiagonal + parameters.epsilon), 0.8 * parameters.epsilon * sine * sine);
@@ -156,7 +153,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   // beyond them, and at the finest level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball
   // lies in its parent's, so the same margin serves all levels above.
   const double margin = below ? 2 * epsilon : std::max(2 * epsilon, (1 - kHalfDiagonal) * voxel);
-  const double deep = std::min(kDeepAngle, parameters_.object_angle);
+  const double deep = std::min(parameters_.deep_angle, parameters_.object_angle);
   gpu::StepConstants step{};
   step.cell_size = static_cast<float>(size);
   step.circumradius = static_cast<float>(kHalfDiagonal * size + kCentreError);

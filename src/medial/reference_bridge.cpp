@@ -68,6 +68,7 @@ reference::Parameters to_reference(const ExtractionParameters& parameters) {
   out.resolution = static_cast<int>(parameters.resolution);
   out.object_angle = parameters.object_angle;
   out.radius = parameters.radius;
+  out.deep_angle = parameters.deep_angle;
   out.epsilon = parameters.epsilon;
   out.extra_levels = static_cast<int>(parameters.extra_levels);
   out.narrow_features = parameters.narrow_features;

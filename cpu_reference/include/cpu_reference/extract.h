@@ -23,7 +23,7 @@ struct Parameters {
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
   // With a radius threshold on: the object angle that a point of that radius must have (never above object_angle).
   // Without it every convex edge of a finely faceted solid would put a sheet of tiny angle into the deep voxels.
-  double deep_angle = 0.05;
+  double deep_angle = 0.15;
 };
 
 struct Sphere {

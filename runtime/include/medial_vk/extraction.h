@@ -25,6 +25,9 @@ struct ExtractionParameters {
   std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
   double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
   double radius = 0.0;             ///< Radius threshold as a fraction of the longest side; 0: off (angle only).
+  /// Certified, with a radius threshold: the object angle that a point of that radius must have (never above
+  /// object_angle), radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
+  double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
   std::uint32_t extra_levels = 4;  ///< Certified: levels of subdivision below the finest voxel before giving up.
   bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
@@ -54,11 +57,11 @@ struct MedialSphere {
 /// Where the voxels and the time went. Counts do not depend on the machine.
 struct ExtractionCounters {
   struct Level {
-    double cell_size = 0;          ///< As a fraction of the longest side.
-    std::uint64_t visited = 0;     ///< Cells examined.
-    std::uint64_t kept = 0;        ///< Cells that could not be dismissed.
-    std::uint64_t contacts = 0;    ///< Sum of the lengths of the kept cells' contact lists.
-    std::uint64_t found = 0;       ///< Voxels that got their point at this level (finest level and below).
+    double cell_size = 0;        ///< As a fraction of the longest side.
+    std::uint64_t visited = 0;   ///< Cells examined.
+    std::uint64_t kept = 0;      ///< Cells that could not be dismissed.
+    std::uint64_t contacts = 0;  ///< Sum of the lengths of the kept cells' contact lists.
+    std::uint64_t found = 0;     ///< Voxels that got their point at this level (finest level and below).
   };
   std::vector<Level> levels;
   std::uint64_t found = 0;         ///< Finest voxels with a point.
