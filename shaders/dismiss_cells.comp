@@ -56,7 +56,7 @@ float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   vec3 g = unit_or_zero(v);
   bool contact = is_contact(d, g);
   distrust = distrust || (contact && !trusted);
-  float spread = d > rho ? asin(min(1.0, (rho + step.slack) / d)) : 4.0;
+  float spread = d > rho ? asin(min(1.0, (rho + 2.0 * step.slack) / d)) : 4.0;
   float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
   help = by_direction < by_normal ? g : texels.normal.xyz;
   return contact ? min(by_normal, by_direction) : -1.0;

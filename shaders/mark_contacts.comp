@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Which of a parent's contacts are contacts of each child: Lemma 1 (docs/theory.md). One invocation per parent and
+// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md). One invocation per parent and
 // child; one bit per list entry.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -1,8 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The points at which flux is sampled: a generalised spiral (Saff and Kuijlaars 1997, the source's [102]) on the
-// sphere around a voxel's centre with the voxel's side as radius; or, second, the opposites of those points
-// (Definition 2.3).
+// The points at which flux is sampled, on the sphere around a voxel's centre with the voxel's side as radius: a spiral
+// that turns by the golden angle; or, second, the opposites of those points (Definition 2.3).
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 6
@@ -17,8 +16,8 @@ layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
 
 vec3 spiral_direction(uint k) {
-  // h runs from -1 to 1; the azimuth advances by 3.6 / sqrt(N (1 - h^2)). Its sum has no closed form; the golden angle
-  // spreads the points as evenly and does.
+  // The source's spiral (its [102]) advances the azimuth by 3.6 / sqrt(N (1 - h^2)), a sum without a closed form; the
+  // golden angle spreads the points as evenly.
   float h = (2.0 * float(k) + 1.0) / float(kFluxSamples) - 1.0;
   float azimuth = float(k) * 2.399963;
   float r = sqrt(1.0 - h * h);

@@ -6,7 +6,7 @@
 
 layout(local_size_x_id = 0) in;  // 1
 layout(push_constant) uniform Push { DispatchConstants dispatch; };
-layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
 
 const uint kRow = 32768u;  // groups along x; every device allows 65,535
@@ -18,6 +18,9 @@ void main() {
                 (dispatch.list_counter == kNoCounter || counters[dispatch.list_counter] > dispatch.first_entry);
   uint lanes = (items + dispatch.items_divisor - 1u) / dispatch.items_divisor;
   uint groups = needed ? (lanes + dispatch.group_size - 1u) / dispatch.group_size : 0u;
+  // Further rounds go on with the same queries.
+  if (needed && dispatch.first_entry == 0u && dispatch.queries_per_item > 0u)
+    counters[kQueries] += items * dispatch.queries_per_item;
   uint rows = (groups + kRow - 1u) / kRow;
   arguments[3u * dispatch.argument] = min(groups, kRow);
   arguments[3u * dispatch.argument + 1u] = max(rows, 1u);

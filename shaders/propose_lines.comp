@@ -2,9 +2,10 @@
 #extension GL_GOOGLE_include_directive : enable
 // Aims at the sheets that may cross a cell (docs/theory.md, "Aimed lines"). The sheet between the nearest contact
 // (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right angles by the line through the centre
-// along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it. Eight lanes share a cell: seven look
-// through the list, each proposes its best line, and lines nearly parallel to a better one are given up; the eighth
-// takes the line along g0, whose ends are the deep samples of Section 3.2.
+// along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it. Eight lanes share a cell: six look through
+// the list, each proposes its best line, and lines nearly parallel to a better one are given up. The seventh aims at
+// the point where the contacts tie: curves of the medial surface, such as the axis of a round tube, are thinner than
+// any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 5
@@ -16,6 +17,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) writeonly buffer Points { vec4 points[]; };
 
 const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
+const uint kScoutLanes = 6, kTieLane = 6, kDeepLane = 7;
+const uint kTieEntries = 64;      // contacts that the tie is computed from
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kNoLine = 3e38;
 
@@ -26,10 +29,10 @@ struct Candidate {
   float key;
 };
 
-// The most promising contact among every seventh of the list.
+// The most promising contact among every sixth of the list.
 Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, float least_turn) {
   Candidate best = Candidate(vec3(0.0), kNoLine);
-  uint stride = (kLinesPerCell - 1u) * (1u + cell.list_count / ((kLinesPerCell - 1u) * kMostEntries));
+  uint stride = kScoutLanes * (1u + cell.list_count / (kScoutLanes * kMostEntries));
   for (uint entry = lane; entry < cell.list_count; entry += stride) {
     vec3 v = vector_to_triangle(centre, load_triangle(lists[cell.list_begin + entry]));
     float d = length(v);
@@ -44,19 +47,57 @@ Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, floa
   return best;
 }
 
-// The part of the line through the centre that lies in the cell's ball and in the finest voxel, both enlarged by
+// From the centre to the point equally far from all contacts that are about as near as the nearest, in the sense of
+// least squares: D_j - g_j.x = t for all j, by Gauss-Newton. Where the directions leave a degree of freedom (along a
+// sheet or a curve) the step has no part in it.
+vec3 step_to_tie(Cell cell, vec3 centre, float d0) {
+  vec3 x = vec3(0.0);
+  float nearest_distance = d0;
+  uint stride = 1u + cell.list_count / kTieEntries;
+  for (uint k = 0; k < 3u; ++k) {
+    float weights = 0.0, distances = 0.0, least = 3e38;
+    vec3 directions = vec3(0.0), mixed = vec3(0.0);
+    mat3 squares = mat3(0.0);
+    for (uint entry = 0; entry < cell.list_count; entry += stride) {
+      vec3 v = vector_to_triangle(centre + x, load_triangle(lists[cell.list_begin + entry]));
+      float d = length(v);
+      vec3 g = v / max(d, 1e-30);
+      float w = clamp(1.0 - 0.5 * (d - nearest_distance) / step.circumradius, 0.0, 1.0);
+      least = min(least, d);
+      weights += w;
+      distances += w * d;
+      directions += w * g;
+      mixed += w * d * g;
+      squares += outerProduct(w * g, g);
+    }
+    if (weights == 0.0) return x;
+    mat3 spread = squares - outerProduct(directions, directions) / weights;
+    float trace = spread[0][0] + spread[1][1] + spread[2][2];
+    x += inverse(spread + mat3(1e-4 * trace + 1e-12)) * (mixed - distances / weights * directions);
+    x *= min(1.0, step.circumradius / max(length(x), 1e-30));
+    nearest_distance = least;
+  }
+  return x;
+}
+
+// The part of the line through centre + base that lies in the cell's ball and in the finest voxel, both enlarged by
 // epsilon: a point within epsilon of the medial surface may stand for a sheet that runs along a face of its voxel, just
 // outside. Only ends inside the voxel are accepted (verify_lines.comp).
-bool clip_line(Cell cell, vec3 centre, vec3 direction, out float from, out float to) {
+bool clip_line(Cell cell, vec3 centre, vec3 base, vec3 direction, out float from, out float to) {
   vec3 lower = finest_voxel_corner(cell) - step.epsilon, upper = lower + step.voxel_size + 2.0 * step.epsilon;
-  vec3 a = (lower - centre) / direction, b = (upper - centre) / direction;
+  vec3 point = centre + base;
+  vec3 a = (lower - point) / direction, b = (upper - point) / direction;
   vec3 low = min(a, b), high = max(a, b);
-  from = -step.circumradius - step.epsilon;
-  to = step.circumradius + step.epsilon;
+  float radius = step.circumradius + step.epsilon;
+  float along = dot(base, direction);
+  float half_chord = sqrt(max(0.0, along * along - dot(base, base) + radius * radius));
+  from = -along - half_chord;
+  to = -along + half_chord;
   for (uint k = 0; k < 3u; ++k) {
-    if (abs(direction[k]) < 1e-6) continue;  // the centre is inside
-    from = max(from, low[k]);
-    to = min(to, high[k]);
+    bool parallel = abs(direction[k]) < 1e-6;
+    if (parallel && (point[k] <= lower[k] || point[k] >= upper[k])) return false;
+    from = parallel ? from : max(from, low[k]);
+    to = parallel ? to : min(to, high[k]);
   }
   return to > from;
 }
@@ -66,7 +107,7 @@ void main() {
   uint slot = gl_LocalInvocationID.x, lane = index % kLinesPerCell;
   bool exists = index / kLinesPerCell < counters[kCells];
   Cell cell;
-  vec3 centre, g0;
+  vec3 centre, g0, base = vec3(0.0);
   Candidate best = Candidate(vec3(0.0), kNoLine);
   if (exists) {
     cell = cells[index / kLinesPerCell];
@@ -76,19 +117,22 @@ void main() {
     g0 = unit_or_zero(to_nearest);
     bool deep = d0 + step.circumradius + step.slack >= step.radius;
     float least_turn = sin(deep ? min(step.deep_angle, step.angle) : step.angle);
-    if (lane < kLinesPerCell - 1u) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
-    if (lane == kLinesPerCell - 1u) best = Candidate(g0, 1e30);
+    if (lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
+    if (lane == kTieLane) base = step_to_tie(cell, centre, d0);
+    if (lane >= kTieLane) best = Candidate(g0, 1e30);
   }
-  proposals[slot] = vec4(best.direction, best.key);
+  // The line through the tie stands for itself.
+  proposals[slot] = lane == kTieLane ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);
   barrier();
   if (!exists) return;
   bool drop = best.key == kNoLine || dot(best.direction, best.direction) < 0.5;
   for (uint i = slot - lane; i < slot - lane + kLinesPerCell; ++i) {
     bool ahead = proposals[i].w < best.key || (proposals[i].w == best.key && i < slot);
-    drop = drop || (ahead && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
+    drop = drop || (ahead && lane != kTieLane && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
   }
   float from, to;
-  drop = drop || !clip_line(cell, centre, best.direction, from, to);
-  points[2 * index] = vec4(centre + from * best.direction, drop ? -1.0 : 1.0);
-  points[2 * index + 1] = vec4(centre + to * best.direction, 1.0);
+  drop = drop || !clip_line(cell, centre, base, best.direction, from, to);
+  if (!drop) atomicAdd(counters[kQueries], 2u);
+  points[2 * index] = vec4(centre + base + from * best.direction, drop ? -1.0 : 1.0);
+  points[2 * index + 1] = vec4(centre + base + to * best.direction, 1.0);
 }

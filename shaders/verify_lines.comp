@@ -11,7 +11,7 @@ layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // o
 layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 4) writeonly buffer Asked { uint asked[]; };  // accepted lines that do not know their side
 
-// One hundredth of epsilon keeps the test clear of float rounding; certify_spheres() repeats it in double.
+// A hundredth of epsilon keeps most of float's rounding out; certify_spheres() makes the test in double and decides.
 const float kGrowthMargin = 0.01;
 // Closer to the boundary than this many rounding errors, directions are noise.
 const float kLeastRadius = 8.0;
@@ -42,5 +42,7 @@ void main() {
   bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, 2 * index, turn);
   bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
-  if ((p || q) && (cell.flags & kCellInside) == 0u) asked[atomicAdd(counters[kAsked], 1u)] = index;
+  // What an open mesh says of a cell rests on an assumption: its points are asked one by one.
+  bool inside = step.closed != 0u && (cell.flags & kCellInside) != 0u;
+  if ((p || q) && !inside) asked[atomicAdd(counters[kAsked], 1u)] = index;
 }

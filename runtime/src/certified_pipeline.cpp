@@ -198,6 +198,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.first_item = extent.first;
   d.item_limit = extent.limit;
   d.list_counter = extent.list_counter;
+  d.queries_per_item = extent.queries;
   d.first_entry = step.first_entry;
   const std::uint32_t argument = prepare(r, d);
   ProgramKey key;
@@ -259,6 +260,8 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   lanes.multiplier *= shape.per_item / shape.per_lane;
   lanes.first *= shape.per_item / shape.per_lane;
   if (lanes.limit != 0xffffffffu) lanes.limit *= shape.per_item / shape.per_lane;
+  // Proposed lines are counted where they are proposed: most seeds have none.
+  lanes.queries = source == Source::kLineEnds ? 0 : shape.per_lane;
   gpu::StepConstants s = step;
   s.items_counter = extent.counter;
   s.items_multiplier = extent.multiplier;

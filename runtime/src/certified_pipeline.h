@@ -8,6 +8,7 @@
 //   collect the points, measure their flux
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,11 @@ class CertifiedPipeline {
 
   /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
+  /// Most top cells that one recorded sequence can take: their states fit the buffers, and the sum of their contacts,
+  /// at worst all triangles for each, fits the 32 bits that prefix sums count in.
+  std::uint32_t largest_chunk() const {
+    return std::max(1u, std::min(8 * capacity_.cells, 0xffffffffu / mesh_->triangle_count));
+  }
   std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
   double cell_size(std::uint32_t level) const;
 
@@ -91,6 +97,7 @@ class CertifiedPipeline {
     std::uint32_t first = 0;
     std::uint32_t limit = 0xffffffffu;
     std::uint32_t list_counter = gpu::kNoCounter;
+    std::uint32_t queries = 0;  // closest-point queries per invocation, for the statistics
   };
   void run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step);
   // The same once for every round that the longest list may need.

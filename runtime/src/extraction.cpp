@@ -35,7 +35,7 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
   }
   sum.found += c[gpu::kFound];
   sum.undecided += c[gpu::kUndecided];
-  sum.queries += c[gpu::kQueries] + (std::uint64_t{c[gpu::kQueriesHigh]} << 32);
+  sum.queries += c[gpu::kQueries];
 }
 
 class CertifiedRun {
@@ -45,7 +45,7 @@ class CertifiedRun {
 
   Status run(const ProgressCallback& progress) {
     const std::uint32_t total = pipeline_.top_cells();
-    std::uint32_t size = kFirstChunk;
+    std::uint32_t size = std::min(kFirstChunk, pipeline_.largest_chunk());
     for (std::uint32_t first = 0; first < total;) {
       if (progress && !progress(double(first) / total))
         return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
@@ -74,9 +74,10 @@ class CertifiedRun {
   };
 
   // Aims at buffers 60 % full: neighbouring chunks hold similar amounts of medial surface, not equal ones.
-  static std::uint32_t next_size(std::uint32_t count, const Fill& fill) {
+  std::uint32_t next_size(std::uint32_t count, const Fill& fill) const {
     const double factor = std::clamp(0.6 / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
-    return std::clamp(static_cast<std::uint32_t>(count * factor), 1u, kLargestChunk);
+    return std::clamp(static_cast<std::uint32_t>(count * factor), 1u,
+                      std::min(kLargestChunk, pipeline_.largest_chunk()));
   }
 
   static Error too_small() {
@@ -87,16 +88,14 @@ class CertifiedRun {
   Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
     auto times = run_commands(context_, [&](Recorder& r) { return pipeline_.record(r, first, count); });
     if (!times.ok()) return times.error();
+    add_times(times.value(), extraction_.device_times);  // chunks that are run again cost time too
     const auto counters = pipeline_.read_counters();
     const Fill fill{counters[gpu::kUtilisation] / 1024.0, counters[gpu::kOverflow] != 0};
     if (fill.overflow) return fill;
-    if (counters[gpu::kUnresolved] != 0)
-      return Error{ErrorCode::kInternal, "a loop on the device reached its bound without an answer"};
     auto points = pipeline_.read_points(counters[gpu::kFound]);
     if (!points.ok()) return points.error();
     for (const gpu::FoundPoint& p : points.value()) extraction_.spheres.push_back(to_input_units(p, mesh_));
     add_counters(counters, extraction_.counters);
-    add_times(times.value(), extraction_.device_times);
     return fill;
   }
 

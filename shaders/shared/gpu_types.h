@@ -112,6 +112,7 @@ struct DispatchConstants {
   uint group_size;
   uint first_item;     // items before this one are not counted
   uint item_limit;     // at most this many items from first_item on
+  uint queries_per_item;  // closest-point queries that an item asks: they are counted
   uint list_counter;   // counter with the longest list, or kNoCounter
   uint first_entry;    // nothing to do if no list is longer than this
   uint argument;       // index of the three words to write
@@ -130,9 +131,7 @@ MEDIAL_VK_GPU_CONSTANT kLongestParentList = 7u;
 MEDIAL_VK_GPU_CONSTANT kLongestCellList = 8u;
 MEDIAL_VK_GPU_CONSTANT kListEntries = 9u;       // used by the lists of this level
 MEDIAL_VK_GPU_CONSTANT kMaskWords = 10u;
-MEDIAL_VK_GPU_CONSTANT kUnresolved = 11u;       // loops that reached their bound without an answer: an error
-MEDIAL_VK_GPU_CONSTANT kQueries = 12u;          // closest-point queries asked, low word; high word next
-MEDIAL_VK_GPU_CONSTANT kQueriesHigh = 13u;
+MEDIAL_VK_GPU_CONSTANT kQueries = 12u;          // closest-point queries asked
 MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
 MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
 MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit

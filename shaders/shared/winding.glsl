@@ -30,6 +30,9 @@ float winding_of_triangle(vec3 p, TriangleTexels t) {
   return volume == 0.0 ? 0.0 : 2.0 * atan(volume, spread) / kFourPi;
 }
 
+// An invocation may ask three times (decide_line_side.comp): each walk takes at most a third of its loop budget.
+const uint kWindingRounds = kRounds / 3u;
+
 struct Expansion {
   float value;
   float bound;
@@ -94,7 +97,7 @@ Winding winding_number(vec3 p, float tolerance) {
     bool pop = !down && size > 0u;
     size -= uint(pop);
     place = down ? place : (pop ? places[min(size, kStackSize - 1u)] : kFinished);
-    if (place == kFinished || ++rounds == kRounds) break;
+    if (place == kFinished || ++rounds == kWindingRounds) break;
   }
   winding.complete = place == kFinished;
   return winding;
