@@ -24,7 +24,7 @@ class Certified {
         grid_(grid),
         thresholds_(thresholds),
         sides_(mesh, tree),
-        search_(tree, mesh, sides_, grid, thresholds, parameters.extra_levels, result),
+        search_(tree, sides_, grid, thresholds, parameters.extra_levels, result),
         spiral_(spiral_points(kFluxSamples)),
         result_(result) {}
 

@@ -19,15 +19,9 @@ constexpr int kMostAims = 3;
 // Both this distance and the one a reader computes are off by at most rounding(): two of them keep radius <= distance.
 double safe_radius(const Tree& tree, double distance) { return std::max(0.0, distance - 2 * tree.rounding()); }
 
-VoxelSearch::VoxelSearch(const Tree& tree, const Mesh& mesh, const Sides& sides, const Grid& grid,
-                         const Thresholds& thresholds, int extra_levels, Result& result)
-    : tree_(tree),
-      mesh_(mesh),
-      sides_(sides),
-      grid_(grid),
-      thresholds_(thresholds),
-      extra_levels_(extra_levels),
-      result_(result) {}
+VoxelSearch::VoxelSearch(const Tree& tree, const Sides& sides, const Grid& grid, const Thresholds& thresholds,
+                         int extra_levels, Result& result)
+    : tree_(tree), sides_(sides), grid_(grid), thresholds_(thresholds), extra_levels_(extra_levels), result_(result) {}
 
 Outcome VoxelSearch::run(const Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere) {
   const int finest = grid_.levels - 1;

@@ -23,8 +23,8 @@ struct Cell {
 
 class VoxelSearch {
  public:
-  VoxelSearch(const Tree& tree, const Mesh& mesh, const Sides& sides, const Grid& grid, const Thresholds& thresholds,
-              int extra_levels, Result& result);
+  VoxelSearch(const Tree& tree, const Sides& sides, const Grid& grid, const Thresholds& thresholds, int extra_levels,
+              Result& result);
 
   /// Fills `sphere` (all but its flux) if a point is found. `parent` is the list of the cell above the voxel.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
@@ -51,7 +51,6 @@ class VoxelSearch {
   End look(const Eigen::Vector3d& p, const ContactList& list);
 
   const Tree& tree_;
-  const Mesh& mesh_;
   const Sides& sides_;
   const Grid& grid_;
   const Thresholds& thresholds_;
