@@ -35,7 +35,8 @@ void main() {
     centre = cell_centre(child_coordinates(parents[item / 8], item % 8));
     clearance = sqrt(uintBitsToFloat(nearest[item].x));
   }
-  uint side = side_of_ball(centre, step.circumradius, clearance - step.slack, step.closed != 0u);
+  // Lines reach epsilon beyond the ball of their cell.
+  uint side = side_of_ball(centre, step.circumradius + step.epsilon, clearance - step.slack, step.closed != 0u);
   if (side == kSideInside) states[item].w |= kCellInside;
   if (side == kSideOutside) states[item] = uvec4(0);
 }

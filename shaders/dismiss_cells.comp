@@ -171,7 +171,7 @@ void main() {
   uint flags = parent.flags & kCellInside;
   if (distrust && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
   // Their order does not matter: every answer goes to its own state.
-  if ((flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.slack)
+  if ((flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.epsilon + step.slack)
     asked[atomicAdd(counters[kAsked], 1u)] = item;
   states[item] = uvec4(1u, counts[item], (counts[item] + 31u) / 32u, flags);
 }

@@ -47,6 +47,12 @@ void expect_same_corners(const Mesh& a, const Mesh& b) {
   }
 }
 
+/// Through memory: g++ 12 at -O3 leaves out the rounding of the last elements of a loop over x = float(x).
+double round_to_float(double x) {
+  const volatile float rounded = static_cast<float>(x);
+  return static_cast<double>(rounded);
+}
+
 /// Coordinates with all digits in use.
 Mesh turned_torus() {
   Mesh mesh = make_torus(2, 0.7, 7, 11);
@@ -67,7 +73,7 @@ TEST(ReadFormats, EveryFormatKeepsEveryBit) {
       expect_same(read_text(to_binary_ply(mesh, true), "a.ply"), mesh);
       expect_same_corners(read_text(to_ascii_stl(mesh), "a.stl"), mesh);
       for (Point& p : mesh.vertices) {
-        for (double& x : p) x = static_cast<float>(x);
+        for (double& x : p) x = round_to_float(x);
       }
       expect_same_corners(read_text(to_binary_stl(mesh), "a.stl"), mesh);
     }
