@@ -40,8 +40,8 @@ class Bvh {
   /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite).
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
-  const std::vector<BvhNode>& nodes() const { return nodes_; }           ///< Root first.
-  const std::vector<std::uint32_t>& order() const { return order_; }     ///< Triangle index by leaf position.
+  const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
+  const std::vector<std::uint32_t>& order() const { return order_; }             ///< Triangle index by leaf position.
   const std::vector<std::array<Point, 3>>& corners() const { return corners_; }  ///< By leaf position.
 
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.

@@ -45,7 +45,7 @@ struct VoxelGrid {
 /// One medial sphere, in the units of the mesh.
 struct MedialSphere {
   Point centre;
-  double radius = 0;                   ///< Never above the exact distance from centre to the mesh.
+  double radius = 0;                   ///< Distance from the centre to the mesh; certify_spheres() rounds it down.
   std::array<float, 3> spoke_a;        ///< Unit vector from the centre to its nearest boundary point.
   std::array<float, 3> spoke_b;        ///< Unit vector to the boundary point on the other side of the medial sheet.
   float object_angle = 0;              ///< Half the angle between the spokes, radians.

@@ -10,7 +10,8 @@ namespace medial_vk {
 using Point = std::array<double, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// What is known of one triangle, from its neighbourhood (DESIGN: "Lemma 2 needs an oriented, embedded boundary").
+/// What is known of one triangle, from its neighbourhood (docs/theory.md, Lemma B: dismissal needs an oriented,
+/// embedded boundary).
 enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
   /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
