@@ -67,18 +67,19 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 }
 
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
-  // Bytes per kept cell and per list entry, from the table below.
+  // Bytes per kept cell and per list entry, from the table below. A fifth of the budget is left for the mesh and the
+  // flux samples.
   constexpr std::uint64_t kBytesPerCell = 1312, kBytesPerEntry = 13;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
-  const std::uint64_t cells = std::min({memory_budget * 3 / 10 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
+  const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
                                         std::max<std::uint64_t>(8 * voxels, 4096)});
   const std::uint64_t entries =
-      std::min({memory_budget * 5 / 10 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
+      std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
   capacity_.list_entries = static_cast<uint>(entries);
-  capacity_.flux_block = std::min(16384u, capacity_.cells);
+  capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u);
   const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;
   const VkDeviceSize words = entries / 32 + c;
   const VkDeviceSize scanned = 8 * c;

@@ -45,7 +45,7 @@ class CertifiedRun {
 
   Status run(const ProgressCallback& progress) {
     const std::uint32_t total = pipeline_.top_cells();
-    std::uint32_t size = std::min(kFirstChunk, pipeline_.largest_chunk());
+    std::uint32_t size = std::min({kFirstChunk, pipeline_.likely_chunk(), pipeline_.largest_chunk()});
     for (std::uint32_t first = 0; first < total;) {
       if (progress && !progress(double(first) / total))
         return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};

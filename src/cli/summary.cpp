@@ -39,6 +39,7 @@ std::string describe_voxels(const RunRecord& record) {
 
 std::string describe_points(const RunRecord& record) {
   std::string text = grouped(record.points);
+  if (record.points == 0) text += " (none above the thresholds; another --resolution, or --perturb, may find some)";
   if (record.simplified > 0) text += fmt::format(" ({} removed by --simplify)", grouped(record.simplified));
   return text;
 }
