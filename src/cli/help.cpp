@@ -31,9 +31,9 @@ What is looked for (lengths are fractions, so units do not matter):
       --object-angle A  keep points whose object angle, half the angle between
                         the directions to the two touching points, is at least
                         A radians, between 0 and pi/2 (default 0.6)
-      --radius R        also keep balls of radius above R times the longest side,
-                        0 to 1 (default 0: off); mode certified asks of them an
-                        object angle of 0.15 or more
+      --radius R        also keep balls of radius above R times the longest
+                        side, 0 to 1 (default 0: off); mode certified asks
+                        of them an object angle of 0.15 or more
       --epsilon E       how far a point may be from the medial surface, as a
                         fraction of the voxel side, 0.001 to 0.5 (default 0.01)
       --mode MODE       certified: voxels are dismissed by proof (default)
