@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -54,6 +55,24 @@ struct MedialSphere {
   std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
 };
 
+/// Why a finest voxel stayed undecided: what a salient medial point that hides in it must be like. A voxel counts under
+/// the first of these that holds (docs/theory.md, "What undecided means").
+enum class UndecidedKind : std::uint32_t {
+  kNearFace,   ///< It lies within 1/64 of the voxel side of a face of its voxel.
+  kNearAngle,  ///< Its object angle is below object_angle + 0.05.
+  kBoundary,   ///< It lies in a part of the voxel that the boundary of the solid crosses.
+  kOther,
+};
+inline constexpr std::size_t kUndecidedKinds = 4;
+
+/// A finest voxel that is neither found nor proved empty.
+struct UndecidedVoxel {
+  std::array<std::uint32_t, 3> voxel;
+  UndecidedKind kind = UndecidedKind::kOther;
+  /// No set of salient medial points that hides in the voxel is wider than this (3.4), in the units of the mesh.
+  float width = 0;
+};
+
 /// Where the voxels and the time went. Counts do not depend on the machine.
 struct ExtractionCounters {
   struct Level {
@@ -79,6 +98,7 @@ struct StageTime {
 struct Extraction {
   VoxelGrid grid;
   std::vector<MedialSphere> spheres;  ///< In voxel order: z slowest, then y, then x.
+  std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order; counters.undecided of them.
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
 };
