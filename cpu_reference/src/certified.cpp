@@ -24,7 +24,8 @@ class Certified {
         grid_(grid),
         thresholds_(thresholds),
         sides_(mesh, tree),
-        search_(tree, sides_, grid, thresholds, parameters.extra_levels, result),
+        cones_(mesh, tree),
+        search_(tree, sides_, grid, thresholds, parameters.extra_levels, result, cones_),
         spiral_(spiral_points(kFluxSamples)),
         result_(result) {}
 
@@ -104,6 +105,7 @@ class Certified {
   const Grid& grid_;
   const Thresholds& thresholds_;
   Sides sides_;
+  SpokeCones cones_;
   VoxelSearch search_;
   std::vector<Vector3d> spiral_;
   Result& result_;

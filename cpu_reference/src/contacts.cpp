@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -47,6 +48,26 @@ bool ContactList::can_touch(const Contact& contact, double reach) const {
   if (nearest_.distance <= 0) return true;
   const double spread = (contact.direction - nearest_direction_).norm();
   return behind <= reach * (spread + 1e-12) + reach * reach / (2 * nearest_.distance);
+}
+
+// Lemma A for a cube: dist(x, t) >= D_t - g_t . x, dist(x, t0) is convex, so their difference is greatest at a corner.
+std::vector<Contact> ContactList::within_cube(double half) const {
+  const int first = nearest_.triangle;
+  std::array<Vector3d, 8> corner;
+  std::array<double, 8> bound;
+  for (int k = 0; k < 8; ++k) {
+    corner[k] = half * Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    bound[k] = std::sqrt(tree_->closest_on(first, centre_ + corner[k]).squared_distance) + 8 * tree_->rounding();
+  }
+  std::vector<Contact> touching;
+  for (const Contact& contact : contacts_) {
+    for (int k = 0; k < 8; ++k) {
+      if (contact.distance - contact.direction.dot(corner[k]) > bound[k]) continue;
+      touching.push_back(contact);
+      break;
+    }
+  }
+  return touching;
 }
 
 std::vector<Contact> ContactList::within(double reach) const {
@@ -154,7 +175,31 @@ bool pairs_are_close(std::span<const Contact> contacts, double reach, double ang
   return true;
 }
 
+bool has_vertex_behind(const Tree& tree, int t, int u, double slack) {
+  for (int k = 0; k < 3; ++k)
+    if (tree.normal(t).dot(tree.corner(u, k) - tree.corner(t, 0)) < -slack) return true;
+  return false;
+}
+
 }  // namespace
+
+// No two contacts can hold the two spokes of a salient point.
+bool no_pair_is_salient(const Tree& tree, std::span<const Contact> contacts, double reach, double angle) {
+  if (contacts.size() > 400) return false;
+  const double slack = 8 * tree.rounding();
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Contact &a = contacts[i], &b = contacts[j];
+      if (a.distance > reach && b.distance > reach) {
+        const double left = 2 * angle - std::asin(reach / a.distance) - std::asin(reach / b.distance) - kCosineSlack;
+        if (left > 0 && a.direction.dot(b.direction) > std::cos(left)) continue;
+      }
+      if (a.trusted && !has_vertex_behind(tree, a.triangle, b.triangle, slack)) continue;
+      if (b.trusted && !has_vertex_behind(tree, b.triangle, a.triangle, slack)) continue;
+      return false;
+    }
+  return true;
+}
 
 // Sharpened dismissal. Let an axis a be such that every contact t satisfies
 //   (N) t is trusted and angle(n_t, a) < theta, or

@@ -36,6 +36,7 @@ class ContactList {
 
   /// Contacts of a smaller ball around the same centre.
   std::vector<Contact> within(double reach) const;
+  std::vector<Contact> within_cube(double half) const;
 
  private:
   void measure(int triangle, const Eigen::Vector3d& centre, double reach);
@@ -52,5 +53,6 @@ class ContactList {
 /// True if it is proved that no medial point with this object angle or more lies within `reach` of the centre,
 /// inside the solid. `contacts` are those of that ball.
 bool spokes_are_close(const Tree& tree, std::span<const Contact> contacts, double reach, double angle);
+bool no_pair_is_salient(const Tree& tree, std::span<const Contact> contacts, double reach, double angle);
 
 }  // namespace medial_vk::reference

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace medial_vk::reference {
 
@@ -20,15 +22,18 @@ constexpr int kMostAims = 3;
 double safe_radius(const Tree& tree, double distance) { return std::max(0.0, distance - 2 * tree.rounding()); }
 
 VoxelSearch::VoxelSearch(const Tree& tree, const Sides& sides, const Grid& grid, const Thresholds& thresholds,
-                         int extra_levels, Result& result)
-    : tree_(tree), sides_(sides), grid_(grid), thresholds_(thresholds), extra_levels_(extra_levels), result_(result) {}
+                         int extra_levels, Result& result, const SpokeCones& cones)
+    : cones_(cones), tree_(tree), sides_(sides), grid_(grid), thresholds_(thresholds), extra_levels_(extra_levels), result_(result) {}
 
 Outcome VoxelSearch::run(const Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere) {
   const int finest = grid_.levels - 1;
   voxel_ = voxel;
   lower_ = grid_.lower_corner(voxel, finest) + Vector3d::Constant(kHair * grid_.voxel_size);
   upper_ = lower_ + Vector3d::Constant((1 - 2 * kHair) * grid_.voxel_size);
-  return search({grid_.centre(voxel, finest), grid_.voxel_size, where}, 0, parent, sphere);
+  notes_.clear();
+  const Outcome o = search({grid_.centre(voxel, finest), grid_.voxel_size, where}, 0, parent, sphere);
+  if (o == Outcome::kUndecided) std::fputs(notes_.c_str(), stderr);
+  return o;
 }
 
 // Contacts -> outside? -> dismissed? -> aimed lines -> parts.
@@ -42,9 +47,13 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
   const Closest& nearest = list.nearest_to_centre();
   const Side where = cell.where == Side::kMixed ? sides_.of_ball(cell.centre, reach, nearest) : cell.where;
   if (where == Side::kOutside) return Outcome::kEmpty;
-  const std::vector<Contact> touching = list.within(reach);
+  static const int mode = std::getenv("M") ? std::atoi(std::getenv("M")) : 0;
+  const std::vector<Contact> touching = mode & 1 ? list.within_cube(0.5 * cell.side * (1 + 1e-9)) : list.within(reach);
   const double angle = thresholds_.angle_at(nearest.distance + reach);
   if (spokes_are_close(tree_, touching, reach, angle)) return Outcome::kEmpty;
+  if (mode & 2 && no_pair_is_salient(tree_, touching, reach, angle)) return Outcome::kEmpty;
+  aims_.clear();
+  if (mode & 4 && no_pair_of_features(tree_, cones_, cell.centre, 0.5 * cell.side * (1 + 1e-9), nearest, touching, angle, &aims_)) return Outcome::kEmpty;
   ++count.kept;
   count.contacts += list.contacts().size();
   if (aim(cell, list, touching, angle, where, sphere)) {
@@ -54,7 +63,17 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
   // A cell touched by the boundary where normals mean nothing can never be dismissed: do not fall into it.
   const bool hopeless = nearest.distance <= reach &&
                         std::any_of(touching.begin(), touching.end(), [](const Contact& c) { return !c.trusted; });
-  if (depth >= (hopeless ? std::min(1, extra_levels_) : extra_levels_)) return Outcome::kUndecided;
+  if (depth >= (hopeless ? std::min(1, extra_levels_) : extra_levels_)) {
+    if (std::getenv("V")) {
+      const bool boundary = nearest.distance <= reach;
+      const Eigen::Vector3d low = cell.centre.array() - cell.side/2 - lower_.array(), high = upper_.array() - cell.centre.array() - cell.side/2;
+      const double face = std::min(low.minCoeff(), high.minCoeff()) / grid_.voxel_size;
+      const bool near_angle = spokes_are_close(tree_, touching, reach, angle+.05) || no_pair_is_salient(tree_, touching, reach, angle+.05) || (mode & 4 && no_pair_of_features(tree_, cones_, cell.centre, 0.5 * cell.side * (1 + 1e-9), nearest, touching, angle + 0.05));
+      char buf[400]; std::snprintf(buf, 400, "U %d %d %d depth %d boundary %d angle %d face %.3f contacts %zu D %.4f  at %.6f %.6f %.6f\n", voxel_.x(), voxel_.y(), voxel_.z(), depth, boundary, near_angle, face, touching.size(), nearest.distance/grid_.voxel_size, cell.centre.x(), cell.centre.y(), cell.centre.z()); notes_ += buf;
+      if (std::getenv("W") && !near_angle) for (const Contact& c : touching) { const Eigen::Vector3d n = tree_.normal(c.triangle); std::snprintf(buf, 400, "   t %d D %.4f g %.3f %.3f %.3f n %.3f %.3f %.3f\n", c.triangle, c.distance / grid_.voxel_size, c.direction.x(), c.direction.y(), c.direction.z(), n.x(), n.y(), n.z()); notes_ += buf; }
+    }
+    return Outcome::kUndecided;
+  }
   return search_parts(cell, where, depth, list, sphere);
 }
 
@@ -72,8 +91,18 @@ Outcome VoxelSearch::search_parts(const Cell& cell, Side where, int depth, const
 
 bool VoxelSearch::aim(const Cell& cell, const ContactList& list, const std::vector<Contact>& touching, double angle,
                       Side where, Sphere& sphere) {
-  for (const Vector3d& direction : aims(list, touching, circumradius(cell.side), angle)) {
+  static const bool scouts = !std::getenv("NS");
+  if (scouts || aims_.empty()) for (const Vector3d& direction : aims(list, touching, circumradius(cell.side), angle)) {
     const std::optional<Segment> segment = clip(cell, direction);
+    if (segment && try_segment(*segment, list, angle, where, sphere)) return true;
+  }
+  static const int lines = std::getenv("L") ? std::atoi(std::getenv("L")) : 0;
+  std::vector<Aim> tried;
+  for (const Aim& a : aims_) {
+    if (static_cast<int>(tried.size()) >= lines) break;
+    if (std::any_of(tried.begin(), tried.end(), [&](const Aim& o) { return std::abs(o.direction.dot(a.direction)) > 0.98 && (o.base - a.base).norm() < 0.2 * cell.side; })) continue;
+    tried.push_back(a);
+    const std::optional<Segment> segment = clip(cell, a.direction, a.base);
     if (segment && try_segment(*segment, list, angle, where, sphere)) return true;
   }
   return false;
@@ -107,16 +136,19 @@ std::vector<Vector3d> VoxelSearch::aims(const ContactList& list, const std::vect
 }
 
 /// The part of the line through the cell's centre that lies in the voxel and in the cell's ball, where its list holds.
-std::optional<VoxelSearch::Segment> VoxelSearch::clip(const Cell& cell, const Vector3d& direction) const {
-  double from = -circumradius(cell.side), to = -from;
+std::optional<VoxelSearch::Segment> VoxelSearch::clip(const Cell& cell, const Vector3d& direction, const Vector3d& base) const {
+  const double along = base.dot(direction), radius = circumradius(cell.side);
+  const double chord = std::sqrt(std::max(0.0, along * along - base.squaredNorm() + radius * radius));
+  double from = -along - chord, to = -along + chord;
+  const Vector3d point = cell.centre + base;
   for (int a = 0; a < 3; ++a) {
     if (std::abs(direction[a]) < 1e-14) continue;
-    const double s = (lower_[a] - cell.centre[a]) / direction[a], t = (upper_[a] - cell.centre[a]) / direction[a];
+    const double s = (lower_[a] - point[a]) / direction[a], t = (upper_[a] - point[a]) / direction[a];
     from = std::max(from, std::min(s, t));
     to = std::min(to, std::max(s, t));
   }
   if (to <= from) return std::nullopt;
-  return Segment{cell.centre + from * direction, cell.centre + to * direction};
+  return Segment{point + from * direction, point + to * direction};
 }
 
 VoxelSearch::End VoxelSearch::look(const Vector3d& p, const ContactList& list) {

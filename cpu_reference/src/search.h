@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "contacts.h"
 #include "cpu_reference/extract.h"
 #include "grid.h"
 #include "side.h"
+#include "spoke_cones.h"
 
 namespace medial_vk::reference {
 
@@ -24,7 +26,7 @@ struct Cell {
 class VoxelSearch {
  public:
   VoxelSearch(const Tree& tree, const Sides& sides, const Grid& grid, const Thresholds& thresholds, int extra_levels,
-              Result& result);
+              Result& result, const SpokeCones& cones);
 
   /// Fills `sphere` (all but its flux) if a point is found. `parent` is the list of the cell above the voxel.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
@@ -45,17 +47,20 @@ class VoxelSearch {
            Sphere& sphere);
   std::vector<Eigen::Vector3d> aims(const ContactList& list, const std::vector<Contact>& touching, double reach,
                                     double angle) const;
-  std::optional<Segment> clip(const Cell& cell, const Eigen::Vector3d& direction) const;
+  std::optional<Segment> clip(const Cell& cell, const Eigen::Vector3d& direction, const Eigen::Vector3d& base = Eigen::Vector3d::Zero()) const;
   bool try_segment(const Segment& segment, const ContactList& list, double angle, Side where, Sphere& sphere);
   bool accept(const End& here, const End& there, const ContactList& list, Side where, Sphere& sphere);
   End look(const Eigen::Vector3d& p, const ContactList& list);
 
+  const SpokeCones& cones_;
   const Tree& tree_;
   const Sides& sides_;
   const Grid& grid_;
   const Thresholds& thresholds_;
   int extra_levels_;
   Result& result_;
+  std::vector<Aim> aims_;
+  std::string notes_;
   Eigen::Vector3i voxel_;
   Eigen::Vector3d lower_, upper_;  // of the voxel, a hair inside
 };
