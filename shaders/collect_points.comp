@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Packs the points of the finest voxels, in the order of the voxels' slots. Run twice: to count what became of every
-// voxel, then, after prefix sums, to write.
+// Packs the points of the finest voxels, and the voxels that stay undecided, in the order of the voxels' slots. Run
+// twice: to count what became of every voxel, then, after prefix sums, to write.
 #include "step.glsl"
 
 layout(constant_id = 1) const bool kWrite = false;
@@ -12,11 +12,21 @@ layout(set = 0, binding = 2) buffer States { uvec4 states[]; };
 layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) readonly buffer Points { FoundPoint points[]; };
 layout(set = 0, binding = 5) writeonly buffer Result { FoundPoint result[]; };
+layout(set = 0, binding = 6) readonly buffer Voxels { Cell voxels[]; };
+layout(set = 0, binding = 7) readonly buffer Reasons { uvec2 reasons[]; };
+layout(set = 0, binding = 8) writeonly buffer UndecidedCells { UndecidedCell undecided[]; };
+
+UndecidedCell describe(uint index) {
+  Cell voxel = voxels[index];
+  uvec2 reason = reasons[index];
+  return UndecidedCell(voxel.x, voxel.y, voxel.z, max(reason.x, 1u) - 1u, uintBitsToFloat(reason.y), 0u, 0u, 0u);
+}
 
 void main() {
   uint index = invocation_index();
   if (index >= counters[kVoxels]) return;
   if (kWrite) {
+    if (states[index].y != 0u) undecided[offsets[index].y] = describe(index);
     if (states[index].x != 0u) result[offsets[index].x] = points[index];
     return;
   }

@@ -37,15 +37,6 @@ float normal_violation(uint t, vec3 axis, out vec3 help) {
   return normal.w > 0.5 ? cos_theta - dot(normal.xyz, axis) : 4.0;
 }
 
-// Lemma A for the cell's own ball: lists serve a larger one.
-bool is_contact(float d, vec3 g) {
-  float nearest_distance = length(to_nearest), rho = step.circumradius;
-  float reach = nearest_distance > rho
-                    ? rho * length(g - unit_or_zero(to_nearest)) + rho * rho / (2.0 * nearest_distance)
-                    : 2.0 * rho;
-  return d - nearest_distance - 6.0 * step.slack <= reach;
-}
-
 // The same by its normal or its direction, and the vector that would help.
 float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   TriangleTexels texels = load_triangle(t);
@@ -54,12 +45,11 @@ float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   vec3 v = vector_to_triangle(centre, texels);
   float d = length(v), rho = step.circumradius;
   vec3 g = unit_or_zero(v);
-  bool contact = is_contact(d, g);
-  distrust = distrust || (contact && !trusted);
+  distrust = distrust || !trusted;
   float spread = d > rho ? asin(min(1.0, (rho + 2.0 * step.slack) / d)) : 4.0;
   float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
   help = by_direction < by_normal ? g : texels.normal.xyz;
-  return contact ? min(by_normal, by_direction) : -1.0;
+  return min(by_normal, by_direction);
 }
 
 // One sweep over the contacts: the worst violation, the contact that makes it, and the vector that would help it.
@@ -86,8 +76,7 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
   }
 }
 
-// The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: none). Whatever is
-// no contact obeys all.
+// The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: none).
 struct Obedience {
   vec3 normal, direction;
   float by_normal, by_direction;
@@ -98,7 +87,6 @@ Obedience obedience_of(uint t) {
   vec3 v = vector_to_triangle(centre, texels);
   vec3 g = unit_or_zero(v);
   float d = length(v), rho = step.circumradius;
-  if (!is_contact(d, g)) return Obedience(g, g, 4.0, 4.0);
   return Obedience(texels.normal.xyz, g, texels.normal.w > 0.5 ? theta : -8.0,
                    d > rho ? theta - asin(min(1.0, rho / d)) : -8.0);
 }

@@ -1,8 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // After the search of a level: cells of voxels that have their point are done. What is left is subdivided, or stays
-// undecided: at the last level, and already one level below the finest voxel where the boundary itself passes through
-// triangles whose normals prove nothing (subdividing there follows the surface for ever).
+// undecided: at the last level, or where subdividing is hopeless.
 #include "step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
@@ -15,7 +14,8 @@ void main() {
   if (index >= counters[kCells]) return;
   uint voxel = cells[index].voxel;
   bool found = (verdicts[voxel] & kVerdictFound) != 0u;
-  bool hopeless = step.last_level != 0u || (step.depth >= 1u && (cells[index].flags & kCellUntrusted) != 0u);
-  if (!found && hopeless) atomicOr(verdicts[voxel], kVerdictUndecided);
-  states[index] = uvec4(found || hopeless ? 0u : 1u, 0u, 0u, 0u);
+  bool done = found || (cells[index].flags & kCellEmpty) != 0u;
+  bool last = step.last_level != 0u || is_hopeless(cells[index].flags);
+  if (!done && last) atomicOr(verdicts[voxel], kVerdictUndecided);
+  states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

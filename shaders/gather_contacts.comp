@@ -25,7 +25,7 @@ float farthest_in_box(vec3 p, Treelet t) { return length(max(p - t.lower.xyz, t.
 void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
-  uint treelet_count = step.node_count;
+  uint treelet_count = step.treelet_count;
   bool exists = item < counters[kParents];
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);

@@ -1,20 +1,22 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Aims at the sheets that may cross a cell (docs/theory.md, "Aimed lines"). The sheet between the nearest contact
-// (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right angles by the line through the centre
-// along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it. Eight lanes share a cell: six look through
-// the list, each proposes its best line, and lines nearly parallel to a better one are given up. The seventh aims at
-// the point where the contacts tie: curves of the medial surface, such as the axis of a round tube, are thinner than
-// any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
+// Aims at the sheets that may cross a cell (docs/theory.md, "Aimed lines"). Eight lanes share a cell. The first take
+// the aims that the dismissal by pairs left. Where it could not list all carriers, six scouts look through the contacts
+// instead: the sheet between the nearest one (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right
+// angles by the line through the centre along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it; each
+// proposes its best line, and lines nearly parallel to a better one are given up. The seventh lane aims at the point
+// where the contacts tie: curves of the medial surface, such as the axis of a round tube, are thinner than any set of
+// lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 5
+#define TRIANGLE_TEXEL_BINDING 6
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4) writeonly buffer Points { vec4 points[]; };
+layout(set = 0, binding = 4) readonly buffer Aims { Aim aims[]; };
+layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
 
 const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
 const uint kScoutLanes = 6, kTieLane = 6, kDeepLane = 7;
@@ -106,10 +108,11 @@ void main() {
   uint index = invocation_index();
   uint slot = gl_LocalInvocationID.x, lane = index % kLinesPerCell;
   bool exists = index / kLinesPerCell < counters[kCells];
+  bool open = exists && (cells[index / kLinesPerCell].flags & kCellEmpty) == 0u;
   Cell cell;
-  vec3 centre, g0, base = vec3(0.0);
+  vec3 centre = vec3(0.0), g0 = vec3(0.0), base = vec3(0.0);
   Candidate best = Candidate(vec3(0.0), kNoLine);
-  if (exists) {
+  if (open) {
     cell = cells[index / kLinesPerCell];
     centre = cell_centre(uvec3(cell.x, cell.y, cell.z));
     vec3 to_nearest = vector_to_triangle(centre, load_triangle(cell.nearest));
@@ -117,18 +120,25 @@ void main() {
     g0 = unit_or_zero(to_nearest);
     bool deep = d0 + step.circumradius + step.slack >= step.radius;
     float least_turn = sin(deep ? min(step.deep_angle, step.angle) : step.angle);
-    if (lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
+    bool aimed = aims[kAimsPerCell * (index / kLinesPerCell)].direction.w > 0.0;
+    if (aimed && lane < kAimsPerCell) {
+      Aim aim = aims[kAimsPerCell * (index / kLinesPerCell) + lane];
+      base = aim.base.xyz;
+      best = Candidate(aim.direction.xyz, aim.direction.w > 0.0 ? 0.0 : kNoLine);
+    }
+    if (!aimed && lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
     if (lane == kTieLane) base = step_to_tie(cell, centre, d0);
     if (lane >= kTieLane) best = Candidate(g0, 1e30);
   }
-  // The line through the tie stands for itself.
-  proposals[slot] = lane == kTieLane ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);
+  // Lines that do not go through the centre stand for themselves.
+  bool alone = dot(base, base) > 0.0 || lane == kTieLane;
+  proposals[slot] = alone ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);
   barrier();
   if (!exists) return;
   bool drop = best.key == kNoLine || dot(best.direction, best.direction) < 0.5;
   for (uint i = slot - lane; i < slot - lane + kLinesPerCell; ++i) {
     bool ahead = proposals[i].w < best.key || (proposals[i].w == best.key && i < slot);
-    drop = drop || (ahead && lane != kTieLane && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
+    drop = drop || (ahead && !alone && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
   }
   float from, to;
   drop = drop || !clip_line(cell, centre, base, best.direction, from, to);

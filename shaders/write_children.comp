@@ -17,6 +17,7 @@ layout(set = 0, binding = 8) writeonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 9) buffer Positions { uint positions[]; };  // entries written so far, between rounds
 layout(set = 0, binding = 10) writeonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 11) writeonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 12) writeonly buffer Reasons { uvec2 reasons[]; };
 
 void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset) {
   uvec3 c = child_coordinates(parent, item % 8);
@@ -26,6 +27,7 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset) {
   if (kFinest) {
     winners[voxel] = 0xffffffffu;
     verdicts[voxel] = 0u;
+    reasons[voxel] = uvec2(0u);
   }
   atomicMax(counters[kLongestCellList], state.y);
   atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 1], 1u);

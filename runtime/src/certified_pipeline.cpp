@@ -69,7 +69,7 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   // Bytes per kept cell and per list entry, from the table below. A fifth of the budget is left for the mesh and the
   // flux samples.
-  constexpr std::uint64_t kBytesPerCell = 1312, kBytesPerEntry = 13;
+  constexpr std::uint64_t kBytesPerCell = 1480, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
   const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
@@ -99,16 +99,20 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&lists_[2], entries * 4, "contact lists of the finest voxels"},
       {&nearest_, 16 * c * 8, "nearest triangles"},
       {&grown_nearest_, 2 * lines * 8, "nearest triangles of grown balls"},
-      {&masks_, 8 * words * 4, "contact masks"},
+      {&masks_, 8 * words * 4, "masks of listed triangles"},
+      {&touch_masks_, 8 * words * 4, "masks of contacts"},
       {&counts_, 8 * c * 4, "contact counts"},
       {&asked_, 8 * c * 4, "cells and lines whose side is asked"},
       {&states_, scanned * 16, "states"},
       {&offsets_, scanned * 16, "offsets"},
       {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},
+      {&aims_, gpu::kAimsPerCell * c * sizeof(gpu::Aim), "aims"},
       {&points_, 16 * c * 16, "line ends"},
       {&lines_, lines * sizeof(gpu::Line), "lines"},
       {&winners_, c * 4, "winners"},
       {&verdicts_, c * 4, "verdicts"},
+      {&reasons_, c * 8, "reasons of undecided voxels"},
+      {&undecided_, c * sizeof(gpu::UndecidedCell), "undecided voxels"},
       {&voxel_points_, c * sizeof(gpu::FoundPoint), "points of voxels"},
       {&result_, c * sizeof(gpu::FoundPoint), "result"},
       {&samples_, gpu::kFluxSamples * block * 16, "flux samples"},
@@ -175,8 +179,8 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.level = level;
   step.closed = mesh_->closed ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
-  step.triangle_count = mesh_->triangle_count;
-  step.node_count = treelet_count_;
+  step.half_side = static_cast<float>(size / 2 + kCentreError);
+  step.treelet_count = treelet_count_;
   return step;
 }
 
@@ -249,6 +253,14 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
   return {shader, std::move(buffers), Reads::kTree};
 }
 
+CertifiedPipeline::Kernel CertifiedPipeline::pair_kernel(const char* shader, const LevelBuffers& level,
+                                                         std::vector<BufferRange> more) const {
+  std::vector<BufferRange> buffers = {mesh_->triangles.range(), level.cells->range(), level.lists->range(),
+                                      counters_.range(), mesh_->triangle_links.range(), mesh_->corner_cones.range()};
+  buffers.insert(buffers.end(), more.begin(), more.end());
+  return {shader, std::move(buffers), Reads::kTriangles, {}, kPairLanes};
+}
+
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                                      const Buffer& cells, const Buffer& lists, const Buffer& points,
                                      const Buffer& nearest) {
@@ -282,21 +294,34 @@ std::array<std::uint32_t, gpu::kCounterCount> CertifiedPipeline::read_counters()
   return counters;
 }
 
-Result<std::vector<gpu::FoundPoint>> CertifiedPipeline::read_points(std::uint32_t count) {
-  std::vector<gpu::FoundPoint> points(count);
-  if (count == 0) return points;
-  const VkDeviceSize bytes = count * sizeof(gpu::FoundPoint);
-  Arena staging(*context_);
+namespace {
+
+template <typename T>
+Result<std::vector<T>> read_first(Context::Impl& context, const Buffer& from, std::uint32_t count) {
+  std::vector<T> values(count);
+  if (count == 0) return values;
+  const VkDeviceSize bytes = count * sizeof(T);
+  Arena staging(context);
   Result<Buffer> buffer = staging.create_buffer(bytes, MemoryKind::kReadback, "result");
   if (!buffer.ok()) return buffer.error();
-  auto copied = run_commands(*context_, [&](Recorder& r) {
-    r.copy(result_, 0, buffer.value(), 0, bytes);
+  auto copied = run_commands(context, [&](Recorder& r) {
+    r.copy(from, 0, buffer.value(), 0, bytes);
     r.barrier_to_host();
     return r.status();
   });
   if (!copied.ok()) return copied.error();
-  std::memcpy(points.data(), buffer.value().mapped, bytes);
-  return points;
+  std::memcpy(values.data(), buffer.value().mapped, bytes);
+  return values;
+}
+
+}  // namespace
+
+Result<std::vector<gpu::FoundPoint>> CertifiedPipeline::read_points(std::uint32_t count) {
+  return read_first<gpu::FoundPoint>(*context_, result_, count);
+}
+
+Result<std::vector<gpu::UndecidedCell>> CertifiedPipeline::read_undecided(std::uint32_t count) {
+  return read_first<gpu::UndecidedCell>(*context_, undecided_, count);
 }
 
 }  // namespace medial_vk

@@ -4,7 +4,7 @@
 //   gather contacts of the top cells
 //   for each level, coarse to fine and below the finest voxel:
 //     nearest triangle of every child -> mark its contacts -> dismiss -> decide its side -> write the kept ones
-//     from the finest level on: propose lines -> keep those that turn -> narrow -> verify -> elect one per voxel
+//     from the finest level on: dismiss by pairs -> propose lines -> keep those that turn -> narrow -> verify -> elect one per voxel
 //   collect the points, measure their flux
 #pragma once
 
@@ -58,6 +58,8 @@ class CertifiedPipeline {
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
   /// The first `count` points, in no particular order of voxels.
   Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
+  /// The first `count` undecided voxels, likewise.
+  Result<std::vector<gpu::UndecidedCell>> read_undecided(std::uint32_t count);
 
  private:
   CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters);
@@ -81,6 +83,7 @@ class CertifiedPipeline {
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  void record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left);
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
@@ -88,6 +91,7 @@ class CertifiedPipeline {
   // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
   // texel views follow its buffers.
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
+  static constexpr std::uint32_t kPairLanes = 32;  // of a workgroup that lists carriers
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {
     const char* shader;
@@ -110,6 +114,8 @@ class CertifiedPipeline {
   void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step);
   // A kernel that asks winding numbers: the tree's buffers follow its own.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
+  // A kernel with one workgroup per kept cell that lists its carriers: `more` buffers follow.
+  Kernel pair_kernel(const char* shader, const LevelBuffers& level, std::vector<BufferRange> more) const;
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   void scan(Recorder& r, const gpu::ScanConstants& constants);
@@ -130,8 +136,8 @@ class CertifiedPipeline {
 
   Buffer treelets_, counters_, counters_readback_, arguments_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
-  Buffer nearest_, grown_nearest_, masks_, counts_, asked_, states_, offsets_, block_sums_;
-  Buffer points_, lines_, winners_, verdicts_, voxel_points_, result_;
+  Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, states_, offsets_, block_sums_;
+  Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;
   Buffer samples_, opposites_, sample_nearest_, opposite_nearest_;
 };
 

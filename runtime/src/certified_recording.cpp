@@ -19,6 +19,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     record_children(r, step, buffers, finest);
     if (finest) {
       record_search(r, step, buffers);
+      record_classification(r, step, buffers);
       record_drop_found(r, step, buffers, cells_[0]);
     } else {
       start_level(r, gpu::kCells);
@@ -32,6 +33,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     const gpu::StepConstants step = level_constants(level);
     record_children(r, step, buffers, false);
     record_search(r, step, buffers);
+    record_classification(r, step, buffers);
     record_drop_found(r, step, buffers, cells_[0]);
     lists = target;
   }
@@ -51,6 +53,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   const float margin = step.list_radius - step.circumradius;
   step.cell_size *= 2;
   step.circumradius *= 2;
+  step.half_side *= 2;
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
@@ -95,14 +98,14 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   run_rounds(r,
              {"mark_contacts",
               {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-               nearest_.range(), masks_.range(), counts_.range(), axes.range()},
+               nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range()},
               Reads::kTriangles},
              children, step);
   clear_counter(r, gpu::kAsked);
   run(r,
       {"dismiss_cells",
        {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), masks_.range(), counts_.range(), axes.range(), states_.range(), asked_.range()},
+        nearest_.range(), touch_masks_.range(), counts_.range(), axes.range(), states_.range(), asked_.range()},
        Reads::kTriangles},
       {gpu::kParents, 8}, step);
   run(r,
@@ -119,18 +122,21 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
              {"write_children",
               {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(),
                offsets_.range(), nearest_.range(), level.cells->range(), level.lists->range(), counts_.range(),
-               winners_.range(), verdicts_.range()},
+               winners_.range(), verdicts_.range(), reasons_.range()},
               Reads::kNoMesh,
               {finest ? 1u : 0u}},
              children, step);
 }
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  r.begin_stage("pairs");
+  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kPairLanes}, step);
   r.begin_stage("search");
   const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
   run(r,
       {"propose_lines",
-       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), points_.range()},
+       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), aims_.range(),
+        points_.range()},
        Reads::kTriangles},
       seeds, step);
   find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
@@ -177,6 +183,14 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
   run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range()}), {gpu::kAsked}, step);
 }
 
+// Cells give up at the last level, and one level below the finest where the mesh cannot be trusted.
+void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  if (step.last_level == 0u && !(step.depth >= 1 && mesh_->has_untrusted)) return;
+  r.begin_stage("classification");
+  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kPairLanes},
+      step);
+}
+
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
                                           const Buffer& left) {
   const Extent cells{gpu::kCells};
@@ -192,7 +206,8 @@ void CertifiedPipeline::record_collection(Recorder& r) {
   const gpu::StepConstants step = level_constants(coarse_levels_);
   Kernel collect{
       "collect_points",
-      {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(), result_.range()},
+      {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(), result_.range(),
+       cells_[2].range(), reasons_.range(), undecided_.range()},
       Reads::kNoMesh,
       {0}};
   run(r, collect, {gpu::kVoxels}, step);

@@ -95,6 +95,9 @@ class CertifiedRun {
     auto points = pipeline_.read_points(counters[gpu::kFound]);
     if (!points.ok()) return points.error();
     for (const gpu::FoundPoint& p : points.value()) extraction_.spheres.push_back(to_input_units(p, mesh_));
+    auto undecided = pipeline_.read_undecided(counters[gpu::kUndecided]);
+    if (!undecided.ok()) return undecided.error();
+    for (const gpu::UndecidedCell& u : undecided.value()) extraction_.undecided.push_back(to_input_units(u, mesh_));
     add_counters(counters, extraction_.counters);
     return fill;
   }
@@ -109,6 +112,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
                                      const ExtractionParameters& parameters, const ProgressCallback& progress) {
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
+  if (Status s = mesh.value().add_spoke_cones(context, view); !s.ok()) return s.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
@@ -122,6 +126,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
   c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
   sort_by_voxel(extraction.spheres);
+  sort_by_voxel(extraction.undecided);
   if (progress) progress(1.0);
   return extraction;
 }

@@ -29,10 +29,11 @@ MedialSphere to_input_units(const gpu::FoundPoint& found, const DeviceMesh& mesh
   return sphere;
 }
 
-void sort_by_voxel(std::vector<MedialSphere>& spheres) {
-  std::sort(spheres.begin(), spheres.end(), [](const MedialSphere& a, const MedialSphere& b) {
-    return std::lexicographical_compare(a.voxel.rbegin(), a.voxel.rend(), b.voxel.rbegin(), b.voxel.rend());
-  });
+UndecidedVoxel to_input_units(const gpu::UndecidedCell& cell, const DeviceMesh& mesh) {
+  static_assert(gpu::kNearFace == static_cast<gpu::uint>(UndecidedKind::kNearFace));
+  static_assert(gpu::kOtherReason == static_cast<gpu::uint>(UndecidedKind::kOther));
+  return {{cell.x, cell.y, cell.z}, static_cast<UndecidedKind>(cell.kind),
+          static_cast<float>(mesh.longest * double{cell.width})};
 }
 
 void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sum) {

@@ -7,6 +7,7 @@
 #include "context_impl.h"
 #include "device_tree.h"
 #include "point_math.h"
+#include "spoke_cones.h"
 
 namespace medial_vk {
 namespace {
@@ -49,6 +50,9 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
     return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
   }
   device.closed = mesh.closed;
+  device.has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(), [](std::uint8_t f) {
+    return (f & kTrustedNormal) != 0;
+  });
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.upload_mesh(context, mesh, bvh.value()); !status.ok()) return status.error();
   device.order = bvh.value().order();
@@ -86,6 +90,18 @@ Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh, con
   if (!tree_view.ok()) return tree_view.error();
   triangle_texels = triangle_view.value();
   tree_texels = tree_view.value();
+  return {};
+}
+
+Status DeviceMesh::add_spoke_cones(Context::Impl& context, const MeshView& mesh) {
+  const SpokeCones cones = make_spoke_cones(mesh, order);
+  Result<Buffer> links =
+      create_filled(context, arena, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours");
+  if (!links.ok()) return links.error();
+  Result<Buffer> corners = create_filled(context, arena, std::as_bytes(std::span(cones.corners)), "spokes to vertices");
+  if (!corners.ok()) return corners.error();
+  triangle_links = links.value();
+  corner_cones = corners.value();
   return {};
 }
 

@@ -37,6 +37,9 @@ struct DeviceMesh {
   /// kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
 
+  /// Adds what the dismissal by pairs asks about edges and vertices; `mesh` as given to create(). Error: kOutOfMemory.
+  Status add_spoke_cones(Context::Impl& context, const MeshView& mesh);
+
   /// Cuts the leaf order into runs of at least `least` triangles (if there are as many) and fewer than twice that.
   std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
 
@@ -51,10 +54,15 @@ struct DeviceMesh {
   VkBufferView tree_texels = VK_NULL_HANDLE;
   /// Index into MeshView::triangles, one word per leaf position.
   Buffer triangle_info;
+  /// gpu::TriangleLinks by leaf position, and caps of spokes by vertex (runtime/src/spoke_cones.h); null until
+  /// add_spoke_cones().
+  Buffer triangle_links;
+  Buffer corner_cones;
   /// Specialization constant 1 of every kernel that reads the mesh: false if a texel view would be too large for the
   /// device. Then the views are of a buffer that is never read.
   bool use_texels = true;
   bool closed = false;
+  bool has_untrusted = true;  // some triangle's normal proves nothing
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;  // inner nodes of the tree
   Point lower = {0, 0, 0};       // of the box around all triangles, input units

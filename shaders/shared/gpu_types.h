@@ -34,6 +34,7 @@ struct Cell {
   uint padding_0, padding_1, padding_2;
 };
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
+MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
 MEDIAL_VK_GPU_CONSTANT kCellUntrusted = 2u;   // meets the boundary and touches a triangle without a trusted normal
 
 // A segment that crosses the medial surface: the ends and the directions from them to the boundary.
@@ -56,6 +57,37 @@ struct FoundPoint {
   uint voxel_x, voxel_y, voxel_z;
   uint cell;  // slot of the finest voxel
 };
+
+// What a triangle shares with its neighbours (docs/theory.md, Lemma D). Edge k goes from corner k to the next.
+struct TriangleLinks {
+  uint corner_0, corner_1, corner_2;           // rows of the table of spokes to vertices
+  uint neighbour_0, neighbour_1, neighbour_2;  // across the edges that this triangle lists
+  uint flags;                                  // kLink*
+  uint padding;
+};
+MEDIAL_VK_GPU_CONSTANT kNoLink = 0xffffffffu;
+MEDIAL_VK_GPU_CONSTANT kLinkEdge = 1u;     // shifted by k: a spoke may end on edge k, and this triangle lists it
+MEDIAL_VK_GPU_CONSTANT kLinkCorner = 8u;   // the same for corner k
+MEDIAL_VK_GPU_CONSTANT kLinkWhole = 64u;   // untrusted: listed as one convex set, spokes by directions only
+
+// Where a line may cross a medial sheet: a point and the sheet's normal.
+struct Aim {
+  vec4 base;       // from the centre of the cell; w: how far the sheet is from the boundary, smaller is better
+  vec4 direction;  // unit; w: 0 if there is none
+};
+MEDIAL_VK_GPU_CONSTANT kAimsPerCell = 4u;
+
+// A finest voxel that is neither found nor proved empty.
+struct UndecidedCell {
+  uint x, y, z;
+  uint kind;    // UndecidedKind
+  float width;  // of what may hide there, in the unit box
+  uint padding_0, padding_1, padding_2;
+};
+MEDIAL_VK_GPU_CONSTANT kNearFace = 0u;
+MEDIAL_VK_GPU_CONSTANT kNearAngle = 1u;
+MEDIAL_VK_GPU_CONSTANT kAtBoundary = 2u;
+MEDIAL_VK_GPU_CONSTANT kOtherReason = 3u;
 
 // A run of triangles that are neighbours in leaf order, and the box around them.
 struct Treelet {
@@ -88,8 +120,8 @@ struct StepConstants {
   uint level;                   // index into the statistics
   uint closed;                  // 1: inside and outside can be decided for whole cells
   uint last_level;              // 1: what is kept now stays undecided
-  uint triangle_count;
-  uint node_count;
+  float half_side;              // of the cells, rounded up
+  uint treelet_count;
 };
 
 // What became of a finest voxel (bits).

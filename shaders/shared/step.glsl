@@ -30,6 +30,17 @@ vec3 finest_voxel_corner(Cell cell) {
   return vec3(uvec3(cell.x, cell.y, cell.z) >> step.depth) * step.voxel_size;
 }
 
+// Corners are numbered like children.
+vec3 corner_sign(uint k) { return vec3(k & 1u, (k >> 1) & 1u, k >> 2) * 2.0 - 1.0; }
+
+// Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g is wrong by up
+// to 2 slack / D.
+float distance_slack(float d) { return 4.0 * step.slack * (1.0 + step.circumradius / max(d, 1e-30)); }
+
+// Where the boundary itself passes through triangles whose normals prove nothing, subdividing follows the surface for
+// ever: one level below the finest voxel is enough.
+bool is_hopeless(uint flags) { return step.depth >= 1u && (flags & kCellUntrusted) != 0u; }
+
 vec3 unit_or_zero(vec3 v) {
   float squared = dot(v, v);
   return squared > 0.0 ? v * inversesqrt(squared) : vec3(0.0);

@@ -130,8 +130,17 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
   CertifyReport report;
   std::vector<MedialSphere> kept;
   kept.reserve(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-    if (passed[i]) kept.push_back(spheres[i]);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const MedialSphere& s = spheres[i];
+    if (passed[i]) {
+      kept.push_back(s);
+    } else {
+      const double width = 2 * s.radius * std::sin(double{s.object_angle});  // equation 3.1
+      extraction.undecided.push_back({s.voxel, UndecidedKind::kOther, static_cast<float>(width)});
+    }
+  }
+  std::sort(extraction.undecided.begin(), extraction.undecided.end(),
+            [](const auto& a, const auto& b) { return is_earlier_voxel(a.voxel, b.voxel); });
   report.passed = kept.size();
   report.rejected = spheres.size() - kept.size();
   spheres = std::move(kept);

@@ -1,6 +1,7 @@
 // The main job: medial spheres of a mesh, found on the device.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct ExtractionParameters {
   /// object_angle), radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
   double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
-  std::uint32_t extra_levels = 4;  ///< Certified: levels of subdivision below the finest voxel before giving up.
+  std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
   bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
   std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
   std::uint64_t memory_budget = 1ull << 30;                    ///< Bytes of device memory to stay below.
@@ -69,9 +70,15 @@ inline constexpr std::size_t kUndecidedKinds = 4;
 struct UndecidedVoxel {
   std::array<std::uint32_t, 3> voxel;
   UndecidedKind kind = UndecidedKind::kOther;
-  /// No set of salient medial points that hides in the voxel is wider than this (3.4), in the units of the mesh.
+  /// The two contacts of a salient medial point that hides there are at most this far apart: the width of equation 3.1,
+  /// in the units of the mesh.
   float width = 0;
 };
+
+/// Voxel order: z slowest, then y, then x.
+inline bool is_earlier_voxel(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+}
 
 /// Where the voxels and the time went. Counts do not depend on the machine.
 struct ExtractionCounters {
@@ -97,7 +104,7 @@ struct StageTime {
 
 struct Extraction {
   VoxelGrid grid;
-  std::vector<MedialSphere> spheres;  ///< In voxel order: z slowest, then y, then x.
+  std::vector<MedialSphere> spheres;  ///< In voxel order.
   std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order; counters.undecided of them.
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.

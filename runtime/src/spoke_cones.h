@@ -1,0 +1,23 @@
+// Where spokes can end on a trusted mesh, and which way they point there (docs/theory.md, Lemma D): what the dismissal
+// of cells by pairs asks about edges and vertices.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu_types.h"
+#include "medial_vk/mesh_view.h"
+
+namespace medial_vk {
+
+struct SpokeCones {
+  std::vector<gpu::TriangleLinks> links;  // by position in `order`
+  std::vector<gpu::vec4> corners;         // by vertex: axis and half-angle of a cap that holds all spokes to it
+};
+
+/// `order` lists the triangles as the device does: links name positions in it. Linear in the size of the mesh, up to
+/// one sort of its edges.
+SpokeCones make_spoke_cones(const MeshView& mesh, std::span<const std::uint32_t> order);
+
+}  // namespace medial_vk

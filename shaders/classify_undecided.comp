@@ -1,0 +1,98 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Cells that the search leaves: what must a salient medial point that hides there be like (docs/theory.md, "What
+// undecided means")? The pairs of carriers that remain bound its width (equation 3.1), and the same test on the part of
+// the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. One workgroup
+// per cell; a voxel takes the gravest reason and the largest width of its cells.
+#include "step.glsl"
+#define TRIANGLE_STORAGE_BINDING 0
+#define TRIANGLE_TEXEL_BINDING 8
+#include "triangles.glsl"
+
+layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
+layout(set = 0, binding = 5) readonly buffer CornerCones { vec4 corner_cones[]; };
+layout(set = 0, binding = 6) readonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
+#include "carriers.glsl"
+
+const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
+const float kAngleMargin = 0.05;
+const uint kFeasible = 1u, kFeasibleAtLargerAngle = 2u;
+
+shared uint shared_width;
+
+// Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
+// expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
+float pair_width(uint i, uint j, float nearest_distance, Box box) {
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+  float rho = box.circumradius + step.slack;
+  float by_feet = distance(a.xyz * a.w, b.xyz * b.w) + 2.0 * rho;
+  float turn = acos(clamp(dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz), -1.0, 1.0)) + carrier_spokes[i].w +
+               carrier_spokes[j].w + 1e-3;
+  float by_turn = 2.0 * (nearest_distance + rho) * sin(min(0.5 * turn, 1.5707964));
+  return min(by_feet, by_turn);
+}
+
+// All lanes: the largest width of a pair, as float bits, in shared_width.
+void measure_width(float nearest_distance, float theta, Box box) {
+  float width = 0.0, sine = sin(theta);
+  for (uint i = gl_LocalInvocationID.x; i < carrier_count; i += gl_WorkGroupSize.x)
+    for (uint j = 0; j < i; ++j)
+      if (is_feasible_pair(i, j, theta, sine, box)) width = max(width, pair_width(i, j, nearest_distance, box));
+  atomicMax(shared_width, floatBitsToUint(width));
+}
+
+// All lanes: kFeasible* in is_feasible.
+void test_pairs(float theta, Box box) {
+  float sine = sin(theta), larger = theta + kAngleMargin, larger_sine = sin(larger);
+  for (uint i = gl_LocalInvocationID.x; i < carrier_count; i += gl_WorkGroupSize.x)
+    for (uint j = 0; j < i; ++j) {
+      if (!is_feasible_pair(i, j, theta, sine, box)) continue;
+      atomicOr(is_feasible, kFeasible);
+      if (is_feasible_pair(i, j, larger, larger_sine, box)) atomicOr(is_feasible, kFeasibleAtLargerAngle);
+    }
+}
+
+// The part of a cell that is farther than the margin from the faces of its voxel.
+Box inner_part(Cell cell, Box whole, out bool exists) {
+  float margin = kFaceMargin * step.voxel_size;
+  vec3 corner = finest_voxel_corner(cell);
+  vec3 lower = max(whole.centre - whole.half_sides, corner + margin);
+  vec3 upper = min(whole.centre + whole.half_sides, corner + step.voxel_size - margin);
+  exists = all(lessThan(lower, upper));
+  vec3 half_sides = 0.5 * (upper - lower);
+  return Box(0.5 * (lower + upper), half_sides, length(half_sides));
+}
+
+void main() {
+  uint index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint lane = gl_LocalInvocationID.x;
+  bool exists = index < counters[kCells];
+  Cell cell = cells[exists ? index : 0u];
+  exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
+           (step.last_level != 0u || is_hopeless(cell.flags));
+  if (!exists) cell.list_count = 0u;
+  if (lane == 0u) shared_width = 0u;
+  Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
+  float d0 = length(vector_to_triangle(whole.centre, load_triangle(cell.nearest)));
+  float theta = threshold_angle(d0, whole);
+  bool decided = gather_carriers(cell, whole);
+  if (decided) measure_width(d0, theta, whole);
+  barrier();
+  bool has_inner;
+  Box inner = inner_part(cell, whole, has_inner);
+  bool inner_decided = gather_carriers(cell, inner);
+  if (inner_decided) test_pairs(theta, inner);
+  barrier();
+  if (lane != 0u || !exists) return;
+  float bound = 2.0 * (d0 + step.circumradius + step.slack);
+  float width = decided ? min(bound, uintBitsToFloat(shared_width)) : bound;
+  uint kind = d0 <= step.circumradius ? kAtBoundary : kOtherReason;
+  if (inner_decided && (is_feasible & kFeasibleAtLargerAngle) == 0u) kind = kNearAngle;
+  if (!has_inner || (inner_decided && is_feasible == 0u)) kind = kNearFace;
+  atomicMax(reasons[cell.voxel].x, kind + 1u);
+  atomicMax(reasons[cell.voxel].y, floatBitsToUint(width));
+}

@@ -1,0 +1,92 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Cells that are kept because no axis obeys all contacts: is there any pair of carriers that can hold the spokes of a
+// salient point (docs/theory.md, theorem on pairs)? If not the cell is empty. If so, the pairs that tie nearest to the
+// boundary say where to aim (equation 2.11). One workgroup per cell.
+#include "step.glsl"
+#define TRIANGLE_STORAGE_BINDING 0
+#define TRIANGLE_TEXEL_BINDING 7
+#include "triangles.glsl"
+
+layout(set = 0, binding = 1) buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
+layout(set = 0, binding = 5) readonly buffer CornerCones { vec4 corner_cones[]; };
+layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
+#include "carriers.glsl"
+
+const float kParallel = 0.98;  // cosine above which aims at the same place count as one
+const float kNoAim = 3e38;
+const uint kMostLanes = 64u;
+
+shared Aim lane_aims[kMostLanes];
+
+// Where the plane between two carriers crosses the cell (equation 2.11): at the point nearest to the centre, or, if
+// that is outside, towards the corner in its direction.
+Aim aim_between(uint i, uint j, float half_side) {
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+  vec3 across = b.xyz - a.xyz;
+  float turn = length(across), offset = b.w - a.w;
+  float extent = half_side * dot(abs(across), vec3(1.0));
+  if (turn < 0.1 || abs(offset) > 1.2 * extent) return Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
+  vec3 base = across * (offset / (turn * turn));
+  if (any(greaterThan(abs(base), vec3(half_side))))
+    base = clamp(offset / extent, -1.0, 1.0) * half_side * mix(vec3(-1.0), vec3(1.0), greaterThan(across, vec3(0.0)));
+  float away = max(a.w - dot(a.xyz, base), b.w - dot(b.xyz, base));
+  return Aim(vec4(base, away), vec4(across / turn, 1.0));
+}
+
+bool is_same(Aim a, Aim b) {
+  return abs(dot(a.direction.xyz, b.direction.xyz)) > kParallel &&
+         distance(a.base.xyz, b.base.xyz) < 0.2 * step.cell_size;
+}
+
+// The best aims of the lanes, different ones.
+void choose_aims(uint cell) {
+  Aim chosen[kAimsPerCell];
+  uint count = 0;
+  for (; count < kAimsPerCell; ++count) {
+    Aim best = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
+    for (uint i = 0; i < gl_WorkGroupSize.x; ++i) {
+      Aim aim = lane_aims[i];
+      bool skip = aim.base.w >= best.base.w;
+      for (uint k = 0; k < count; ++k) skip = skip || is_same(aim, chosen[k]);
+      if (!skip) best = aim;
+    }
+    if (best.base.w == kNoAim) break;
+    chosen[count] = best;
+    aims[kAimsPerCell * cell + count] = best;
+  }
+  for (uint k = count; k < kAimsPerCell; ++k) aims[kAimsPerCell * cell + k] = Aim(vec4(0.0), vec4(0.0));
+}
+
+void main() {
+  uint index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint lane = gl_LocalInvocationID.x;
+  bool exists = index < counters[kCells];
+  Cell cell = cells[exists ? index : 0u];
+  if (!exists) cell.list_count = 0u;
+  Box box = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
+  bool decided = gather_carriers(cell, box);
+  float d0 = length(vector_to_triangle(box.centre, load_triangle(cell.nearest)));
+  float theta = threshold_angle(d0, box), sine = sin(theta);
+  Aim best = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
+  if (decided) {
+    for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x)
+      for (uint j = 0; j < i; ++j) {
+        uint a = carrier_order[i], b = carrier_order[j];
+        if (!is_feasible_pair(a, b, theta, sine, box)) continue;
+        atomicOr(is_feasible, 1u);
+        Aim aim = aim_between(a, b, step.half_side);
+        if (aim.base.w < best.base.w) best = aim;
+      }
+  }
+  lane_aims[lane] = best;
+  barrier();
+  if (lane != 0u || !exists) return;
+  choose_aims(index);
+  if (!decided || is_feasible != 0u) return;
+  cells[index].flags |= kCellEmpty;
+  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 1], 0xffffffffu);
+}

@@ -1,0 +1,202 @@
+// Dismissal by pairs (docs/theory.md, Lemmas D to F). A workgroup gathers the carriers of a box (the faces, edges and
+// vertices on which the spokes of its medial points can end) and then looks for a pair that can hold two spokes of a
+// salient one. Include after "triangles.glsl" and after declaring `cells`, `lists`, `links` and `corner_cones`.
+#ifndef MEDIAL_VK_CARRIERS_GLSL
+#define MEDIAL_VK_CARRIERS_GLSL
+
+const uint kMostCarriers = 128u;  // boxes with more are not decided
+const uint kMostEntries = 8192u;  // nor are those with longer lists
+// What kind of carrier, in the low bits of its name: a trusted face, an edge 1 to 3, a vertex 4 to 6 of its triangle,
+// or an untrusted triangle as a whole.
+const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kWhole = 7u;
+
+const float kAngleSlack = 1e-5;   // of angles computed here
+const float kCosineSlack = 1e-6;  // of dot products of unit vectors
+
+struct Box {
+  vec3 centre, half_sides;
+  float circumradius;
+};
+
+shared uint carrier_count;
+shared uint carrier_name[kMostCarriers];
+shared uint carrier_order[kMostCarriers];    // by name: results do not depend on the order of the atomics
+shared vec4 carrier_nearest[kMostCarriers];  // g, D
+shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
+shared float corner_distance[8];             // from the corners of the box to the triangle nearest to its centre
+shared uint is_feasible;
+
+float slack_of(float d, Box box) { return 4.0 * step.slack * (1.0 + box.circumradius / max(d, 1e-30)); }
+
+// Lemma A for a box.
+bool touches_box(vec3 v, float d, Box box) {
+  vec3 h = box.half_sides * (v / max(d, 1e-30));
+  float most = -1.0;
+  for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
+  return d - most <= slack_of(d, box);
+}
+
+// Lists a carrier whose nearest point is at centre + v, unless Lemma A or C shows that no spoke ends there.
+void add_carrier(vec3 v, vec4 spokes, uint name, Box box) {
+  float d = length(v);
+  if (!touches_box(v, d, box)) return;
+  vec3 g = unit_or_zero(v);
+  float rho = box.circumradius + 2.0 * step.slack;
+  if (d > rho) {
+    float wander = asin(rho / d) + kAngleSlack;
+    float sum = wander + spokes.w;
+    if (sum < 3.1 && dot(g, spokes.xyz) < cos(sum) - kCosineSlack) return;
+    if (wander < spokes.w) spokes = vec4(g, wander);
+  }
+  uint slot = atomicAdd(carrier_count, 1u);
+  if (slot >= kMostCarriers) return;
+  carrier_name[slot] = name;
+  carrier_nearest[slot] = vec4(g, d);
+  carrier_spokes[slot] = spokes;
+}
+
+vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
+
+void add_edge(uint t, TriangleTexels texels, uint k, uint neighbour, Box box) {
+  vec3 a = corner_of(texels, k), e = corner_of(texels, k == 2u ? 0u : k + 1u) - a;
+  vec3 other = triangle_texel(4u * neighbour + 3u).xyz;
+  vec3 sum = texels.normal.xyz + other;
+  float size = length(sum);
+  // Knife edges: the arc between opposite normals has no axis that float can tell.
+  vec4 arc = size > 1e-3 ? vec4(sum / size, asin(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
+                         : vec4(0.0, 0.0, 1.0, 4.0);
+  float s = clamp(dot(box.centre - a, e) / max(dot(e, e), 1e-30), 0.0, 1.0);
+  add_carrier(a + s * e - box.centre, arc, 8u * t + kFirstEdge + k, box);
+}
+
+void add_carriers_of(uint t, Box box) {
+  TriangleTexels texels = load_triangle(t);
+  vec3 v = vector_to_triangle(box.centre, texels);
+  if (!touches_box(v, length(v), box)) return;
+  TriangleLinks l = links[t];
+  if ((l.flags & kLinkWhole) != 0u || texels.normal.w < 0.5) {
+    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), 8u * t + kWhole, box);
+    return;
+  }
+  add_carrier(v, vec4(texels.normal.xyz, kAngleSlack), 8u * t + kFace, box);
+  uint neighbour[3] = uint[3](l.neighbour_0, l.neighbour_1, l.neighbour_2);
+  uint corner[3] = uint[3](l.corner_0, l.corner_1, l.corner_2);
+  for (uint k = 0; k < 3u; ++k) {
+    if ((l.flags & (kLinkEdge << k)) != 0u) add_edge(t, texels, k, neighbour[k], box);
+    if ((l.flags & (kLinkCorner << k)) != 0u)
+      add_carrier(corner_of(texels, k) - box.centre, corner_cones[corner[k]], 8u * t + kFirstCorner + k, box);
+  }
+}
+
+// All lanes of the workgroup call this. False: too many.
+bool gather_carriers(Cell cell, Box box) {
+  uint lane = gl_LocalInvocationID.x;
+  barrier();
+  if (lane == 0u) {
+    carrier_count = 0u;
+    is_feasible = 0u;
+  }
+  TriangleTexels nearest = load_triangle(cell.nearest);
+  for (uint k = lane; k < 8u; k += gl_WorkGroupSize.x)
+    corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));
+  barrier();
+  if (cell.list_count <= kMostEntries)
+    for (uint i = lane; i < cell.list_count; i += gl_WorkGroupSize.x) add_carriers_of(lists[cell.list_begin + i], box);
+  barrier();
+  if (cell.list_count > kMostEntries || carrier_count > kMostCarriers) return false;
+  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
+    uint rank = 0;
+    for (uint j = 0; j < carrier_count; ++j) rank += carrier_name[j] < carrier_name[i] ? 1u : 0u;
+    carrier_order[rank] = i;
+  }
+  barrier();
+  return true;
+}
+
+// Lemmas C and D: can their spokes be 2 theta apart?
+bool can_turn(uint i, uint j, float theta) {
+  float left = 2.0 * (theta - kAngleSlack) - carrier_spokes[i].w - carrier_spokes[j].w;
+  return left <= 0.0 || dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz) <= cos(left) + kCosineSlack;
+}
+
+// Corners of a carrier, the last repeated.
+void corners_of(uint name, out vec3 p[3], out uint count) {
+  TriangleTexels t = load_triangle(name / 8u);
+  uint kind = name % 8u;
+  p[0] = t.a.xyz;
+  p[1] = corner_of(t, 1u);
+  p[2] = corner_of(t, 2u);
+  count = 3u;
+  if (kind >= kFirstEdge && kind < kFirstCorner) {
+    uint k = kind - kFirstEdge;
+    vec3 first = corner_of(t, k), second = corner_of(t, k == 2u ? 0u : k + 1u);
+    p[0] = first;
+    p[1] = second;
+    count = 2u;
+  } else if (kind >= kFirstCorner && kind < kWhole) {
+    p[0] = corner_of(t, kind - kFirstCorner);
+    count = 1u;
+  }
+}
+
+// Lemma E: chords from carrier i to carrier j that make an angle with a normal at i as a salient pair does.
+bool can_face(uint i, uint j, float sine) {
+  uint name = carrier_name[i], kind = name % 8u;
+  if (kind >= kFirstCorner) return true;  // vertices and untrusted triangles: not asked
+  vec3 p[3], q[3];
+  uint p_count, q_count;
+  corners_of(name, p, p_count);
+  corners_of(carrier_name[j], q, q_count);
+  vec3 mean = vec3(0.0);
+  for (uint a = 0; a < p_count; ++a)
+    for (uint b = 0; b < q_count; ++b) mean += unit_or_zero(q[b] - p[a]);
+  mean = unit_or_zero(mean);
+  vec3 normal = triangle_texel(4u * (name / 8u) + 3u).xyz, other = normal;
+  if (kind != kFace) {
+    TriangleLinks l = links[name / 8u];
+    other = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
+  }
+  // cos(phi) of the cap around both normals
+  float least = (sine - kCosineSlack) * sqrt(max(0.0, 0.5 + 0.5 * dot(normal, other))) - kCosineSlack;
+  float most = -1.0;
+  bool behind = false, bounded = true;
+  for (uint a = 0; a < p_count; ++a)
+    for (uint b = 0; b < q_count; ++b) {
+      vec3 chord = q[b] - p[a];
+      if (dot(chord, chord) == 0.0) continue;  // a corner of both
+      float depth = max(-dot(normal, chord), -dot(other, chord)) + step.slack;
+      float along = dot(chord, mean) - step.slack;
+      behind = behind || depth > 2.0 * step.slack;
+      bounded = bounded && along > 0.0;
+      most = max(most, depth / max(along, 1e-30));
+    }
+  return behind && (!bounded || most >= least);
+}
+
+// Lemma F: a third carrier is nearer wherever these two tie.
+bool is_beaten(uint i, uint j, Box box) {
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+  vec3 ab = b.xyz - a.xyz;
+  float squared = dot(ab, ab);
+  for (uint c = 0; c < carrier_count; ++c) {
+    vec4 third = carrier_nearest[c];
+    float share = squared > 0.0 ? clamp(dot(ab, third.xyz - a.xyz) / squared, 0.0, 1.0) : 0.5;
+    vec4 mixed = mix(a, b, share) - third;
+    float bend = 0.5 * box.circumradius * box.circumradius / max(third.w, 1e-30);
+    float slack = slack_of(min(min(a.w, b.w), third.w), box);
+    if (c != i && c != j && mixed.w - 3.0 * slack > dot(box.half_sides, abs(mixed.xyz)) + bend) return true;
+  }
+  return false;
+}
+
+bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
+  return can_turn(i, j, theta) && can_face(i, j, sine) && can_face(j, i, sine) && !is_beaten(i, j, box);
+}
+
+// Where a cell may hold a point that the radius threshold makes salient, smaller angles count too.
+float threshold_angle(float nearest_distance, Box box) {
+  bool deep = nearest_distance + box.circumradius + step.slack >= step.radius;
+  return deep ? min(step.deep_angle, step.angle) : step.angle;
+}
+
+#endif
