@@ -39,21 +39,27 @@ float pair_width(uint i, uint j, float nearest_distance, Box box) {
 // All lanes: the largest width of a pair, as float bits, in shared_width.
 void measure_width(float nearest_distance, float theta, Box box) {
   float width = 0.0, sine = sin(theta);
-  for (uint i = gl_LocalInvocationID.x; i < carrier_count; i += gl_WorkGroupSize.x)
-    for (uint j = 0; j < i; ++j)
-      if (is_feasible_pair(i, j, theta, sine, box)) width = max(width, pair_width(i, j, nearest_distance, box));
+  for (uint i = gl_LocalInvocationID.x; i < kept_count; i += gl_WorkGroupSize.x)
+    for (uint j = 0; j < i; ++j) {
+      uint a = carrier_order[i], b = carrier_order[j];
+      float more = pair_width(a, b, nearest_distance, box);
+      if (more > width && is_feasible_pair(a, b, theta, sine, box)) width = more;
+    }
   atomicMax(shared_width, floatBitsToUint(width));
 }
 
 // All lanes: kFeasible* in is_feasible.
 void test_pairs(float theta, Box box) {
   float sine = sin(theta), larger = theta + kAngleMargin, larger_sine = sin(larger);
-  for (uint i = gl_LocalInvocationID.x; i < carrier_count; i += gl_WorkGroupSize.x)
-    for (uint j = 0; j < i; ++j) {
-      if (!is_feasible_pair(i, j, theta, sine, box)) continue;
-      atomicOr(is_feasible, kFeasible);
-      if (is_feasible_pair(i, j, larger, larger_sine, box)) atomicOr(is_feasible, kFeasibleAtLargerAngle);
+  uint found = 0u;
+  for (uint i = gl_LocalInvocationID.x; i < kept_count && found < kFeasibleAtLargerAngle; i += gl_WorkGroupSize.x)
+    for (uint j = 0; j < i && found < kFeasibleAtLargerAngle; ++j) {
+      uint a = carrier_order[i], b = carrier_order[j];
+      if (found == kFeasible && !can_turn(a, b, larger)) continue;
+      if (!is_feasible_pair(a, b, theta, sine, box)) continue;
+      found = is_feasible_pair(a, b, larger, larger_sine, box) ? kFeasible | kFeasibleAtLargerAngle : kFeasible;
     }
+  atomicOr(is_feasible, found);
 }
 
 // The part of a cell that is farther than the margin from the faces of its voxel.

@@ -73,14 +73,18 @@ void main() {
   float theta = threshold_angle(d0, box), sine = sin(theta);
   Aim best = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
   if (decided) {
-    for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x)
+    bool found = false;
+    for (uint i = lane; i < kept_count; i += gl_WorkGroupSize.x)
       for (uint j = 0; j < i; ++j) {
         uint a = carrier_order[i], b = carrier_order[j];
-        if (!is_feasible_pair(a, b, theta, sine, box)) continue;
-        atomicOr(is_feasible, 1u);
+        if (!can_turn(a, b, theta)) continue;
         Aim aim = aim_between(a, b, step.half_side);
-        if (aim.base.w < best.base.w) best = aim;
+        bool better = aim.base.w < best.base.w;
+        if ((found && !better) || !is_feasible_pair(a, b, theta, sine, box)) continue;
+        found = true;
+        if (better) best = aim;
       }
+    if (found) atomicOr(is_feasible, 1u);
   }
   lane_aims[lane] = best;
   barrier();

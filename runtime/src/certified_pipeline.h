@@ -91,7 +91,7 @@ class CertifiedPipeline {
   // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
   // texel views follow its buffers.
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
-  static constexpr std::uint32_t kPairLanes = 32;  // of a workgroup that lists carriers
+  static constexpr std::uint32_t kPairLanes = 8;  // of a workgroup that lists carriers
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {
     const char* shader;

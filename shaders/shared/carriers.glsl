@@ -20,7 +20,10 @@ struct Box {
 
 shared uint carrier_count;
 shared uint carrier_name[kMostCarriers];
-shared uint carrier_order[kMostCarriers];    // by name: results do not depend on the order of the atomics
+shared bool carrier_beaten[kMostCarriers];
+// Those that are left, by name: results do not depend on the order of the atomics.
+shared uint carrier_order[kMostCarriers];
+shared uint kept_count;
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
 shared float corner_distance[8];             // from the corners of the box to the triangle nearest to its centre
@@ -88,12 +91,41 @@ void add_carriers_of(uint t, Box box) {
   }
 }
 
+// Lemma F: is carrier c nearer than the mixture of two others wherever these tie?
+bool beats(uint c, vec4 mixture, float slack, Box box) {
+  vec4 third = carrier_nearest[c];
+  vec4 ahead = mixture - third;
+  float bend = 0.5 * box.circumradius * box.circumradius / max(third.w, 1e-30);
+  return ahead.w - slack > dot(box.half_sides, abs(ahead.xyz)) + bend;
+}
+
+// Lemma F with one carrier in place of a pair: another is nearer everywhere in the box.
+bool is_always_beaten(uint i, Box box) {
+  vec4 mine = carrier_nearest[i];
+  for (uint c = 0; c < carrier_count; ++c)
+    if (c != i && beats(c, mine, 3.0 * slack_of(min(mine.w, carrier_nearest[c].w), box), box)) return true;
+  return false;
+}
+
+// Puts those that are left in order.
+void order_carriers(uint lane) {
+  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
+    if (carrier_beaten[i]) continue;
+    uint rank = 0;
+    for (uint j = 0; j < carrier_count; ++j)
+      rank += !carrier_beaten[j] && carrier_name[j] < carrier_name[i] ? 1u : 0u;
+    carrier_order[rank] = i;
+    atomicAdd(kept_count, 1u);
+  }
+}
+
 // All lanes of the workgroup call this. False: too many.
 bool gather_carriers(Cell cell, Box box) {
   uint lane = gl_LocalInvocationID.x;
   barrier();
   if (lane == 0u) {
     carrier_count = 0u;
+    kept_count = 0u;
     is_feasible = 0u;
   }
   TriangleTexels nearest = load_triangle(cell.nearest);
@@ -104,11 +136,9 @@ bool gather_carriers(Cell cell, Box box) {
     for (uint i = lane; i < cell.list_count; i += gl_WorkGroupSize.x) add_carriers_of(lists[cell.list_begin + i], box);
   barrier();
   if (cell.list_count > kMostEntries || carrier_count > kMostCarriers) return false;
-  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
-    uint rank = 0;
-    for (uint j = 0; j < carrier_count; ++j) rank += carrier_name[j] < carrier_name[i] ? 1u : 0u;
-    carrier_order[rank] = i;
-  }
+  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) carrier_beaten[i] = is_always_beaten(i, box);
+  barrier();
+  order_carriers(lane);
   barrier();
   return true;
 }
@@ -177,14 +207,12 @@ bool can_face(uint i, uint j, float sine) {
 bool is_beaten(uint i, uint j, Box box) {
   vec4 a = carrier_nearest[i], b = carrier_nearest[j];
   vec3 ab = b.xyz - a.xyz;
-  float squared = dot(ab, ab);
-  for (uint c = 0; c < carrier_count; ++c) {
+  float squared = dot(ab, ab), nearer = min(a.w, b.w);
+  for (uint k = 0; k < kept_count; ++k) {
+    uint c = carrier_order[k];
     vec4 third = carrier_nearest[c];
     float share = squared > 0.0 ? clamp(dot(ab, third.xyz - a.xyz) / squared, 0.0, 1.0) : 0.5;
-    vec4 mixed = mix(a, b, share) - third;
-    float bend = 0.5 * box.circumradius * box.circumradius / max(third.w, 1e-30);
-    float slack = slack_of(min(min(a.w, b.w), third.w), box);
-    if (c != i && c != j && mixed.w - 3.0 * slack > dot(box.half_sides, abs(mixed.xyz)) + bend) return true;
+    if (c != i && c != j && beats(c, mix(a, b, share), 3.0 * slack_of(min(nearer, third.w), box), box)) return true;
   }
   return false;
 }
