@@ -168,6 +168,8 @@ std::optional<MedialSampler::Ball> MedialSampler::tie_with(const Ball& from, con
   return std::nullopt;
 }
 
+// A triangle beside a contact ties within the tolerance with a point up to sqrt(2 tolerance / radius) away, as an
+// angle, from the contact: as much is taken off.
 double MedialSampler::object_angle(const Ball& ball) const {
   std::vector<Vector3d> spokes;
   for (const int t : tree_.gather(ball.centre, ball.radius + tolerance_)) {
@@ -179,7 +181,7 @@ double MedialSampler::object_angle(const Ball& ball) const {
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) largest = std::max(largest, reference::half_angle(spokes[i], spokes[j]));
   }
-  return largest;
+  return largest - std::sqrt(2 * tolerance_ / ball.radius);
 }
 
 namespace {

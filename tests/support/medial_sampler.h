@@ -30,7 +30,7 @@ namespace medial_vk::test {
 struct MedialSample {
   Eigen::Vector3d centre;
   double radius;        ///< Distance to the boundary, exact to rounding.
-  double object_angle;  ///< Half the largest angle between spokes to contacts that tie within the tolerance.
+  double object_angle;  ///< Half the largest angle between spokes to contacts that tie, not above it by rounding.
 };
 
 /// Makes sample number `index` of the sequence that belongs to `seed`, independently of all others.
