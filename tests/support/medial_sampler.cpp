@@ -128,7 +128,7 @@ std::optional<MedialSampler::Ball> MedialSampler::climb(const Ball& from) const 
     const Closest nearest = tree_.closest(at);
     if (nearest.triangle == last) return std::nullopt;
     last = nearest.triangle;
-    const std::optional<Ball> ball = tie_with(from, up, nearest.triangle);
+    std::optional<Ball> ball = tie_with(from, up, nearest.triangle);
     if (!ball) return std::nullopt;
     if (tree_.closest(ball->centre).distance >= ball->radius - tolerance_) return ball;
     at = ball->centre;
