@@ -164,12 +164,14 @@ Status run(const Options& options) {
   }
   std::vector<RecallRow> rows;
   for (const Subject& subject : subjects.value()) {
-    if (const Status done = measure(subject, options, context ? &*context : nullptr, rows); !done) return done;
+    if (Status done = measure(subject, options, context ? &*context : nullptr, rows); !done) return done;
     // After every mesh, so that a long run that is stopped leaves what it has.
     if (options.csv.empty()) continue;
-    if (const Status done = write(options.csv, bench::to_csv(rows)); !done) return done;
+    if (Status done = write(options.csv, bench::to_csv(rows)); !done) return done;
   }
-  const std::string tables = bench::to_markdown(rows, options.angles);
+  const std::string tables =
+      fmt::format("{} samples wanted for each mesh and threshold, seed {}; {}.\n\n{}", options.samples, options.seed,
+                  context ? context->device().name : "CPU reference", bench::to_markdown(rows, options.angles));
   if (!options.markdown.empty()) return write(options.markdown, tables);
   fmt::print("{}", tables);
   return {};

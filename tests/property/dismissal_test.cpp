@@ -64,8 +64,8 @@ struct DismissalCase {
   std::size_t samples;
 };
 
-void PrintTo(const DismissalCase& c, std::ostream* out) {
-  *out << c.samples << " samples of " << c.solid << ", threshold " << c.object_angle;
+std::ostream& operator<<(std::ostream& out, const DismissalCase& c) {
+  return out << c.samples << " samples of " << c.solid << ", threshold " << c.object_angle;
 }
 
 class Dismissal : public testing::TestWithParam<DismissalCase> {};
