@@ -71,9 +71,11 @@ std::ostream& operator<<(std::ostream& out, const DismissalCase& c) {
 class Dismissal : public testing::TestWithParam<DismissalCase> {};
 
 TEST_P(Dismissal, LosesNoSalientSample) {
-  const auto& [name, object_angle, wanted] = GetParam();
+  const double object_angle = GetParam().object_angle;
+  const std::size_t wanted = GetParam().samples;
   const auto& solids = test::analytic_solids();
-  const auto solid = std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.name == name; });
+  const auto solid =
+      std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.name == GetParam().solid; });
   ASSERT_NE(solid, solids.end());
   const PreparedMesh mesh = test::prepare(solid->make());
   const std::vector<MedialSample> samples = draw(mesh, object_angle, wanted);
