@@ -1,159 +1,192 @@
-// How much of the medial surface an extraction finds: independent salient medial points, and the share of them whose
-// voxel got a point.
-//
-// The sampler shares nothing with the extraction. A random point p of the solid has a nearest boundary point A; the
-// ball through A with its centre on the ray from A through p grows until it meets the boundary elsewhere, found by
-// bisection in double precision. Its centre is a medial point (Lemma 2.3), and the object angle follows from the two
-// contacts. It counts if its angle is at least 0.05 above the threshold and it is at least 5 % of a voxel away from the
-// faces of its voxel.
+// bench_recall: the share of the salient medial surface that an extraction finds (docs/accuracy.md).
 #include <fmt/core.h>
 
-#include <atomic>
-#include <cmath>
-#include <cstdlib>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <optional>
-#include <random>
-#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "cpu_reference/queries.h"
-#include "medial/extract.h"
+#include "medial/reference_bridge.h"
 #include "mesh/load_mesh.h"
+#include "recall_count.h"
+#include "recall_table.h"
+#include "support/solid_catalogue.h"
 
 namespace {
 
 using namespace medial_vk;
-using Eigen::Vector3d;
+using bench::RecallRow;
+using test::MedialSample;
 
-struct Sample {
-  Vector3d centre;
-  double radius, angle;
+struct Options {
+  std::vector<std::string> meshes, solids;
+  std::vector<std::string> modes = {"certified"};
+  std::vector<std::uint32_t> resolutions = {40, 80, 160}, thesis_resolutions;
+  std::vector<double> angles = {0.3, 0.6, 0.9};
+  std::size_t samples = 100'000;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;
+  std::string backend = "vulkan", csv, markdown;
 };
 
-// The medial point that p retracts to along the ray away from its nearest boundary point.
-std::optional<Sample> retract(const reference::Tree& tree, const Vector3d& p, double longest) {
-  const reference::Closest nearest = tree.closest(p);
-  if (nearest.distance < 1e-9 * longest || !reference::is_inside(tree, p)) return std::nullopt;
-  const Vector3d away = (p - nearest.point) / nearest.distance;
-  const auto meets = [&](double t) {
-    const Vector3d m = nearest.point + t * away;
-    return tree.closest(m).distance < t - 1e-12 * longest;
-  };
-  double low = nearest.distance, high = 2 * low;
-  while (!meets(high)) {
-    low = high;
-    high *= 2;
-    if (high > 4 * longest) return std::nullopt;
-  }
-  while (high - low > 1e-11 * longest) (meets(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
-  const Vector3d m = nearest.point + low * away;
-  // The other contact is the nearest point a little beyond.
-  const Vector3d beyond = nearest.point + (high + 1e-7 * longest) * away;
-  const reference::Closest other = tree.closest(beyond);
-  const double angle = reference::half_angle(-away, (other.point - beyond).normalized());
-  return Sample{m, low, angle};
+void declare(CLI::App& app, Options& o) {
+  app.add_option("mesh", o.meshes, "OBJ, PLY, STL or OFF");
+  app.add_option("--solid", o.solids, "analytic solids by name, or all");
+  app.add_option("--mode", o.modes, "certified, thesis")->check(CLI::IsMember({"certified", "thesis"}));
+  app.add_option("--resolutions", o.resolutions, "voxels along the longest side")->check(CLI::Range(1, 4096));
+  app.add_option("--thesis-resolutions", o.thesis_resolutions, "the same for mode thesis")->check(CLI::Range(1, 4096));
+  app.add_option("--angles", o.angles, "thresholds of the object angle, radians")->check(CLI::Range(0.01, 1.5));
+  app.add_option("--samples", o.samples, "samples wanted for each threshold")->check(CLI::Range(1, 100'000'000));
+  app.add_option("--seed", o.seed, "of the samples");
+  app.add_option("--threads", o.threads, "of the sampler, 0: all; the samples stay the same");
+  app.add_option("--backend", o.backend, "vulkan, cpu")->check(CLI::IsMember({"vulkan", "cpu"}));
+  app.add_option("--csv", o.csv, "write all counts to this file");
+  app.add_option("--markdown", o.markdown, "write the tables to this file; without it, to standard output");
 }
 
-std::vector<Sample> salient_samples(const reference::Tree& tree, double angle, std::size_t wanted, unsigned seed) {
-  const double longest = tree.longest_side();
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Sample> samples;
-  for (std::size_t tries = 0; samples.size() < wanted && tries < 200 * wanted; ++tries) {
-    const Vector3d share(unit(random), unit(random), unit(random));
-    const Vector3d p = tree.lower() + share.cwiseProduct(tree.upper() - tree.lower());
-    const std::optional<Sample> sample = retract(tree, p, longest);
-    if (sample && sample->angle >= angle + 0.05) samples.push_back(*sample);
+struct Subject {
+  std::string name;
+  PreparedMesh mesh;
+  double share_of_samples = 1;
+};
+
+Result<Subject> prepare_subject(const std::string& name, Result<Mesh> mesh, double share_of_samples = 1) {
+  if (!mesh.ok()) return mesh.error();
+  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value());
+  if (!prepared.ok()) return prepared.error();
+  return Subject{name, std::move(prepared).value(), share_of_samples};
+}
+
+Result<std::vector<Subject>> load(const Options& options) {
+  std::vector<Result<Subject>> loaded;
+  for (const std::string& wanted : options.solids) {
+    const std::size_t before = loaded.size();
+    for (const test::NamedSolid& solid : test::analytic_solids()) {
+      if (wanted != "all" && wanted != solid.name) continue;
+      loaded.push_back(prepare_subject(solid.name, solid.make(), solid.share_of_samples));
+    }
+    if (loaded.size() == before) return Error{ErrorCode::kUsage, "there is no solid called " + wanted};
   }
+  for (const std::string& file : options.meshes) {
+    loaded.push_back(prepare_subject(std::filesystem::path(file).stem().string(), read_mesh(file)));
+  }
+  std::vector<Subject> subjects;
+  for (Result<Subject>& subject : loaded) {
+    if (!subject.ok()) return subject.error();
+    subjects.push_back(std::move(subject).value());
+  }
+  return subjects;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// As many as are wanted of those that are also clear of their voxel's faces: a share of 0.9 along each axis.
+std::vector<MedialSample> draw_samples(const Subject& subject, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const double axis = 1 - 2 * bench::kClearOfFaces;
+  test::SampleRequest request;
+  request.angles = {options.angles.front() + bench::kAngleSlack};
+  for (const double angle : options.angles) request.angles.push_back(angle + bench::kClearAngle);
+  const double wanted = subject.share_of_samples * static_cast<double>(options.samples);
+  request.wanted = static_cast<std::size_t>(1.03 * wanted / (axis * axis * axis)) + 50;
+  request.seed = options.seed;
+  request.threads = options.threads;
+  const reference::Tree tree(to_reference(subject.mesh));
+  std::vector<MedialSample> samples = draw_medial_samples(tree, request);
+  const double seconds = seconds_since(start);
+  fmt::print(stderr, "{}: {} samples in {:.1f} s, {:.0f} a second\n", subject.name, samples.size(), seconds,
+             static_cast<double>(samples.size()) / seconds);
   return samples;
 }
 
-reference::Mesh to_reference(const Mesh& mesh) {
-  reference::Mesh result;
-  for (const Point& v : mesh.vertices) result.vertices.emplace_back(v[0], v[1], v[2]);
-  for (const Triangle& t : mesh.triangles)
-    result.triangles.emplace_back(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
-  return result;
-}
-
-struct Count {
-  std::size_t counted = 0, missed = 0;
-};
-
-struct Recall {
-  Count wide, narrow;  // radius at least, or below, (1 + sqrt(3)/2) voxels
-  std::vector<Sample> misses;
-};
-
-Recall measure(const std::vector<Sample>& samples, const Extraction& extraction) {
-  std::set<std::array<std::uint32_t, 3>> found;
-  for (const MedialSphere& s : extraction.spheres) found.insert(s.voxel);
-  Recall recall;
-  for (const Sample& s : samples) {
-    std::array<std::uint32_t, 3> voxel{};
-    bool clear = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = (s.centre[axis] - extraction.grid.origin[axis]) / extraction.grid.voxel_size;
-      voxel[axis] = static_cast<std::uint32_t>(std::floor(x));
-      clear = clear && x - std::floor(x) >= 0.05 && x - std::floor(x) <= 0.95;
+void log(const RecallRow& row, double seconds) {
+  bench::Tally all = row.of(bench::kWide);
+  all += row.of(bench::kNarrow);
+  fmt::print(stderr, "{} {} {} {}: {:.1f} s, {} points, {} undecided, {} samples, {} missed; {} salient, {} lost{}\n",
+             row.mesh, bench::name_of(row.mode), row.resolution, row.angle, seconds, row.points, row.undecided,
+             all.samples, all.missed(), row.dismissal.samples, row.dismissal.lost(),
+             row.undecided_listed ? "" : " or undecided");
+  const auto name_all = [](const char* what, const std::vector<MedialSample>& samples) {
+    for (const MedialSample& s : samples) {
+      fmt::print(stderr, "  {} ({:.9f}, {:.9f}, {:.9f}) radius {:.6f} object angle {:.6f}\n", what, s.centre.x(),
+                 s.centre.y(), s.centre.z(), s.radius, s.object_angle);
     }
-    if (!clear) continue;
-    Count& count = s.radius >= (1 + std::sqrt(0.75)) * extraction.grid.voxel_size ? recall.wide : recall.narrow;
-    ++count.counted;
-    if (found.contains(voxel)) continue;
-    ++count.missed;
-    recall.misses.push_back(s);
-  }
-  return recall;
+  };
+  name_all("missed", row.first_missed);
+  if (row.mode == Mode::kCertified && row.undecided_listed) name_all("lost", row.first_lost);
 }
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "recall: {}\n", message);
-  return 1;
+Status measure(const Subject& subject, const Options& options, Context* context, std::vector<RecallRow>& rows) {
+  const std::vector<MedialSample> samples = draw_samples(subject, options);
+  for (const std::string& mode : options.modes) {
+    const bool thesis = mode == "thesis";
+    for (const std::uint32_t resolution : thesis ? options.thesis_resolutions : options.resolutions) {
+      for (const double angle : options.angles) {
+        const auto start = std::chrono::steady_clock::now();
+        ExtractionParameters parameters;
+        parameters.mode = thesis ? Mode::kThesis : Mode::kCertified;
+        parameters.resolution = resolution;
+        parameters.object_angle = angle;
+        const auto result = extract_and_certify(
+            subject.mesh, parameters, context != nullptr ? Backend::kVulkan : Backend::kCpu, context, options.threads);
+        if (!result.ok()) return result.error();
+        rows.push_back(bench::count_recall(subject.name, samples, parameters, result.value().extraction));
+        log(rows.back(), seconds_since(start));
+      }
+    }
+  }
+  return {};
+}
+
+Status write(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) return Error{ErrorCode::kCannotWrite, "cannot write " + file};
+  return {};
+}
+
+Status run(const Options& options) {
+  Result<std::vector<Subject>> subjects = load(options);
+  if (!subjects.ok()) return subjects.error();
+  if (subjects.value().empty()) return Error{ErrorCode::kUsage, "name a mesh, or a solid with --solid"};
+  std::optional<Context> context;
+  if (options.backend == "vulkan") {
+    Result<Context> made = Context::create();
+    if (!made.ok()) return made.error();
+    context = std::move(made).value();
+  }
+  std::vector<RecallRow> rows;
+  for (const Subject& subject : subjects.value()) {
+    if (Status done = measure(subject, options, context ? &*context : nullptr, rows); !done) return done;
+    // After every mesh, so that a long run that is stopped leaves what it has.
+    if (options.csv.empty()) continue;
+    if (Status done = write(options.csv, bench::to_csv(rows)); !done) return done;
+  }
+  const std::string tables =
+      fmt::format("{} samples wanted for each mesh and threshold, seed {}; {}.\n\n{}", options.samples, options.seed,
+                  context ? context->device().name : "CPU reference", bench::to_markdown(rows, options.angles));
+  if (!options.markdown.empty()) return write(options.markdown, tables);
+  fmt::print("{}", tables);
+  return {};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5) return fail("usage: bench_recall MESH RESOLUTION OBJECT_ANGLE SAMPLES [thesis|certified] [cpu|vulkan]");
-  auto raw = read_mesh(argv[1]);
-  if (!raw.ok()) return fail(raw.error().message);
-  auto mesh = prepare_mesh(std::move(raw).value());
-  if (!mesh.ok()) return fail(mesh.error().message);
-  ExtractionParameters parameters;
-  parameters.resolution = static_cast<std::uint32_t>(std::atoi(argv[2]));
-  parameters.object_angle = std::atof(argv[3]);
-  parameters.mode = argc > 5 && std::string(argv[5]) == "thesis" ? Mode::kThesis : Mode::kCertified;
-  const bool cpu = argc > 6 && std::string(argv[6]) == "cpu";
-  std::optional<Context> context;
-  if (!cpu) {
-    auto made = Context::create();
-    if (!made.ok()) return fail(made.error().message);
-    context = std::move(made).value();
-  }
-  auto result = extract_and_certify(mesh.value(), parameters, cpu ? Backend::kCpu : Backend::kVulkan,
-                                    context ? &*context : nullptr);
-  if (!result.ok()) return fail(result.error().message);
-  const reference::Tree tree(to_reference(mesh.value().mesh));
-  const auto wanted = static_cast<std::size_t>(std::atoll(argv[4]));
-  std::vector<std::vector<Sample>> parts(2);
-  std::vector<std::thread> threads;
-  for (unsigned k = 0; k < 2; ++k)
-    threads.emplace_back([&, k] { parts[k] = salient_samples(tree, parameters.object_angle, wanted / 2, k + 1); });
-  for (std::thread& t : threads) t.join();
-  parts[0].insert(parts[0].end(), parts[1].begin(), parts[1].end());
-  const Recall recall = measure(parts[0], result.value().extraction);
-  const ExtractionCounters& c = result.value().extraction.counters;
-  fmt::print("{} resolution {} angle {} points {} undecided {} rejected {} | wide {} missed {} | narrow {} missed {}\n",
-             argv[1], parameters.resolution, parameters.object_angle, c.found, c.undecided,
-             result.value().certify.rejected, recall.wide.counted, recall.wide.missed, recall.narrow.counted,
-             recall.narrow.missed);
-  for (std::size_t i = 0; i < std::min<std::size_t>(recall.misses.size(), 5); ++i) {
-    const Sample& s = recall.misses[i];
-    fmt::print("  missed ({:.6f}, {:.6f}, {:.6f}) radius {:.6f} angle {:.3f}\n", s.centre.x(), s.centre.y(),
-               s.centre.z(), s.radius, s.angle);
-  }
-  return 0;
+  Options options;
+  CLI::App app("Recall of medial-vk against independent samples of the medial surface");
+  declare(app, options);
+  CLI11_PARSE(app, argc, argv);
+  std::sort(options.angles.begin(), options.angles.end());
+  if (options.thesis_resolutions.empty()) options.thesis_resolutions = options.resolutions;
+  const Status done = run(options);
+  if (!done) fmt::print(stderr, "bench_recall: {}\n", done.error().message);
+  return done ? 0 : static_cast<int>(done.error().code);
 }

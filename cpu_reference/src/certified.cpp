@@ -86,6 +86,7 @@ class Certified {
         break;
       case Outcome::kUndecided:
         ++result_.undecided;
+        result_.undecided_voxels.push_back(voxel);
         break;
     }
   }

@@ -49,5 +49,6 @@ struct Thresholds {
 
 /// The order of the output: z slowest, then y, then x.
 void sort_by_voxel(std::vector<Sphere>& spheres);
+void sort_voxels(std::vector<Eigen::Vector3i>& voxels);
 
 }  // namespace medial_vk::reference

@@ -110,6 +110,20 @@ class Certifier {
   double longest_, epsilon_, rounding_;
 };
 
+/// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked.
+void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extraction) {
+  std::vector<UndecidedVoxel>& undecided = extraction.undecided;
+  const std::size_t known = undecided.size();
+  const auto diagonal = static_cast<float>(std::sqrt(3.0) * extraction.grid.voxel_size);
+  for (std::size_t i = 0; i < passed.size(); ++i)
+    if (passed[i] == 0) undecided.push_back({extraction.spheres[i].voxel, UndecidedKind::kOther, diagonal});
+  std::inplace_merge(undecided.begin(), undecided.begin() + static_cast<std::ptrdiff_t>(known), undecided.end(),
+                     [](const UndecidedVoxel& a, const UndecidedVoxel& b) {
+                       return std::lexicographical_compare(a.voxel.rbegin(), a.voxel.rend(), b.voxel.rbegin(),
+                                                           b.voxel.rend());
+                     });
+}
+
 }  // namespace
 
 CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
@@ -130,17 +144,9 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
   CertifyReport report;
   std::vector<MedialSphere> kept;
   kept.reserve(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const MedialSphere& s = spheres[i];
-    if (passed[i]) {
-      kept.push_back(s);
-    } else {
-      const double width = 2 * s.radius * std::sin(double{s.object_angle});  // equation 3.1
-      extraction.undecided.push_back({s.voxel, UndecidedKind::kOther, static_cast<float>(width)});
-    }
-  }
-  std::sort(extraction.undecided.begin(), extraction.undecided.end(),
-            [](const auto& a, const auto& b) { return is_earlier_voxel(a.voxel, b.voxel); });
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    if (passed[i]) kept.push_back(spheres[i]);
+  if (parameters.mode == Mode::kCertified) list_dropped(passed, extraction);
   report.passed = kept.size();
   report.rejected = spheres.size() - kept.size();
   spheres = std::move(kept);

@@ -1,5 +1,7 @@
 #include "medial/reference_bridge.h"
 
+#include <cmath>
+
 namespace medial_vk {
 namespace {
 
@@ -91,6 +93,11 @@ Extraction from_reference(const reference::Result& result) {
   out.grid = {to_point(result.grid_origin), result.voxel_size, to_unsigned(result.grid_size)};
   out.spheres.reserve(result.spheres.size());
   for (const reference::Sphere& sphere : result.spheres) out.spheres.push_back(from_reference(sphere));
+  // The reference does not say why: anything within the voxel.
+  const auto diagonal = static_cast<float>(std::sqrt(3.0) * result.voxel_size);
+  for (const Eigen::Vector3i& voxel : result.undecided_voxels) {
+    out.undecided.push_back({to_unsigned(voxel), UndecidedKind::kOther, diagonal});
+  }
   for (const reference::LevelCount& level : result.levels) {
     out.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found});
   }

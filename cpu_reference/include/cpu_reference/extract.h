@@ -44,7 +44,8 @@ struct Result {
   Eigen::Vector3d grid_origin;
   double voxel_size;
   Eigen::Vector3i grid_size;
-  std::vector<Sphere> spheres;  // z slowest, then y, then x
+  std::vector<Sphere> spheres;                    // z slowest, then y, then x
+  std::vector<Eigen::Vector3i> undecided_voxels;  // certified, in the same order
   std::vector<LevelCount> levels;
   std::uint64_t found = 0, undecided = 0, proved_empty = 0, queries = 0;
   bool interrupted = false;

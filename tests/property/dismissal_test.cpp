@@ -1,0 +1,151 @@
+// What the theorem of docs/theory.md promises: no voxel that holds a salient medial point is dismissed. Independent
+// samples of many solids, each of whose voxels must be found or undecided.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "medial/reference_bridge.h"
+#include "support/device.h"
+#include "support/extraction.h"
+#include "support/medial_sampler.h"
+#include "support/solid_catalogue.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using test::MedialSample;
+using test::Voxel;
+
+// docs/theory.md, "Rounding": the device dismisses for the threshold less 1e-5. Samples are exact to far less.
+constexpr double kAngleSlack = 1e-5;
+constexpr std::uint64_t kSeed = 20;
+
+Voxel to_voxel(const std::array<std::uint32_t, 3>& v) {
+  return {static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])};
+}
+
+std::vector<MedialSample> draw(const PreparedMesh& mesh, double angle, std::size_t wanted) {
+  test::SampleRequest request;
+  request.angles = {angle + kAngleSlack};
+  request.wanted = wanted;
+  request.seed = kSeed;
+  return test::draw_medial_samples(reference::Tree(to_reference(mesh)), request);
+}
+
+void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction& extraction) {
+  ASSERT_EQ(extraction.undecided.size(), extraction.counters.undecided) << "undecided voxels are not all listed";
+  std::set<Voxel> kept;
+  for (const MedialSphere& s : extraction.spheres) kept.insert(to_voxel(s.voxel));
+  for (const UndecidedVoxel& u : extraction.undecided) kept.insert(to_voxel(u.voxel));
+  std::size_t lost = 0;
+  for (const MedialSample& s : samples) {
+    if (kept.contains(test::voxel_of(extraction.grid, s.centre))) continue;
+    if (++lost > 3) continue;
+    ADD_FAILURE() << s.centre.transpose() << " is medial with radius " << s.radius << " and object angle "
+                  << s.object_angle << ", but its voxel was dismissed";
+  }
+  EXPECT_EQ(lost, 0u) << "of " << samples.size();
+}
+
+/// Thresholds differ from solid to solid: low ones leave more voxels, high ones ask more of the proof. So do counts, as
+/// a sample takes more or less time: on faceted round solids it must climb far, at the centre of a sphere farthest.
+struct DismissalCase {
+  std::string solid;
+  double object_angle;
+  std::size_t samples;
+};
+
+std::ostream& operator<<(std::ostream& out, const DismissalCase& c) {
+  return out << c.samples << " samples of " << c.solid << ", threshold " << c.object_angle;
+}
+
+class Dismissal : public testing::TestWithParam<DismissalCase> {};
+
+TEST_P(Dismissal, LosesNoSalientSample) {
+  const double object_angle = GetParam().object_angle;
+  const std::size_t wanted = GetParam().samples;
+  const auto& solids = test::analytic_solids();
+  const auto solid =
+      std::find_if(solids.begin(), solids.end(), [&](const auto& s) { return s.name == GetParam().solid; });
+  ASSERT_NE(solid, solids.end());
+  const PreparedMesh mesh = test::prepare(solid->make());
+  const std::vector<MedialSample> samples = draw(mesh, object_angle, wanted);
+  ASSERT_EQ(samples.size(), wanted);
+  ExtractionParameters parameters;
+  parameters.object_angle = object_angle;
+  parameters.resolution = 40;
+  {
+    SCOPED_TRACE("the reference");
+    const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    expect_none_lost(samples, result.value().extraction);
+  }
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  SCOPED_TRACE("the device");
+  Context context = test::make_context();
+  expect_none_lost(samples, test::extract_on_device(context, mesh, parameters).extraction);
+}
+
+std::string test_name(const testing::TestParamInfo<DismissalCase>& info) {
+  std::string name = info.param.solid;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// 103,530 samples.
+INSTANTIATE_TEST_SUITE_P(Solids, Dismissal,
+                         testing::Values(DismissalCase{"box", 0.6, 20'000}, DismissalCase{"l-shape", 0.3, 20'000},
+                                         DismissalCase{"plate-with-hole", 0.9, 20'000},
+                                         DismissalCase{"cup", 0.6, 16'000}, DismissalCase{"sphere", 0.3, 30},
+                                         DismissalCase{"capsule", 0.6, 2'500}, DismissalCase{"oblate", 0.3, 10'000},
+                                         DismissalCase{"prolate", 0.3, 1'000}, DismissalCase{"triaxial", 0.9, 9'000},
+                                         DismissalCase{"torus", 0.3, 2'000}, DismissalCase{"flat-torus", 0.6, 3'000}),
+                         test_name);
+
+// The sampler itself, where everything is known: in a box the distance to the boundary is the least distance to a face,
+// a point is medial where two of them tie, and object angles are pi/4 or pi/2.
+TEST(MedialSampler, SamplesOfABoxTieBetweenTwoFaces) {
+  const Eigen::Array3d size(1, 0.7, 0.5);
+  const PreparedMesh box = test::prepare(test::make_box({size[0], size[1], size[2]}));
+  const std::vector<MedialSample> samples = draw(box, 0.3, 5000);
+  ASSERT_EQ(samples.size(), 5000u);
+  constexpr double kTolerance = 1e-12;  // of lengths; the angle between feet on both sides of a triangle's edge follows
+  for (const MedialSample& s : samples) {
+    const Eigen::Array3d p = s.centre.array(), least = p.min(size - p);
+    EXPECT_NEAR(least.minCoeff(), s.radius, kTolerance);
+    const bool opposite = ((size - 2 * p).abs() <= 2 * kTolerance && least <= s.radius + kTolerance).any();
+    const auto ties = (least <= s.radius + kTolerance).count();
+    EXPECT_TRUE(opposite || ties >= 2) << p.transpose();
+    EXPECT_NEAR(s.object_angle, opposite ? std::numbers::pi / 2 : std::numbers::pi / 4,
+                2 * std::sqrt(kTolerance / s.radius))
+        << p.transpose();
+  }
+}
+
+// And nothing of a sample depends on the number of threads.
+TEST(MedialSampler, SamplesDoNotDependOnThreads) {
+  const PreparedMesh torus = test::prepare(test::make_torus(1, 0.35, 16, 32));
+  const reference::Tree tree(to_reference(torus));
+  test::SampleRequest request = {.angles = {0.3, 0.6}, .wanted = 100, .most_tries = 100, .seed = 3, .threads = 1};
+  const std::vector<MedialSample> one = test::draw_medial_samples(tree, request);
+  request.threads = 3;
+  const std::vector<MedialSample> three = test::draw_medial_samples(tree, request);
+  ASSERT_EQ(one.size(), three.size());
+  ASSERT_FALSE(one.empty());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].centre, three[i].centre);
+    EXPECT_EQ(one[i].object_angle, three[i].object_angle);
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk

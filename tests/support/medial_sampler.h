@@ -1,0 +1,72 @@
+// Independent samples of the medial surface of a solid, by distances in double precision only: what the recall of an
+// extraction is measured against. Shares the closest-point queries with the CPU reference, and nothing else.
+//
+// A random point p of the solid has a nearest boundary point A. The largest ball that touches A and whose interior
+// holds no boundary point has its centre on the ray from A through p and touches the boundary elsewhere: its centre is
+// a medial point. It is found from outside (Ma, Bae and Choi 2012): a ball that holds a boundary point Q in its
+// interior shrinks until it touches A and Q, |AQ|^2 / (2 n.AQ), and so on; every Q proves that the ball must not be
+// larger.
+//
+// On facets that stand for a smooth surface these balls mostly touch neighbouring facets, under a small object angle,
+// and the salient medial surface of a tube is a curve that no random ray meets. So a sample may climb: along the sheet
+// that its contacts share, until a third triangle ties; along that seam, until a fourth does. Ties are solved for by
+// Newton's method.
+//
+// Whatever the way there, a sample is kept only after its ball has been looked at as a whole: its interior is empty but
+// for the tolerance, and its object angle is the largest between two triangles that tie within the tolerance.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cpu_reference/queries.h"
+
+namespace medial_vk::test {
+
+/// Lengths in the units of the mesh, the angle in radians.
+struct MedialSample {
+  Eigen::Vector3d centre;
+  double radius;        ///< Distance to the boundary, exact to rounding.
+  double object_angle;  ///< Half the largest angle between spokes to contacts that tie, not above it by rounding.
+};
+
+/// Makes sample number `index` of the sequence that belongs to `seed`, independently of all others.
+class MedialSampler {
+ public:
+  /// Samples below `least_angle` are of no interest: they climb on, and are dropped in the end. Keeps a reference.
+  MedialSampler(const reference::Tree& tree, double least_angle, std::uint64_t seed);
+
+  /// Nothing where the random point is outside, or the sample is not salient.
+  std::optional<MedialSample> sample(std::uint64_t index) const;
+
+  /// How far contacts may differ in distance and still tie: 64 times the bound on the rounding of one distance, a few
+  /// 1e-13 of the longest side.
+  double tolerance() const { return tolerance_; }
+
+ private:
+  struct Ball;
+  std::optional<Ball> largest_at(const reference::Closest& contact, const Eigen::Vector3d& away) const;
+  std::optional<Ball> climb(const Ball& from) const;
+  std::optional<Ball> tie_with(const Ball& from, const Eigen::Vector3d& up, int triangle) const;
+  double object_angle(const Ball& ball) const;
+
+  const reference::Tree& tree_;
+  double least_angle_, tolerance_;
+  std::uint64_t seed_;
+};
+
+struct SampleRequest {
+  std::vector<double> angles;    ///< Ascending: at least `wanted` samples reach each of them, as far as there are any.
+  std::size_t wanted = 0;        ///< By angle; and no more than that between two of them.
+  std::size_t most_tries = 100;  ///< Random points, as a multiple of `wanted`.
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  ///< 0: all. The samples do not depend on it.
+};
+
+/// In the order of the sampler's sequence.
+std::vector<MedialSample> draw_medial_samples(const reference::Tree& tree, const SampleRequest& request);
+
+}  // namespace medial_vk::test
