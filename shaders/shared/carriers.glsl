@@ -11,6 +11,7 @@ const uint kMostEntries = 8192u;  // nor are those with longer lists
 const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kWhole = 7u;
 
 const float kAngleSlack = 1e-5;   // of angles computed here
+const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: docs/theory.md, "Rounding"
 const float kCosineSlack = 1e-6;  // of dot products of unit vectors
 
 struct Box {
@@ -186,8 +187,9 @@ bool can_face(uint i, uint j, float sine) {
     TriangleLinks l = links[name / 8u];
     other = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
   }
-  // cos(phi) of the cap around both normals
-  float least = (sine - kCosineSlack) * sqrt(max(0.0, 0.5 + 0.5 * dot(normal, other))) - kCosineSlack;
+  float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(normal, other)));  // of the cap around both normals
+  if (cos_phi < kLeastCosPhi) return true;
+  float least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
   float most = -1.0;
   bool behind = false, bounded = true;
   for (uint a = 0; a < p_count; ++a)

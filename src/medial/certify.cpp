@@ -110,18 +110,19 @@ class Certifier {
   double longest_, epsilon_, rounding_;
 };
 
-/// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked.
+/// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
+/// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.
 void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extraction) {
   std::vector<UndecidedVoxel>& undecided = extraction.undecided;
   const std::size_t known = undecided.size();
-  const auto diagonal = static_cast<float>(std::sqrt(3.0) * extraction.grid.voxel_size);
-  for (std::size_t i = 0; i < passed.size(); ++i)
-    if (passed[i] == 0) undecided.push_back({extraction.spheres[i].voxel, UndecidedKind::kOther, diagonal});
+  const double diagonal = std::sqrt(3.0) * extraction.grid.voxel_size;
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    const MedialSphere& dropped = extraction.spheres[i];
+    const auto width = static_cast<float>(2 * (dropped.radius + diagonal));
+    if (passed[i] == 0) undecided.push_back({dropped.voxel, UndecidedKind::kOther, width});
+  }
   std::inplace_merge(undecided.begin(), undecided.begin() + static_cast<std::ptrdiff_t>(known), undecided.end(),
-                     [](const UndecidedVoxel& a, const UndecidedVoxel& b) {
-                       return std::lexicographical_compare(a.voxel.rbegin(), a.voxel.rend(), b.voxel.rbegin(),
-                                                           b.voxel.rend());
-                     });
+                     [](const auto& a, const auto& b) { return is_earlier_voxel(a.voxel, b.voxel); });
 }
 
 }  // namespace
