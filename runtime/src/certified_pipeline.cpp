@@ -255,8 +255,9 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
 
 CertifiedPipeline::Kernel CertifiedPipeline::pair_kernel(const char* shader, const LevelBuffers& level,
                                                          std::vector<BufferRange> more) const {
-  std::vector<BufferRange> buffers = {mesh_->triangles.range(), level.cells->range(), level.lists->range(),
-                                      counters_.range(), mesh_->triangle_links.range(), mesh_->corner_cones.range()};
+  std::vector<BufferRange> buffers = {mesh_->triangles.range(),      level.cells->range(),
+                                      level.lists->range(),          counters_.range(),
+                                      mesh_->triangle_links.range(), mesh_->corner_cones.range()};
   buffers.insert(buffers.end(), more.begin(), more.end());
   return {shader, std::move(buffers), Reads::kTriangles, {}, kPairLanes};
 }

@@ -4,7 +4,8 @@
 //   gather contacts of the top cells
 //   for each level, coarse to fine and below the finest voxel:
 //     nearest triangle of every child -> mark its contacts -> dismiss -> decide its side -> write the kept ones
-//     from the finest level on: dismiss by pairs -> propose lines -> keep those that turn -> narrow -> verify -> elect one per voxel
+//     from the finest level on: dismiss by pairs -> propose lines -> keep those that turn -> narrow -> verify -> elect
+//     one per voxel
 //   collect the points, measure their flux
 #pragma once
 

@@ -204,12 +204,11 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
 void CertifiedPipeline::record_collection(Recorder& r) {
   r.begin_stage("flux");
   const gpu::StepConstants step = level_constants(coarse_levels_);
-  Kernel collect{
-      "collect_points",
-      {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(), result_.range(),
-       cells_[2].range(), reasons_.range(), undecided_.range()},
-      Reads::kNoMesh,
-      {0}};
+  Kernel collect{"collect_points",
+                 {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
+                  result_.range(), cells_[2].range(), reasons_.range(), undecided_.range()},
+                 Reads::kNoMesh,
+                 {0}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   collect.constants = {1};

@@ -32,7 +32,8 @@ MedialSphere to_input_units(const gpu::FoundPoint& found, const DeviceMesh& mesh
 UndecidedVoxel to_input_units(const gpu::UndecidedCell& cell, const DeviceMesh& mesh) {
   static_assert(gpu::kNearFace == static_cast<gpu::uint>(UndecidedKind::kNearFace));
   static_assert(gpu::kOtherReason == static_cast<gpu::uint>(UndecidedKind::kOther));
-  return {{cell.x, cell.y, cell.z}, static_cast<UndecidedKind>(cell.kind),
+  return {{cell.x, cell.y, cell.z},
+          static_cast<UndecidedKind>(cell.kind),
           static_cast<float>(mesh.longest * double{cell.width})};
 }
 

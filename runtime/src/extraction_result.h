@@ -19,8 +19,7 @@ UndecidedVoxel to_input_units(const gpu::UndecidedCell& cell, const DeviceMesh& 
 /// Into voxel order.
 template <typename T>
 void sort_by_voxel(std::vector<T>& values) {
-  std::sort(values.begin(), values.end(),
-            [](const T& a, const T& b) { return is_earlier_voxel(a.voxel, b.voxel); });
+  std::sort(values.begin(), values.end(), [](const T& a, const T& b) { return is_earlier_voxel(a.voxel, b.voxel); });
 }
 
 /// Times of the same stage add up.

@@ -50,9 +50,8 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
     return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
   }
   device.closed = mesh.closed;
-  device.has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(), [](std::uint8_t f) {
-    return (f & kTrustedNormal) != 0;
-  });
+  device.has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(),
+                                                            [](std::uint8_t f) { return (f & kTrustedNormal) != 0; });
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.upload_mesh(context, mesh, bvh.value()); !status.ok()) return status.error();
   device.order = bvh.value().order();

@@ -156,8 +156,9 @@ class Builder {
     const bool reflex = dot(normals_[first.position], d) >= -kTouchSlack * length(d);
     const bool flat = length(normals_[first.position] - normals_[second.position]) < kFlat;
     gpu::TriangleLinks& links = out_.links[first.position];
-    (first.corner == 0 ? links.neighbour_0 : first.corner == 1 ? links.neighbour_1 : links.neighbour_2) =
-        second.position;
+    (first.corner == 0   ? links.neighbour_0
+     : first.corner == 1 ? links.neighbour_1
+                         : links.neighbour_2) = second.position;
     if (reflex && !flat) links.flags |= gpu::kLinkEdge << first.corner;
     partners_.push_back({first.position, second.position});
   }

@@ -39,7 +39,7 @@ What is looked for (lengths are fractions, so units do not matter):
       --mode MODE       certified: voxels are dismissed by proof (default)
                         thesis: the published search by sampled flux
       --extra-levels N  how often a difficult voxel is halved before it counts
-                        as undecided, 0 to 8 (default 4)
+                        as undecided, 0 to 8 (default 6)
       --simplify        drop points within E of another one in a voxel beside it
       --perturb A       move every vertex by up to A times the longest side,
                         0 to 0.1, for degenerate solids (default 0: off)

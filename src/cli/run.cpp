@@ -128,6 +128,7 @@ class ExtractionRun {
     spheres_ = std::move(result.value().extraction.spheres);
     record_.grid = result.value().extraction.grid;
     record_.counters = std::move(result.value().extraction.counters);
+    record_.undecided = std::move(result.value().extraction.undecided);
     record_.device_times = std::move(result.value().extraction.device_times);
     record_.certify = result.value().certify;
     for (StageTime& time : result.value().host_times) record_.host_times.push_back(std::move(time));

@@ -1,4 +1,6 @@
 #include "output/report_json.h"
+#include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -112,6 +114,21 @@ Json certificate_json(const std::optional<reference::Certificate>& certificate) 
   return {{"passed", certificate->passed()}, {"conditions", lines}};
 }
 
+/// How many undecided voxels of each kind, and the largest width that may hide in one.
+Json undecided_json(const std::vector<UndecidedVoxel>& undecided) {
+  std::array<std::uint64_t, kUndecidedKinds> counts{};
+  float width = 0;
+  for (const UndecidedVoxel& voxel : undecided) {
+    ++counts[static_cast<std::size_t>(voxel.kind)];
+    width = std::max(width, voxel.width);
+  }
+  return {{"near_face", counts[static_cast<std::size_t>(UndecidedKind::kNearFace)]},
+          {"near_angle", counts[static_cast<std::size_t>(UndecidedKind::kNearAngle)]},
+          {"boundary", counts[static_cast<std::size_t>(UndecidedKind::kBoundary)]},
+          {"other", counts[static_cast<std::size_t>(UndecidedKind::kOther)]},
+          {"greatest_width", width}};
+}
+
 }  // namespace
 
 std::string report_json(const RunRecord& record) {
@@ -127,6 +144,7 @@ std::string report_json(const RunRecord& record) {
       {"voxels",
        {{"found", record.counters.found},
         {"undecided", record.counters.undecided},
+        {"undecided_kinds", undecided_json(record.undecided)},
         {"proved_empty", record.counters.proved_empty},
         {"rejected", record.certify.rejected}}},
       {"levels", levels_json(record.counters.levels)},

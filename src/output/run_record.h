@@ -36,6 +36,7 @@ struct RunRecord {
   double longest_side = 0;
   VoxelGrid grid;
   ExtractionCounters counters;
+  std::vector<UndecidedVoxel> undecided;
   CertifyReport certify;
   std::uint64_t points = 0;      ///< Written.
   std::uint64_t simplified = 0;  ///< Removed by --simplify.

@@ -40,7 +40,7 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.parameters.object_angle, 0.6);
   EXPECT_EQ(options.parameters.radius, 0.0);
   EXPECT_EQ(options.parameters.epsilon, 0.01);
-  EXPECT_EQ(options.parameters.extra_levels, 4u);
+  EXPECT_EQ(options.parameters.extra_levels, 6u);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
   EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty());

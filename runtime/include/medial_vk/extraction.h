@@ -104,7 +104,7 @@ struct StageTime {
 
 struct Extraction {
   VoxelGrid grid;
-  std::vector<MedialSphere> spheres;  ///< In voxel order.
+  std::vector<MedialSphere> spheres;      ///< In voxel order.
   std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order; counters.undecided of them.
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
