@@ -9,6 +9,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <set>
@@ -104,7 +105,7 @@ struct SmoothCase {
   std::uint32_t triangles;
 };
 
-void PrintTo(const SmoothCase& smooth, std::ostream* out) { *out << smooth.name; }
+std::ostream& operator<<(std::ostream& out, const SmoothCase& smooth) { return out << smooth.name; }
 
 class Tessellation : public OnDevice, public testing::WithParamInterface<SmoothCase> {};
 
@@ -220,11 +221,14 @@ Voxels voxels_with_a_point(const Extraction& extraction) {
   return voxels;
 }
 
-Voxels crossed_voxels(const SmoothSolid& solid, const VoxelGrid& grid) {
-  Voxels voxels;
+/// Voxels that a curve crosses, with how far it gets from their faces, as a fraction of the voxel side.
+std::map<test::Voxel, double> crossed_voxels(const SmoothSolid& solid, const VoxelGrid& grid) {
+  std::map<test::Voxel, double> voxels;
   const Matrix3d turn = to_world();
   for (const SmoothMedialPoint& m : solid.medial_points(1e-3 * grid.voxel_size)) {
-    voxels.insert(test::voxel_of(grid, turn * m.point));
+    const Vector3d p = turn * m.point;
+    double& depth = voxels[test::voxel_of(grid, p)];
+    depth = std::max(depth, test::depth_in_voxel(grid, p));
   }
   return voxels;
 }
@@ -265,9 +269,9 @@ TEST_P(ThinCurve, IsAConnectedChainOfVoxels) {
     SCOPED_TRACE(how.name() + ": " + test::describe(result));
     const Voxels found = voxels_with_a_point(result.extraction);
     EXPECT_EQ(count_components(found), 1u) << "of " << found.size() << " voxels";
-    const Voxels crossed = crossed_voxels(*solid, result.extraction.grid);
+    const auto crossed = crossed_voxels(*solid, result.extraction.grid);
     const auto bare = std::count_if(crossed.begin(), crossed.end(),
-                                    [&](const auto& v) { return !has_any_of(found, block_around(v)); });
+                                    [&](const auto& c) { return !has_any_of(found, block_around(c.first)); });
     EXPECT_EQ(bare, 0) << "of " << crossed.size() << " voxels on the curve have no point, and no neighbour with one";
   }
 }
@@ -281,13 +285,22 @@ std::vector<SmoothCase> round_tubes() {
 INSTANTIATE_TEST_SUITE_P(Smooth, ThinCurve, testing::ValuesIn(round_tubes()),
                          [](const auto& smooth) { return smooth.param.name; });
 
+// The curve of the mesh may miss a voxel that the smooth one just touches: crossings deeper than the reach of a promise
+// (mesh_promises.h, alpha = pi/2) and epsilon are found without exception, and nearly all of any depth.
 TEST_F(OnDevice, FindsNearlyEveryVoxelThatTheCircleOfATorusCrosses) {
   const std::unique_ptr<SmoothSolid> solid = torus();
-  const CertifiedExtraction result = extract(test::prepare(turned(solid->mesh(16 * kCoarse))), 0.6);
+  const Mesh mesh = solid->mesh(16 * kCoarse);
+  const CertifiedExtraction result = extract(test::prepare(turned(mesh)), 0.6);
   SCOPED_TRACE(test::describe(result));
+  const VoxelGrid& grid = result.extraction.grid;
+  const double deep = 8.0 / 3 * test::deviation(*solid, mesh) / grid.voxel_size + ExtractionParameters{}.epsilon;
   const Voxels found = voxels_with_a_point(result.extraction);
-  const Voxels crossed = crossed_voxels(*solid, result.extraction.grid);
-  const auto hit = std::count_if(crossed.begin(), crossed.end(), [&](const auto& v) { return found.contains(v); });
+  const auto crossed = crossed_voxels(*solid, grid);
+  std::size_t hit = 0;
+  for (const auto& [voxel, depth] : crossed) {
+    hit += found.count(voxel);
+    EXPECT_TRUE(found.contains(voxel) || depth <= deep) << "no point in a voxel that is crossed " << depth << " deep";
+  }
   EXPECT_GE(static_cast<double>(hit), 0.98 * static_cast<double>(crossed.size())) << hit << " of " << crossed.size();
 }
 
