@@ -21,6 +21,7 @@ constexpr double kClipMargin = 0x1p-40;  // ClipPolytope: of the largest coordin
 constexpr double kSameSite = 0x1p-30;    // of the largest coordinate
 constexpr double kOutside = 1e-6;        // of the radius
 constexpr double kRoundBall = 0x1p-6;    // of the radius: how closely a cell is cut to a ball
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kDepthSteps = 256;
 constexpr std::int32_t kDepthPlane = ClipPolytope::kBox + 1;
 
@@ -49,7 +50,7 @@ class Foam::Impl {
 
   double width_bound(double depth) const {
     double widest = 0;
-    for (std::uint32_t a = 0; a < sites_.size(); ++a) widest = std::max(widest, site_width(a, depth, widest));
+    for (std::uint32_t a = 0; a < sites_.size(); ++a) widest = std::max(widest, site_width(a, depth, widest, kNever));
     return widest;
   }
 
@@ -57,7 +58,7 @@ class Foam::Impl {
     std::uint32_t bound = 0;  // in steps; holds for all sites so far
     for (std::uint32_t a = 0; a < sites_.size() && bound < kDepthSteps; ++a) {
       const auto holds = [&](std::uint32_t steps) {
-        return site_width(a, steps * sphere_.radius / kDepthSteps, width) <= width;
+        return site_width(a, steps * sphere_.radius / kDepthSteps, width, width) <= width;
       };
       if (holds(bound)) continue;
       std::uint32_t high = kDepthSteps;  // true of it: the sphere's radius bounds every depth
@@ -166,8 +167,8 @@ class Foam::Impl {
     return part;
   }
 
-  /// Bound on the width of medial points in V(site) at this depth or more; not refined below `enough`.
-  double site_width(std::uint32_t site, double depth, double enough) const {
+  /// Bound on the width of medial points in V(site) at this depth or more; no better than within [enough, too_much].
+  double site_width(std::uint32_t site, double depth, double enough, double too_much) const {
     const ClipPolytope part = part_at_depth(site, depth);
     if (part.empty()) return 0;
     // A contact is no further from its medial point than the site is, and that distance is convex in the medial point.
@@ -178,7 +179,7 @@ class Foam::Impl {
     region.slack = slack_;
     for (const ClipPolytope::Vertex& v : part.vertices()) region.centres.push_back(v.position - a);
     for (const Ball& b : empty_balls_) region.empty.push_back({b.centre - sites_[site], b.radius - slack_});
-    return std::min(plain, width_of_region(region, enough));
+    return std::min(plain, width_of_region(region, enough, too_much));
   }
 
   Ball sphere_;

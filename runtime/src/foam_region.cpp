@@ -19,7 +19,7 @@ namespace {
 constexpr double kCosineError = 0x1p-49;
 constexpr double kFinestPatch = 0.04;        // side of its square, about radians
 constexpr double kAboutAsWide = 0.95;        // as a share of the widest
-constexpr std::size_t kMostPatches = 400;    // of a division, per site
+constexpr std::size_t kMostPatches = 1000;   // of a division, per site
 constexpr std::uint32_t kFirstDivision = 2;  // of a side of the cube
 
 /// A cone of directions: a square of a face of the cube [-1, 1]^3, seen from the origin.
@@ -78,30 +78,97 @@ double leaves_at(double along, double distance, double slack) {
   return along + std::sqrt(along * along + power);
 }
 
-/// The patch's reach: from the full foam's reach inwards through the balls of the empty foam that every ray of the
-/// patch crosses. On a ray with dot(e, direction) = d, ball (e, r) hides d -+ sqrt(d^2 - (|e|^2 - r^2)); the least d
-/// hides least, because both ends move outwards as d grows.
-void find_reach(const FoamRegion& region, Patch& patch) {
-  double reach = 0;
-  for (const Point& v : region.centres)
-    reach = std::max(reach, leaves_at(along_patch(patch, v).most, length(v), region.slack));
-  std::vector<std::pair<double, double>> hidden;  // to, from
-  std::vector<std::uint32_t> still_matter;
-  for (const std::uint32_t k : patch.empty) {
-    const Point& e = region.empty[k].centre;
-    const double r = region.empty[k].radius, power = dot(e, e) - r * r;
-    const Along along = along_patch(patch, e);
-    if (r <= 0 || along.most <= 0 || along.most * along.most <= power) continue;
-    still_matter.push_back(k);
-    if (along.least <= 0 || along.least * along.least <= power) continue;
-    const double half = std::sqrt(along.least * along.least - power);
-    hidden.emplace_back(along.least + half, power / (along.least + half));
+/// What a ball of the empty foam hides of the rays of a patch, as distances from A. On a ray with dot(e, direction) =
+/// d, ball (e, r) hides d -+ sqrt(d^2 - (|e|^2 - r^2)), and both ends move outwards as d grows: the least d hides what
+/// every ray of the patch has hidden, the largest what any may have.
+struct Hidden {
+  std::uint32_t ball;
+  double from = 0, to = 0;                 // on every ray; nothing if to == 0
+  double lowest_from = 0, highest_to = 0;  // on some ray
+
+  double middle = 0, power = 0;  // dot(e, direction) on the middle ray, |e|^2 - r^2
+
+  double length() const { return to - from; }
+  /// What the other hides here, this one hides as well, on every ray of the patch and of any part of it.
+  bool covers(const Hidden& other) const { return from <= other.lowest_from && to >= other.highest_to; }
+};
+
+/// False if the ball hides nothing on any ray.
+bool find_hidden(const Patch& patch, const Ball& ball, Hidden& hidden) {
+  const Along along = along_patch(patch, ball.centre);
+  const double power = dot(ball.centre, ball.centre) - ball.radius * ball.radius;
+  if (ball.radius <= 0 || along.most <= 0 || along.most * along.most <= power) return false;
+  hidden.middle = dot(ball.centre, patch.direction);
+  hidden.power = power;
+  hidden.highest_to = along.most + std::sqrt(along.most * along.most - power);
+  hidden.lowest_from = power / hidden.highest_to;
+  if (along.least > 0 && along.least * along.least > power) {
+    hidden.to = along.least + std::sqrt(along.least * along.least - power);
+    hidden.from = power / hidden.to;
   }
-  patch.empty = std::move(still_matter);
-  std::sort(hidden.begin(), hidden.end(), std::greater<>());
-  for (const auto& [to, from] : hidden) {
-    if (to <= reach) break;
-    reach = std::min(reach, from);
+  return true;
+}
+
+/// True if on every ray of the patch the end of the full ball around v lies in the empty ball p. Where dot(v,
+/// direction) = a > 0, the ray leaves the full ball at L <= 2 a + g, g = power / 2 a; L lies in p if L^2 - 2 L dot(p,
+/// direction)
+/// + |p|^2 - r^2 < 0, that is, if 2 a (2 dot(p - v, direction) - g) > |p|^2 - r^2. Two bounds of dot(p, .) and dot(v,
+/// .) apart would need much smaller patches, for p - v is much shorter than p or v.
+bool hides_end(const Patch& patch, const FoamRegion& region, const Point& v, const Ball& ball) {
+  const double a = along_patch(patch, v).least;
+  if (a <= 0) return false;
+  const double grown = (2 * length(v) * region.slack + region.slack * region.slack) / (2 * a);
+  const double power = dot(ball.centre, ball.centre) - ball.radius * ball.radius;
+  return 2 * a * (2 * along_patch(patch, ball.centre - v).least - grown) > power;
+}
+
+/// The ball that hides the end of the full ball around v best on the middle ray; nullptr if none does.
+const Hidden* best_hider(const Patch& patch, const FoamRegion& region, const Point& v,
+                         const std::vector<Hidden>& hidden) {
+  const Hidden* best = nullptr;
+  double most = 0;
+  const double a = dot(v, patch.direction);
+  for (const Hidden& h : hidden) {
+    const double margin = 4 * a * (h.middle - a) - h.power;
+    if (h.to <= 0 || margin <= most) continue;
+    most = margin;
+    best = &h;
+  }
+  return best != nullptr && hides_end(patch, region, v, region.empty[best->ball]) ? best : nullptr;
+}
+
+/// How far the full foam reaches on the rays of the patch, less what single balls hide of the ends of its balls.
+double end_of_full_foam(const Patch& patch, const FoamRegion& region, const std::vector<Hidden>& hidden) {
+  double reach = 0;
+  for (const Point& v : region.centres) {
+    const double end = leaves_at(along_patch(patch, v).most, length(v), region.slack);
+    if (end <= reach) continue;
+    const Hidden* hider = best_hider(patch, region, v, hidden);
+    reach = std::max(reach, hider != nullptr ? hider->from : end);
+  }
+  return reach;
+}
+
+/// The patch's reach: from the full foam's reach inwards through what the empty foam hides.
+void find_reach(const FoamRegion& region, Patch& patch) {
+  std::vector<Hidden> hidden;
+  hidden.reserve(patch.empty.size());
+  Hidden longest = {};
+  for (const std::uint32_t k : patch.empty) {
+    Hidden here = {.ball = k};
+    if (!find_hidden(patch, region.empty[k], here)) continue;
+    hidden.push_back(here);
+    if (here.length() > longest.length()) longest = here;
+  }
+  std::erase_if(hidden, [&](const Hidden& h) { return h.ball != longest.ball && longest.covers(h); });
+  patch.empty.clear();
+  for (const Hidden& h : hidden) patch.empty.push_back(h.ball);
+  double reach = end_of_full_foam(patch, region, hidden);
+  std::erase_if(hidden, [](const Hidden& h) { return h.to <= 0; });
+  std::sort(hidden.begin(), hidden.end(), [](const Hidden& a, const Hidden& b) { return a.to > b.to; });
+  for (const Hidden& h : hidden) {
+    if (h.to <= reach) break;
+    reach = std::min(reach, h.from);
   }
   patch.reach = std::max(0.0, reach);
 }
@@ -137,6 +204,12 @@ class Division {
 
   double width() const { return width_; }
 
+  /// The distance of two points of the region (up to rounding), on the middle rays of the two patches that bound it.
+  double distance_of_two_points() const {
+    const Patch p = middle_ray(patches_[widest_.first]), q = middle_ray(patches_[widest_.second]);
+    return std::max({p.reach, q.reach, length(p.reach * p.direction - q.reach * q.direction)});
+  }
+
   /// Divides the coarser patch of every pair that is about as wide as the widest; false if that is no use any more.
   bool divide() {
     std::vector<std::uint8_t> chosen(patches_.size(), 0);
@@ -144,10 +217,10 @@ class Division {
       if (width > kAboutAsWide * width_) chosen[patches_[i].half < patches_[j].half ? j : i] = 1;
     });
     std::vector<Patch> old = std::exchange(patches_, {});
-    bool divided = false;
+    std::size_t divided = 0;
     for (std::size_t i = 0; i < old.size(); ++i) {
-      const bool divides = chosen[i] != 0 && old[i].half > kFinestPatch / 2 && patches_.size() < kMostPatches;
-      divided = divided || divides;
+      const bool divides = chosen[i] != 0 && old[i].half > kFinestPatch / 2 && old.size() + 3 * divided < kMostPatches;
+      divided += divides;
       if (divides) {
         add_parts(old[i]);
       } else {
@@ -155,10 +228,17 @@ class Division {
       }
     }
     find_width();
-    return divided;
+    return divided != 0;
   }
 
  private:
+  Patch middle_ray(const Patch& patch) const {
+    Patch ray = make_patch(patch.face, patch.u, patch.v, 0);
+    ray.empty = patch.empty;
+    find_reach(region_, ray);
+    return ray;
+  }
+
   void add(Patch patch, const std::vector<std::uint32_t>& candidates) {
     patch.empty = candidates;
     find_reach(region_, patch);
@@ -175,7 +255,11 @@ class Division {
   void find_width() {
     std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) { return a.reach > b.reach; });
     width_ = 0;
-    for_each_pair(0, [&](std::size_t, std::size_t, double width) { width_ = std::max(width_, width); });
+    for_each_pair(0, [&](std::size_t i, std::size_t j, double width) {
+      if (width <= width_) return;
+      width_ = width;
+      widest_ = {i, j};
+    });
   }
 
   /// All pairs that may be wider than `least` and than width_ is at that moment.
@@ -192,14 +276,17 @@ class Division {
   const FoamRegion& region_;
   std::vector<Patch> patches_;  // those that reach furthest first
   double width_ = 0;
+  std::pair<std::size_t, std::size_t> widest_ = {0, 0};
 };
 
 }  // namespace
 
-double width_of_region(const FoamRegion& region, double enough) {
+double width_of_region(const FoamRegion& region, double enough, double too_much) {
   if (region.centres.empty()) return 0;
   Division division(region);
-  while (division.width() > enough && division.divide()) {
+  while (division.width() > enough) {
+    const double certain = division.distance_of_two_points();
+    if (certain > too_much || certain > kAboutAsWide * division.width() || !division.divide()) break;
   }
   return division.width();
 }

@@ -17,8 +17,8 @@ struct FoamRegion {
   double slack = 0;
 };
 
-/// No two points of the region are further apart. Found by dividing the directions around A until the bound is no more
-/// than `enough`, or the directions that reach furthest are known to about a hundredth of a radian.
-double width_of_region(const FoamRegion& region, double enough);
+/// No two points of the region are further apart. Found by dividing the directions around A until the bound is at most
+/// `enough`, or is known to be above `too_much`, or is within 5 % of the least one, or the parts get too many.
+double width_of_region(const FoamRegion& region, double enough, double too_much);
 
 }  // namespace medial_vk
