@@ -23,11 +23,12 @@ namespace {
 
 using namespace medial_vk;
 
-constexpr double kQueryError = 1e-14;  // of distances to meshes of size 1 by Bvh
+constexpr std::uint32_t kMostSpiralPoints = 200;  // each has a site of its own, and time grows with sites * samples
+constexpr double kQueryError = 1e-14;             // of distances to meshes of size 1 by Bvh
 
 struct Settings {
-  std::size_t spheres = 12;  // per solid
-  std::uint32_t points = 8;  // spiral points of the first sampling
+  std::size_t spheres = 8;   // per solid
+  std::uint32_t points = 6;  // spiral points of the first sampling
   int iterations = 2;
   double resolution = 10;  // voxels along the longest side
 };
@@ -84,7 +85,7 @@ struct Run {
 
 /// What stands in one row of the table, of the spheres that are still undetermined.
 struct Row {
-  std::vector<double> samples, sites, widths, depths;
+  std::vector<double> samples, sites, widths, depths, uncovered;
   std::size_t undetermined = 0, with_medial_points = 0;
   double widest = 0, deepest = 0, seconds = 0;
 };
@@ -136,21 +137,24 @@ void measure(const Run& run, const Foam& foam, double side, Row& row) {
   row.samples.push_back(static_cast<double>(run.samples.samples.size()));
   row.sites.push_back(static_cast<double>(foam.sites().size()));
   row.widths.push_back(foam.width_bound(radius / 4) / side);
-  row.depths.push_back(foam.depth_bound(side) / radius);
+  row.depths.push_back(foam.depth_bound(2 * radius) / radius);
+  row.uncovered.push_back(foam.uncovered_depth() / radius);
   bool holds = false;
   for (const Medial& m : run.medial) {
     holds = holds || m.width > 0.01 * side;
     row.widest = std::max(row.widest, m.depth >= radius / 4 ? m.width / side : 0);
-    if (m.width > side) row.deepest = std::max(row.deepest, m.depth / radius);
+    if (m.width > 2 * radius) row.deepest = std::max(row.deepest, m.depth / radius);
   }
   row.with_medial_points += holds;
 }
 
 void print(const std::string& name, const std::string& iteration, const Row& row) {
-  fmt::print("| {} | {} | {} | {} | {:.0f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |\n",
-             name, iteration, row.undetermined, row.with_medial_points, median(row.samples), median(row.sites),
-             row.widest, median(row.widths), largest(row.widths), row.deepest, median(row.depths), largest(row.depths),
-             row.undetermined == 0 ? 0 : row.seconds / static_cast<double>(row.undetermined));
+  fmt::print(
+      "| {} | {} | {} | {} | {:.0f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} "
+      "|\n",
+      name, iteration, row.undetermined, row.with_medial_points, median(row.samples), median(row.sites), row.widest,
+      median(row.widths), largest(row.widths), row.deepest, median(row.depths), largest(row.depths),
+      row.undetermined == 0 ? 0 : row.seconds / static_cast<double>(row.undetermined));
   std::fflush(stdout);
 }
 
@@ -197,8 +201,8 @@ bool iterate(const Solid& solid, const Settings& settings) {
       row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     print(solid.name, std::to_string(iteration), row);
-    if (iteration == 0) continue;
     const auto spiral_points = static_cast<std::uint32_t>(median(row.samples) / 2);
+    if (iteration == 0 || spiral_points == 0 || spiral_points > kMostSpiralPoints) continue;
     Row spiral;
     if (!measure_spiral(first, spiral_points, side, nearest, spiral)) return false;
     print(solid.name, fmt::format("spiral of {}", spiral_points), spiral);

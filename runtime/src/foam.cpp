@@ -14,9 +14,9 @@ namespace medial_vk {
 
 namespace {
 
-// All that is computed here is a short sum of products of coordinates: 2^-47 of the largest is 64 units in its last
-// place.
-constexpr double kRounding = 0x1p-47;
+// 512 units in the last place of the largest coordinate, of which a ball of the empty foam loses as much: enough for
+// |e|^2 - r^2 (6 units of |e|^2) as long as r is no smaller than |e| / 64, which foam_region.cpp asks for.
+constexpr double kRounding = 0x1p-44;
 constexpr double kClipMargin = 0x1p-40;  // ClipPolytope: of the largest coordinate, for up to 1000 cuts
 constexpr double kSameSite = 0x1p-30;    // of the largest coordinate
 constexpr double kOutside = 1e-6;        // of the radius
@@ -179,7 +179,8 @@ class Foam::Impl {
     region.slack = slack_;
     for (const ClipPolytope::Vertex& v : part.vertices()) region.centres.push_back(v.position - a);
     for (const Ball& b : empty_balls_) region.empty.push_back({b.centre - sites_[site], b.radius - slack_});
-    return std::min(plain, width_of_region(region, enough, too_much));
+    // Distances from A are wrong by less than the slack at either end.
+    return std::min(plain, width_of_region(region, enough, too_much) + 2 * slack_);
   }
 
   Ball sphere_;

@@ -20,6 +20,7 @@ constexpr double kCosineError = 0x1p-49;
 constexpr double kFinestPatch = 0.04;        // side of its square, about radians
 constexpr double kAboutAsWide = 0.95;        // as a share of the widest
 constexpr std::size_t kMostPatches = 1000;   // of a division, per site
+constexpr double kSmallestBall = 1.0 / 64;   // radius over distance of its centre; foam.cpp, kRounding
 constexpr std::uint32_t kFirstDivision = 2;  // of a side of the cube
 
 /// A cone of directions: a square of a face of the cube [-1, 1]^3, seen from the origin.
@@ -93,11 +94,12 @@ struct Hidden {
   bool covers(const Hidden& other) const { return from <= other.lowest_from && to >= other.highest_to; }
 };
 
-/// False if the ball hides nothing on any ray.
+/// False if the ball hides nothing on any ray, or is so small beside its distance that rounding could hide too much.
 bool find_hidden(const Patch& patch, const Ball& ball, Hidden& hidden) {
   const Along along = along_patch(patch, ball.centre);
   const double power = dot(ball.centre, ball.centre) - ball.radius * ball.radius;
-  if (ball.radius <= 0 || along.most <= 0 || along.most * along.most <= power) return false;
+  if (ball.radius < kSmallestBall * length(ball.centre) || along.most <= 0 || along.most * along.most <= power)
+    return false;
   hidden.middle = dot(ball.centre, patch.direction);
   hidden.power = power;
   hidden.highest_to = along.most + std::sqrt(along.most * along.most - power);

@@ -31,6 +31,10 @@ class Random {
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+  template <class T>
+  const T& one_of(const std::vector<T>& values) {
+    return values[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(engine_)];
+  }
   Vector3d in_cube() { return {(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}; }
   Vector3d in_ball() {
     for (;;) {
@@ -62,6 +66,7 @@ struct Boundary {
   NearestPointsFunction queries() const {
     return [this](std::span<const Point> points) -> Result<std::vector<Point>> {
       std::vector<Point> out;
+      out.reserve(points.size());
       for (const Point& p : points) out.push_back(to_point(nearest(to_eigen(p))));
       return out;
     };
@@ -227,8 +232,68 @@ TEST(Foam, HoldsTheContactsOfEveryMedialPointOfTheHull) {
   for (const int kind : {2, 3, 4}) EXPECT_GT(lost_without[kind], 0) << "type " << kind;
 }
 
+// One step of the iteration: the added samples lie inside the sphere and have partners of another kind.
+TEST(Foam, HoldsTheContactsAfterARefinement) {
+  constexpr std::uint64_t kFirstSeed = 20'001, kCases = 200;
+  int checked = 0, found_by_refining = 0;
+  for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kCases; ++seed) {
+    const Case c = make_case(seed);
+    if (c.samples.samples.size() > 16) continue;
+    SphereSamples samples = c.samples;
+    const Foam first = Foam::build(samples.samples, samples.sphere, kQueryError).value();
+    ASSERT_TRUE(refine_samples(samples, first, kQueryError, c.boundary.queries()).ok());
+    ASSERT_GE(samples.samples.size(), c.samples.samples.size());
+    if (samples.holds_medial_point && !c.samples.holds_medial_point) {
+      ++found_by_refining;
+      EXPECT_FALSE(c.medial.empty()) << "seed " << seed << ": 'True' without a medial point";
+    }
+    const Foam foam = Foam::build(samples.samples, samples.sphere, kQueryError).value();
+    for (std::size_t k = 0; k < c.medial.size(); ++k) {
+      if (c.in_hull[k] == 0) continue;  // the hull of the first samples lies in the new one
+      for (const Vector3d& contact : c.medial[k].contacts) {
+        ++checked;
+        EXPECT_TRUE(foam.may_hold_contact(to_point(contact))) << "seed " << seed << ", medial point " << k;
+      }
+    }
+  }
+  std::cout << checked << " contacts checked, " << found_by_refining << " spheres found to hold a medial point\n";
+  EXPECT_GT(checked, 1000);
+  EXPECT_GT(found_by_refining, 0);
+}
+
+// docs/foam.md, "More samples": with more samples of the same hull, the region that can hold contacts shrinks.
+TEST(Foam, RegionShrinksWithMoreSamplesOfTheHull) {
+  constexpr std::uint64_t kFirstSeed = 30'001, kCases = 150;
+  int in_first = 0, in_second = 0;
+  for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kCases; ++seed) {
+    const Case c = make_case(seed);
+    Random random(seed);
+    const Ball& sphere = c.samples.sphere;
+    const Foam first = Foam::build(c.samples.samples, sphere, kQueryError).value();
+    std::vector<FoamSample> more = c.samples.samples;
+    for (int k = 0; k < 20; ++k) {
+      const auto any = [&] { return to_eigen(random.one_of(c.samples.samples).query); };
+      const double share = random(0, 1);
+      const Vector3d p = share * any() + (1 - share) * any();
+      more.push_back({to_point(p), to_point(c.boundary.nearest(p))});
+    }
+    const Foam second = Foam::build(more, sphere, kQueryError).value();
+    for (int k = 0; k < 300; ++k) {
+      const FoamBall& ball = random.one_of(second.full_balls());
+      const Point x = to_point(to_eigen(ball.ball.centre) + 0.999 * ball.ball.radius * random.in_ball().normalized());
+      in_first += first.may_hold_contact(x);
+      in_second += second.may_hold_contact(x);
+      EXPECT_LE(second.may_hold_contact(x), first.may_hold_contact(x)) << "seed " << seed;
+    }
+  }
+  std::cout << "of the points tried, " << in_first << " are in the region of the fewer samples, " << in_second
+            << " in that of more\n";
+  EXPECT_GT(in_second, 100);
+  EXPECT_LT(in_second, in_first);
+}
+
 TEST(Foam, BoundsWidthAndDepth) {
-  constexpr std::uint64_t kFirstSeed = 10'001, kCases = 40;
+  constexpr std::uint64_t kFirstSeed = 10'001, kCases = 60;
   constexpr int kDepths = 8;
   double largest_share = 0, sum_of_shares = 0, deepest_share = 0;
   int spheres = 0, below_diameter = 0;

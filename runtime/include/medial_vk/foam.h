@@ -72,7 +72,8 @@ class Foam {
   /// by slack() and in no ball of the empty foam shrunk by slack(), or not.
   bool may_hold_contact(const Point& x) const;
 
-  /// No medial point of the hull at this depth or more is wider than this (3.4). Falls with the depth.
+  /// No medial point of the hull at this depth or more is wider than this (3.4). Within about 5 % of the largest
+  /// distance that the foam leaves open for two contacts of one site, unless that takes too many parts.
   double width_bound(double depth = 0) const;
   /// Every medial point inside the sphere that is wider than `width` lies within this distance of the sphere (3.4). At
   /// most the sphere's radius, which says nothing; found to 1/256 of it.
