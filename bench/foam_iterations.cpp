@@ -154,7 +154,7 @@ void print(const std::string& name, const std::string& iteration, const Row& row
       "|\n",
       name, iteration, row.undetermined, row.with_medial_points, median(row.samples), median(row.sites), row.widest,
       median(row.widths), largest(row.widths), row.deepest, median(row.depths), largest(row.depths),
-      row.undetermined == 0 ? 0 : row.seconds / static_cast<double>(row.undetermined));
+      median(row.uncovered), row.undetermined == 0 ? 0 : row.seconds / static_cast<double>(row.undetermined));
   std::fflush(stdout);
 }
 
@@ -220,8 +220,8 @@ int main(int argc, char** argv) {
   if (argc > 4) settings.resolution = std::atof(argv[4]);
   fmt::print(
       "| solid | iteration | undetermined | hold medial points | samples | sites | widest missed | width bound | "
-      "largest | deepest missed | depth bound | largest | s "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "largest | deepest missed | depth bound | largest | uncovered | s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Solid& solid : solids()) {
     if (!iterate(solid, settings)) {
       fmt::print(stderr, "foam_iterations: {} failed\n", solid.name);
