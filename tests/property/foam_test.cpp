@@ -293,7 +293,7 @@ TEST(Foam, RegionShrinksWithMoreSamplesOfTheHull) {
 }
 
 TEST(Foam, BoundsWidthAndDepth) {
-  constexpr std::uint64_t kFirstSeed = 10'001, kCases = 60;
+  constexpr std::uint64_t kFirstSeed = 10'001, kCases = 40;
   constexpr int kDepths = 8;
   double largest_share = 0, sum_of_shares = 0, deepest_share = 0;
   int spheres = 0, below_diameter = 0;
