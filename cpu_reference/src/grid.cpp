@@ -53,11 +53,4 @@ Thresholds::Thresholds(const Parameters& parameters, const Grid& grid, double lo
       radius(parameters.radius * longest_side),
       deep_angle(std::min(parameters.object_angle, parameters.deep_angle)) {}
 
-void sort_by_voxel(std::vector<Sphere>& spheres) {
-  std::sort(spheres.begin(), spheres.end(), [](const Sphere& a, const Sphere& b) {
-    return std::make_tuple(a.voxel.z(), a.voxel.y(), a.voxel.x()) <
-           std::make_tuple(b.voxel.z(), b.voxel.y(), b.voxel.x());
-  });
-}
-
 }  // namespace medial_vk::reference
