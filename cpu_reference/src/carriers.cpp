@@ -23,7 +23,7 @@ class Collector {
     Carrier face = blank(3);
     face.corners = {tree_.corner(t, 0), tree_.corner(t, 1), tree_.corner(t, 2)};
     if (trusted) {
-      face.spokes = Cap::around(tree_.normal(t), kNormalSlack);
+      face.spokes = Cap::around(tree_.normal(t), kFaceAngle);
       span_by(face, tree_.normal(t), tree_.normal(t), 1);
     }
     add(face, tree_.closest_on(t, box_.centre).point);

@@ -87,9 +87,10 @@ bool is_behind(const Vector3d& n, const Carrier& a, const Carrier& b, double sla
 // ratio.
 // A corner that is behind by less than 1e-9 of the mesh's size (the error of a normal, 5e-10, times a length) counts as
 // not behind: only balls of a radius below 1e-9 / (sin(angle)^2 cos(phi)) of it are lost, which no voxel resolves.
-// Elsewhere -n . d is off by 5e-10 and d . e is at least kLeastAlong, so ratios below 1 are off by less than 2e-8.
+// Elsewhere -n . d is off by 5e-10 and d . e is at least kLeastAlong, so ratios below 1 are off by less than 2e-8;
+// spokes at flat edges and vertices are within kFaceAngle = 1e-7 of the normal of a face.
 bool PairTest::can_face(const Carrier& a, const Carrier& b) const {
-  constexpr double kLeastAlong = 0.05, kRatioSlack = 1e-7;
+  constexpr double kLeastAlong = 0.05, kRatioSlack = 2e-7;
   if (a.normal_count == 0) return true;
   const double least = sine_ * a.normal_cosine - kRatioSlack;
   for (int k = 0; k < a.normal_count; ++k) {

@@ -94,21 +94,27 @@ Cap Cap::around(const Vector3d& axis, double angle) {
 
 Cap Cap::all() { return {Vector3d::UnitZ(), std::numbers::pi, -1, 0}; }
 
-// Moves the axis towards the direction farthest from it, a little less each time (Badoiu and Clarkson 2003).
+// Moves the axis towards the direction farthest from it, a little less each time (Badoiu and Clarkson 2003), and keeps
+// the best: the mean, if there are two.
 Cap cap_around(std::span<const Vector3d> directions) {
   constexpr int kSteps = 30;
-  Vector3d axis = Vector3d::Zero();
+  Vector3d axis = Vector3d::Zero(), best = Vector3d::Zero();
+  double best_cosine = -1;
   for (const Vector3d& d : directions) axis += d;
   if (axis.squaredNorm() < 1e-12) return Cap::all();
   axis.normalize();
   for (int i = 0; i < kSteps; ++i) {
-    const auto nearer = [&](const Vector3d& a, const Vector3d& b) { return a.dot(axis) < b.dot(axis); };
-    const Vector3d& farthest = *std::min_element(directions.begin(), directions.end(), nearer);
+    const auto less_along = [&](const Vector3d& a, const Vector3d& b) { return a.dot(axis) < b.dot(axis); };
+    const Vector3d& farthest = *std::min_element(directions.begin(), directions.end(), less_along);
+    if (farthest.dot(axis) > best_cosine) {
+      best_cosine = farthest.dot(axis);
+      best = axis;
+    }
     axis = (axis + (farthest - axis) / (i + 2.5)).normalized();
   }
   double angle = 0;
-  for (const Vector3d& d : directions) angle = std::max(angle, 2 * half_angle(axis, d));
-  return Cap::around(axis, angle + kNormalSlack);
+  for (const Vector3d& d : directions) angle = std::max(angle, 2 * half_angle(best, d));
+  return Cap::around(best, angle + kNormalSlack);
 }
 
 SpokeCones::SpokeCones(const Mesh& mesh, const Tree& tree) {
@@ -176,7 +182,8 @@ void SpokeCones::add_edges(const Tree& tree) {
       const int u = neighbours_[t][k];
       if (u < t || trusted_[t] == 0 || trusted_[u] == 0 || turns_[t][k] > kTurnSlack) continue;
       const std::array<Vector3d, 2> normals = {tree.normal(t), tree.normal(u)};
-      edges_[t][k] = add(cap_around(normals));
+      const Cap spokes = cap_around(normals);
+      if (spokes.angle > kFlatAngle) edges_[t][k] = add(spokes);
     }
   }
 }
@@ -198,7 +205,7 @@ void SpokeCones::add_vertices(const Mesh& mesh, const Tree& tree) {
     }
     bool touched = true;
     const Cap spokes = vertex_spokes(fan, touched);
-    if (touched) vertices_[around.front().first][around.front().second] = add(spokes);
+    if (touched && spokes.angle > kFlatAngle) vertices_[around.front().first][around.front().second] = add(spokes);
   }
 }
 

@@ -28,6 +28,10 @@ Cap cap_around(std::span<const Eigen::Vector3d> directions);
 
 /// Half-angle that is added to caps made from normals: those of trusted triangles are right to 5e-10 (spoke_cones.cpp).
 inline constexpr double kNormalSlack = 1e-9;
+/// Edges and vertices whose spokes are in a cap as narrow as this are flat: they count as a part of their faces, whose
+/// spokes are within twice that of the normal.
+inline constexpr double kFlatAngle = 5e-8;
+inline constexpr double kFaceAngle = 2 * kFlatAngle;
 
 class SpokeCones {
  public:
@@ -37,8 +41,8 @@ class SpokeCones {
   const std::vector<std::uint8_t>& trusted() const { return trusted_; }
 
   /// Spokes from inside to the interior of edge k (from corner k to the next) and to corner k of a triangle. Null if
-  /// there are none, if an untrusted triangle holds the feature (that is a carrier as a whole), or if the feature is
-  /// listed with a triangle of smaller index.
+  /// there are none, if the feature is flat, if an untrusted triangle holds it (that is a carrier as a whole), or if it
+  /// is listed with a triangle of smaller index.
   const Cap* edge(int triangle, int k) const { return cap(edges_[triangle][k]); }
   const Cap* vertex(int triangle, int k) const { return cap(vertices_[triangle][k]); }
 
