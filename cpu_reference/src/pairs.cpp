@@ -17,7 +17,6 @@ class PairTest {
  public:
   PairTest(const Tree& tree, const Box& box, std::span<const Carrier> carriers, double angle)
       : box_(box),
-        carriers_(carriers),
         rivals_(carriers.first(std::min(carriers.size(), kMostRivals))),
         angle_(angle),
         sine_(std::sin(angle)),
@@ -49,7 +48,7 @@ class PairTest {
   }
 
   const Box& box_;
-  std::span<const Carrier> carriers_, rivals_;
+  std::span<const Carrier> rivals_;
   double angle_, sine_, size_, slack_;
 };
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 namespace medial_vk::reference {
@@ -23,7 +23,7 @@ constexpr double kRaySlack = 1e-8;
 // Where normals are farther than this from the axis, slopes of the graph over it are not used.
 constexpr double kLeastGraphCosine = 0.1;
 
-/// What Lemma D asks about the triangles around a vertex.
+/// The triangles around a vertex, as Lemma D asks about them; in any order.
 struct Fan {
   std::vector<Vector3d> normals;
   std::vector<Vector3d> edges;     // unit, leaving the vertex; the one of a triangle has it on the left
@@ -40,7 +40,7 @@ Vector3d slope(const Vector3d& n, const Vector3d& axis) { return axis - n / n.do
 // negative if the edge is convex. Over the whole circle the integral of h'' is 0, so the jumps sum up to that of h,
 // which is not negative. At convex vertices the sum is negative, and so it is at many others.
 // Normals within 5e-10 put slopes off by 2 * 5e-10 / kLeastGraphCosine^2 = 1e-7 per edge: ten times that is allowed.
-bool is_out_of_reach(const Fan& fan, const Cap& cap) {
+bool cannot_be_touched(const Fan& fan, const Cap& cap) {
   if (cap.cosine < kLeastGraphCosine) return false;
   double sum = 0;
   for (std::size_t i = 0; i < fan.edges.size(); ++i) {
@@ -71,18 +71,17 @@ std::vector<Vector3d> rays_across(const std::vector<Vector3d>& edges) {
 // Lemma D: spokes at a vertex are within every cap that holds the normals, and do not point away from any edge. The
 // cone of such directions is spanned by its extreme rays: in a cap around those, and empty on the axis' side if they
 // all look the other way.
-Cap vertex_spokes(const Fan& fan, bool& touched) {
-  const Cap by_normals = cap_around(fan.normals);
-  touched = true;
-  if (by_normals.holds_all()) return by_normals;
-  touched = !is_out_of_reach(fan, by_normals);
-  if (!touched) return by_normals;
+std::optional<Cap> vertex_spokes(const Fan& fan) {
+  Cap spokes = cap_around(fan.normals);
+  if (spokes.holds_all()) return spokes;
+  if (cannot_be_touched(fan, spokes)) return std::nullopt;
   const std::vector<Vector3d> rays = rays_across(fan.edges);
-  if (rays.empty()) return by_normals;
-  const auto away = [&](const Vector3d& ray) { return ray.dot(by_normals.axis) < -kRaySlack; };
-  touched = !std::all_of(rays.begin(), rays.end(), away);
+  if (rays.empty()) return spokes;
+  const auto away = [&](const Vector3d& ray) { return ray.dot(spokes.axis) < -kRaySlack; };
+  if (std::all_of(rays.begin(), rays.end(), away)) return std::nullopt;
   const Cap by_edges = cap_around(rays);
-  return by_edges.angle < by_normals.angle ? by_edges : by_normals;
+  if (by_edges.angle < spokes.angle) spokes = by_edges;
+  return spokes;
 }
 
 }  // namespace
@@ -203,9 +202,9 @@ void SpokeCones::add_vertices(const Mesh& mesh, const Tree& tree) {
       fan.on_right.push_back(tree.normal(neighbours_[t][k]));
       fan.turns.push_back(turns_[t][k]);
     }
-    bool touched = true;
-    const Cap spokes = vertex_spokes(fan, touched);
-    if (touched && spokes.angle > kFlatAngle) vertices_[around.front().first][around.front().second] = add(spokes);
+    const std::optional<Cap> spokes = vertex_spokes(fan);
+    const auto [t, k] = around.front();
+    if (spokes && spokes->angle > kFlatAngle) vertices_[t][k] = add(*spokes);
   }
 }
 

@@ -158,6 +158,44 @@ TEST(ReferenceDismissal, UntrustedTrianglesByDirectionsOnly) {
   EXPECT_GT(all.dismissed, 800);
 }
 
+/// Is some carrier at the foot, with this spoke among those that it allows?
+bool is_carried(const std::vector<reference::Carrier>& carriers, const Vector3d& foot, const Vector3d& spoke,
+                double slack) {
+  return std::any_of(carriers.begin(), carriers.end(), [&](const reference::Carrier& c) {
+    const auto on = reference::closest_point_on_triangle(foot, c.corners[0], c.corners[1], c.corners[2]);
+    return on.squared_distance <= slack * slack &&
+           2 * reference::half_angle(c.spokes.axis, spoke) <= c.spokes.angle + 1e-6;
+  });
+}
+
+// Lemmas A, C, D and F for one carrier: the feet of medial points are on carriers of every box around the points.
+TEST(ReferenceDismissal, FeetAreOnCarriersThatAllowTheirSpokes) {
+  Random random(7);
+  int tried = 0, lost = 0;
+  for (reference::Mesh& mesh : make_solids(random)) {
+    const reference::Tree tree(mesh);
+    const double size = tree.longest_side();
+    const auto pool = samples_in(tree, random, tree.lower(), tree.upper(), 400);
+    for (std::size_t i = 0; i < pool.size(); ++i) {
+      if (i % 40 == 0) {
+        for (std::uint8_t& trusted : mesh.trusted) trusted = random(0, 1) < 0.8 ? 1 : 0;
+      }
+      const reference::SpokeCones cones(mesh, tree);
+      // The point is in the box, often in a corner of it.
+      Box box = {pool[i].point, random.point(Vector3d::Zero(), Vector3d::Ones()) * size * random(0, 0.2)};
+      for (int k = 0; k < 3; ++k) box.centre[k] += std::clamp(random(-1.5, 1.5), -1.0, 1.0) * box.half[k];
+      const reference::ContactList list(tree, mesh, box.centre, box.reach());
+      const auto carriers = reference::carriers_of(tree, cones, box, list.nearest_to_centre(), list.within(box));
+      const reference::Closest foot = tree.closest(pool[i].point);
+      ++tried;
+      const Vector3d spoke = reference::direction_to(pool[i].point, foot);
+      if (!is_carried(carriers, foot.point, spoke, 1e-9 * size)) ++lost;
+    }
+  }
+  EXPECT_EQ(lost, 0);
+  EXPECT_GT(tried, 1000);
+}
+
 // In a box of size 1, edges of 45 degrees: the bisector of two faces at right angles is salient below pi/4 only.
 TEST(ReferenceDismissal, KnowsTheAngleOfASheet) {
   const reference::Mesh mesh = test::to_reference(test::make_box({1, 1, 1}));
