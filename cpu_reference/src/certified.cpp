@@ -17,15 +17,15 @@ constexpr int kFluxSamples = 50;
 
 class Certified {
  public:
-  Certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Thresholds& thresholds,
+  /// The mesh must trust what `cones` trusts.
+  Certified(const Mesh& mesh, const Tree& tree, const SpokeCones& cones, const Grid& grid, const Thresholds& thresholds,
             const Parameters& parameters, Result& result)
       : mesh_(mesh),
         tree_(tree),
         grid_(grid),
         thresholds_(thresholds),
         sides_(mesh, tree),
-        cones_(mesh, tree),
-        search_(tree, sides_, grid, thresholds, parameters.extra_levels, result, cones_),
+        search_(tree, cones, sides_, grid, thresholds, parameters.extra_levels, result),
         spiral_(spiral_points(kFluxSamples)),
         result_(result) {}
 
@@ -86,7 +86,7 @@ class Certified {
         break;
       case Outcome::kUndecided:
         ++result_.undecided;
-        result_.undecided_voxels.push_back(voxel);
+        result_.undecided_voxels.push_back(search_.undecided());
         break;
     }
   }
@@ -106,7 +106,6 @@ class Certified {
   const Grid& grid_;
   const Thresholds& thresholds_;
   Sides sides_;
-  SpokeCones cones_;
   VoxelSearch search_;
   std::vector<Vector3d> spiral_;
   Result& result_;
@@ -117,7 +116,10 @@ class Certified {
 void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
                        const CellLoop& loop, Result& result) {
   const Thresholds thresholds(parameters, grid, tree.longest_side());
-  Certified certified(mesh, tree, grid, thresholds, parameters, result);
+  const SpokeCones cones(mesh, tree);
+  Mesh careful = mesh;
+  careful.trusted = cones.trusted();
+  Certified certified(careful, tree, cones, grid, thresholds, parameters, result);
   loop([&](const Vector3i& cell) { certified.run_top(cell); });
 }
 

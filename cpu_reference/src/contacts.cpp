@@ -1,8 +1,6 @@
 #include "contacts.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,7 +36,7 @@ void ContactList::measure(int triangle, const Vector3d& centre, double reach) {
   if (can_touch(contact, reach)) contacts_.push_back(contact);
 }
 
-// Lemma 1. Let x = m - centre, |x| <= reach. Distance to a convex set is convex with gradient -g_t, so
+// Lemma A. Let x = m - centre, |x| <= reach. Distance to a convex set is convex with gradient -g_t, so
 // dist(m, t) >= D_t - g_t . x. On the other hand dist(m, P0) = sqrt(D0^2 - 2 D0 g0 . x + |x|^2), which is at most
 // D0 - g0 . x + |x|^2 / (2 D0) and at most D0 + |x|. If t is nearest to m, then D_t - D0 is at most
 // reach |g_t - g0| + reach^2 / (2 D0), and at most 2 reach. Four roundings of a distance are on the keeping side.
@@ -50,22 +48,27 @@ bool ContactList::can_touch(const Contact& contact, double reach) const {
   return behind <= reach * (spread + 1e-12) + reach * reach / (2 * nearest_.distance);
 }
 
-// Lemma A for a cube: dist(x, t) >= D_t - g_t . x, dist(x, t0) is convex, so their difference is greatest at a corner.
-std::vector<Contact> ContactList::within_cube(double half) const {
-  const int first = nearest_.triangle;
-  std::array<Vector3d, 8> corner;
-  std::array<double, 8> bound;
+// Two computed distances: 2 rounding() each way; eight of them are on the keeping side.
+BoxReach::BoxReach(const Tree& tree, const Box& box, int nearest_triangle) {
   for (int k = 0; k < 8; ++k) {
-    corner[k] = half * Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    bound[k] = std::sqrt(tree_->closest_on(first, centre_ + corner[k]).squared_distance) + 8 * tree_->rounding();
+    corners_[k] = box.corner(k);
+    const double squared = tree.closest_on(nearest_triangle, box.centre + corners_[k]).squared_distance;
+    distances_[k] = std::sqrt(squared) + 8 * tree.rounding();
   }
+}
+
+bool BoxReach::touches(double distance, const Vector3d& direction) const {
+  for (int k = 0; k < 8; ++k) {
+    if (distance - direction.dot(corners_[k]) <= distances_[k]) return true;
+  }
+  return false;
+}
+
+std::vector<Contact> ContactList::within(const Box& box) const {
+  const BoxReach reach(*tree_, box, nearest_.triangle);
   std::vector<Contact> touching;
   for (const Contact& contact : contacts_) {
-    for (int k = 0; k < 8; ++k) {
-      if (contact.distance - contact.direction.dot(corner[k]) > bound[k]) continue;
-      touching.push_back(contact);
-      break;
-    }
+    if (reach.touches(contact.distance, contact.direction)) touching.push_back(contact);
   }
   return touching;
 }
@@ -79,7 +82,7 @@ std::vector<Contact> ContactList::within(double reach) const {
   return touching;
 }
 
-// The convexity bound D_t - g_t . x of Lemma 1 saves most triangle tests: first the triangle where it is least, then
+// The convexity bound D_t - g_t . x of Lemma A saves most triangle tests: first the triangle where it is least, then
 // those where it is below the distance found.
 Closest ContactList::closest(const Vector3d& p) const {
   const Vector3d x = p - centre_;
@@ -156,59 +159,16 @@ bool cone_exists(const std::vector<Fit>& all, Vector3d axis) {
   return false;
 }
 
-/// Lemma 3: all pairs of spokes by directions.
-bool pairs_are_close(std::span<const Contact> contacts, double reach, double angle) {
-  constexpr std::size_t kMost = 400;  // the test is quadratic
-  if (contacts.size() > kMost) return false;
-  std::vector<double> wander;
-  wander.reserve(contacts.size());
-  for (const Contact& contact : contacts) {
-    if (contact.distance <= reach) return false;
-    wander.push_back(std::asin(reach / contact.distance));
-  }
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double left = 2 * angle - wander[i] - wander[j] - kCosineSlack;
-      if (left <= 0 || contacts[i].direction.dot(contacts[j].direction) <= std::cos(left)) return false;
-    }
-  }
-  return true;
-}
-
-bool has_vertex_behind(const Tree& tree, int t, int u, double slack) {
-  for (int k = 0; k < 3; ++k)
-    if (tree.normal(t).dot(tree.corner(u, k) - tree.corner(t, 0)) < -slack) return true;
-  return false;
-}
-
 }  // namespace
-
-// No two contacts can hold the two spokes of a salient point.
-bool no_pair_is_salient(const Tree& tree, std::span<const Contact> contacts, double reach, double angle) {
-  if (contacts.size() > 400) return false;
-  const double slack = 8 * tree.rounding();
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Contact &a = contacts[i], &b = contacts[j];
-      if (a.distance > reach && b.distance > reach) {
-        const double left = 2 * angle - std::asin(reach / a.distance) - std::asin(reach / b.distance) - kCosineSlack;
-        if (left > 0 && a.direction.dot(b.direction) > std::cos(left)) continue;
-      }
-      if (a.trusted && !has_vertex_behind(tree, a.triangle, b.triangle, slack)) continue;
-      if (b.trusted && !has_vertex_behind(tree, b.triangle, a.triangle, slack)) continue;
-      return false;
-    }
-  return true;
-}
 
 // Sharpened dismissal. Let an axis a be such that every contact t satisfies
 //   (N) t is trusted and angle(n_t, a) < theta, or
 //   (G) D_t > reach and angle(g_t, a) + asin(reach / D_t) < theta.
 // Claim: every spoke s of a medial point m in the ball is within theta of a, so no object angle reaches theta.
-// Let s point to A, nearest to m. All triangles that hold A are contacts (Lemma 1), and A is the point of each that is
+// Let s point to A, nearest to m. All triangles that hold A are contacts (Lemma A), and A is the point of each that is
 // nearest to m. If one of them satisfies (G): x -> x - P_t(x) does not expand distances, so the vector from m to A
 // differs from D_t g_t by at most reach, s from g_t by at most asin(reach / D_t), and s is within theta of a.
-// Otherwise all satisfy (N) and Lemma 2 applies at A: trusted triangles close up to an embedded fan, which is a graph
+// Otherwise all satisfy (N) and Lemma B applies at A: trusted triangles close up to an embedded fan, which is a graph
 // of slope < tan theta over the plane across a; the plane at A across s supports it, so s is within theta of a. QED
 bool spokes_are_close(const Tree& tree, std::span<const Contact> contacts, double reach, double angle) {
   if (contacts.empty()) return false;
@@ -217,8 +177,7 @@ bool spokes_are_close(const Tree& tree, std::span<const Contact> contacts, doubl
   for (const Fit& fit : all) {
     mean += fit.normal_cosine < 1.5 ? fit.normal : fit.direction;
   }
-  if (mean.squaredNorm() > 0 && cone_exists(all, mean.normalized())) return true;
-  return pairs_are_close(contacts, reach, angle);
+  return mean.squaredNorm() > 0 && cone_exists(all, mean.normalized());
 }
 
 }  // namespace medial_vk::reference

@@ -1,12 +1,13 @@
-// Contact lists: which triangles the points of a ball can be nearest to (certified dismissal, Lemma 1), inherited
-// from the ball of a larger cell, and the proof that no salient medial point lies in the ball (Lemmas 2 and 3).
+// Contact lists: which triangles the points of a ball or a box can be nearest to (docs/theory.md, Lemma A), inherited
+// from the ball of a larger cell, and the proof by one cone that no salient medial point lies there (Lemmas B and C).
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+#include <array>
 #include <span>
 #include <vector>
 
+#include "box.h"
 #include "cpu_reference/queries.h"
 
 namespace medial_vk::reference {
@@ -18,12 +19,25 @@ struct Contact {
   bool trusted;
 };
 
+/// Lemma A for a box: what a point of the box can touch. Let t be a convex set at distance D from the centre c, in
+/// direction g, and t0 the triangle nearest to c. dist(c + x, t) >= D - g . x, and dist(c + x, t0) is convex in x. If t
+/// is touched from some x of the box, dist(c + x, t0) - D + g . x is at least 0 there, so it is at one of the corners.
+class BoxReach {
+ public:
+  BoxReach(const Tree& tree, const Box& box, int nearest_triangle);
+  bool touches(double distance, const Eigen::Vector3d& direction) const;
+
+ private:
+  std::array<Eigen::Vector3d, 8> corners_;  // from the centre
+  std::array<double, 8> distances_;         // of t0 from the corners
+};
+
 /// The triangles that some point of the ball (centre, reach) can have a nearest boundary point on.
 class ContactList {
  public:
   /// From the tree: for top-level cells.
   ContactList(const Tree& tree, const Mesh& mesh, const Eigen::Vector3d& centre, double reach);
-  /// From the list of a ball that contains this one: all others need the tree no more.
+  /// From the list of a ball or box that holds all points asked about: the tree is needed no more.
   ContactList(const ContactList& parent, const Eigen::Vector3d& centre, double reach);
 
   const Eigen::Vector3d& centre() const { return centre_; }
@@ -34,9 +48,9 @@ class ContactList {
   /// Nearest boundary point of p, which must lie in the ball.
   Closest closest(const Eigen::Vector3d& p) const;
 
-  /// Contacts of a smaller ball around the same centre.
+  /// Contacts of a smaller ball around the same centre, and of a box around it.
   std::vector<Contact> within(double reach) const;
-  std::vector<Contact> within_cube(double half) const;
+  std::vector<Contact> within(const Box& box) const;
 
  private:
   void measure(int triangle, const Eigen::Vector3d& centre, double reach);
@@ -50,9 +64,8 @@ class ContactList {
   std::vector<Contact> contacts_;
 };
 
-/// True if it is proved that no medial point with this object angle or more lies within `reach` of the centre,
-/// inside the solid. `contacts` are those of that ball.
+/// True if one cone of this half-angle proves that no medial point with this object angle or more lies inside the solid
+/// where these are the contacts: in a ball of this radius, or a box within it.
 bool spokes_are_close(const Tree& tree, std::span<const Contact> contacts, double reach, double angle);
-bool no_pair_is_salient(const Tree& tree, std::span<const Contact> contacts, double reach, double angle);
 
 }  // namespace medial_vk::reference

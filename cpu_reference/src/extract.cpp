@@ -37,7 +37,7 @@ Result extract(const Mesh& mesh, const Parameters& parameters, const std::functi
   };
   (parameters.certified ? extract_certified : extract_thesis)(mesh, tree, grid, parameters, loop, result);
   sort_by_voxel(result.spheres);
-  sort_voxels(result.undecided_voxels);
+  sort_by_voxel(result.undecided_voxels);
   return result;
 }
 

@@ -53,20 +53,4 @@ Thresholds::Thresholds(const Parameters& parameters, const Grid& grid, double lo
       radius(parameters.radius * longest_side),
       deep_angle(std::min(parameters.object_angle, parameters.deep_angle)) {}
 
-namespace {
-
-auto voxel_order(const Vector3i& voxel) { return std::make_tuple(voxel.z(), voxel.y(), voxel.x()); }
-
-}  // namespace
-
-void sort_by_voxel(std::vector<Sphere>& spheres) {
-  std::sort(spheres.begin(), spheres.end(),
-            [](const Sphere& a, const Sphere& b) { return voxel_order(a.voxel) < voxel_order(b.voxel); });
-}
-
-void sort_voxels(std::vector<Vector3i>& voxels) {
-  std::sort(voxels.begin(), voxels.end(),
-            [](const Vector3i& a, const Vector3i& b) { return voxel_order(a) < voxel_order(b); });
-}
-
 }  // namespace medial_vk::reference

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <tuple>
+#include <vector>
 
 #include "cpu_reference/extract.h"
 #include "cpu_reference/queries.h"
@@ -48,7 +51,10 @@ struct Thresholds {
 };
 
 /// The order of the output: z slowest, then y, then x.
-void sort_by_voxel(std::vector<Sphere>& spheres);
-void sort_voxels(std::vector<Eigen::Vector3i>& voxels);
+template <typename OfVoxel>
+void sort_by_voxel(std::vector<OfVoxel>& all) {
+  const auto key = [](const OfVoxel& one) { return std::tuple(one.voxel.z(), one.voxel.y(), one.voxel.x()); };
+  std::sort(all.begin(), all.end(), [&](const OfVoxel& a, const OfVoxel& b) { return key(a) < key(b); });
+}
 
 }  // namespace medial_vk::reference

@@ -3,12 +3,13 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contacts.h"
 #include "cpu_reference/extract.h"
+#include "dismissal.h"
 #include "grid.h"
+#include "lines.h"
 #include "side.h"
 #include "spoke_cones.h"
 
@@ -25,11 +26,14 @@ struct Cell {
 
 class VoxelSearch {
  public:
-  VoxelSearch(const Tree& tree, const Sides& sides, const Grid& grid, const Thresholds& thresholds, int extra_levels,
-              Result& result, const SpokeCones& cones);
+  VoxelSearch(const Tree& tree, const SpokeCones& cones, const Sides& sides, const Grid& grid,
+              const Thresholds& thresholds, int extra_levels, Result& result);
 
   /// Fills `sphere` (all but its flux) if a point is found. `parent` is the list of the cell above the voxel.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
+
+  /// Of the last run, if its outcome is kUndecided.
+  const Undecided& undecided() const { return undecided_; }
 
  private:
   struct Segment {
@@ -43,26 +47,23 @@ class VoxelSearch {
 
   Outcome search(const Cell& cell, int depth, const ContactList& parent, Sphere& sphere);
   Outcome search_parts(const Cell& cell, Side where, int depth, const ContactList& list, Sphere& sphere);
-  bool aim(const Cell& cell, const ContactList& list, const std::vector<Contact>& touching, double angle, Side where,
-           Sphere& sphere);
-  std::vector<Eigen::Vector3d> aims(const ContactList& list, const std::vector<Contact>& touching, double reach,
-                                    double angle) const;
-  std::optional<Segment> clip(const Cell& cell, const Eigen::Vector3d& direction, const Eigen::Vector3d& base = Eigen::Vector3d::Zero()) const;
+  void note_undecided(BoxTest& test, const ContactList& list, double angle, bool hopeless);
+  bool aim(const Cell& cell, const BoxTest& test, const ContactList& list, double angle, Side where, Sphere& sphere);
+  std::optional<Segment> clip(const Cell& cell, const Line& line) const;
   bool try_segment(const Segment& segment, const ContactList& list, double angle, Side where, Sphere& sphere);
   bool accept(const End& here, const End& there, const ContactList& list, Side where, Sphere& sphere);
   End look(const Eigen::Vector3d& p, const ContactList& list);
 
-  const SpokeCones& cones_;
   const Tree& tree_;
+  const SpokeCones& cones_;
   const Sides& sides_;
   const Grid& grid_;
   const Thresholds& thresholds_;
   int extra_levels_;
   Result& result_;
-  std::vector<Aim> aims_;
-  std::string notes_;
   Eigen::Vector3i voxel_;
   Eigen::Vector3d lower_, upper_;  // of the voxel, a hair inside
+  Undecided undecided_;
 };
 
 /// The radius that is written for a computed distance: rounded down, so that the ball cannot protrude.

@@ -1,51 +1,68 @@
-// Which way spokes can point at the faces, edges and vertices of a mesh (docs/theory.md, lemma D), and the dismissal
-// of cells by pairs of such features.
+// Which way spokes can point at the faces, edges and vertices of a mesh (docs/theory.md, Lemma D).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "contacts.h"
 #include "cpu_reference/mesh.h"
+#include "cpu_reference/queries.h"
 
 namespace medial_vk::reference {
 
-/// All directions within `angle` of a unit axis; none if the angle is negative, all if it is pi or more.
+/// The unit vectors within `angle` of a unit axis.
 struct Cap {
   Eigen::Vector3d axis;
-  double angle;
+  double angle;         // below pi/2, or pi: all directions
+  double cosine, sine;  // of the angle
+
+  static Cap around(const Eigen::Vector3d& axis, double angle);
+  static Cap all();
+  bool holds_all() const { return cosine <= 0; }
 };
 
-struct Aim {
-  Eigen::Vector3d base, direction;
-  double key;
-};
+/// A small cap that holds these unit vectors; all directions if none below pi/2 is found.
+Cap cap_around(std::span<const Eigen::Vector3d> directions);
+
+/// Half-angle that is added to caps made from normals: those of trusted triangles are right to 5e-10 (spoke_cones.cpp).
+inline constexpr double kNormalSlack = 1e-9;
+/// Edges and vertices whose spokes are in a cap as narrow as this are flat: they count as a part of their faces, whose
+/// spokes are within twice that of the normal.
+inline constexpr double kFlatAngle = 5e-8;
+inline constexpr double kFaceAngle = 2 * kFlatAngle;
 
 class SpokeCones {
  public:
   SpokeCones(const Mesh& mesh, const Tree& tree);
 
-  /// Spokes to the interior of edge k (from corner k to the next) and to corner k of a trusted triangle.
-  const Cap& edge(int triangle, int k) const { return edges_[triangle][k]; }
-  const Cap& corner(int triangle, int k) const { return corners_[mesh_triangles_[triangle][k]]; }
-  int vertex(int triangle, int k) const { return mesh_triangles_[triangle][k]; }
-  std::span<const int> fan(int vertex) const { return fans_[vertex]; }
-  double normal_cosine(int vertex) const { return normal_cosines_[vertex]; }
+  /// The mesh's flags, less triangles whose normal is lost in rounding and triangles at open edges.
+  const std::vector<std::uint8_t>& trusted() const { return trusted_; }
+
+  /// Spokes from inside to the interior of edge k (from corner k to the next) and to corner k of a triangle. Null if
+  /// there are none, if the feature is flat, if an untrusted triangle holds it (that is a carrier as a whole), or if it
+  /// is listed with a triangle of smaller index.
+  const Cap* edge(int triangle, int k) const { return cap(edges_[triangle][k]); }
+  const Cap* vertex(int triangle, int k) const { return cap(vertices_[triangle][k]); }
+
+  /// The triangle on the other side of edge k; -1 if there is none.
   int neighbour(int triangle, int k) const { return neighbours_[triangle][k]; }
 
  private:
-  std::vector<Eigen::Vector3i> mesh_triangles_;
-  std::vector<std::array<Cap, 3>> edges_;
-  std::vector<std::array<int, 3>> neighbours_;
-  std::vector<Cap> corners_;
-  std::vector<double> normal_cosines_;
-  std::vector<std::vector<int>> fans_;
-};
+  const Cap* cap(int index) const { return index < 0 ? nullptr : &caps_[index]; }
+  int add(const Cap& cap);
+  void find_neighbours(const Mesh& mesh);
+  void distrust(const Mesh& mesh, const Tree& tree);
+  void measure_turns(const Tree& tree);
+  void add_edges(const Tree& tree);
+  void add_vertices(const Mesh& mesh, const Tree& tree);
 
-/// True if it is proved that no two features can hold the spokes of a point with this object angle in the cube.
-bool no_pair_of_features(const Tree& tree, const SpokeCones& cones, const Eigen::Vector3d& centre, double half,
-                         const Closest& nearest, std::span<const Contact> contacts, double angle, std::vector<Aim>* aims = nullptr);
+  std::vector<std::uint8_t> trusted_;
+  std::vector<std::array<int, 3>> neighbours_;
+  std::vector<std::array<double, 3>> turns_;  // sine of the turn of normals across an edge; positive: convex
+  std::vector<Cap> caps_;
+  std::vector<std::array<int, 3>> edges_, vertices_;  // indices of caps_, -1: none
+};
 
 }  // namespace medial_vk::reference

@@ -50,6 +50,14 @@ MedialSphere from_reference(const reference::Sphere& sphere) {
   return out;
 }
 
+UndecidedVoxel from_reference(const reference::Undecided& undecided) {
+  UndecidedVoxel out;
+  out.voxel = to_unsigned(undecided.voxel);
+  out.kind = static_cast<UndecidedKind>(undecided.kind);
+  out.width = static_cast<float>(undecided.width);
+  return out;
+}
+
 }  // namespace
 
 reference::Mesh to_reference(const PreparedMesh& mesh) {
@@ -93,10 +101,9 @@ Extraction from_reference(const reference::Result& result) {
   out.grid = {to_point(result.grid_origin), result.voxel_size, to_unsigned(result.grid_size)};
   out.spheres.reserve(result.spheres.size());
   for (const reference::Sphere& sphere : result.spheres) out.spheres.push_back(from_reference(sphere));
-  // The reference does not say why: anything within the voxel.
-  const auto diagonal = static_cast<float>(std::sqrt(3.0) * result.voxel_size);
-  for (const Eigen::Vector3i& voxel : result.undecided_voxels) {
-    out.undecided.push_back({to_unsigned(voxel), UndecidedKind::kOther, diagonal});
+  out.undecided.reserve(result.undecided_voxels.size());
+  for (const reference::Undecided& undecided : result.undecided_voxels) {
+    out.undecided.push_back(from_reference(undecided));
   }
   for (const reference::LevelCount& level : result.levels) {
     out.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found});

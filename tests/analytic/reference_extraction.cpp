@@ -199,7 +199,7 @@ TEST(ReferenceAnalytic, UntrustedAndOpenSolids) {
   mesh.trusted.clear();
   const reference::Tree tree(mesh);
   const Result untrusted = reference::extract(mesh, parameters);
-  // Where the boundary does not touch the voxel, directions (Lemma 3) do as well as normals.
+  // Where the boundary does not touch the voxel, directions (Lemma C) do as well as normals.
   const auto deep = [&](const test::MedialSample& s) {
     return s.object_angle >= 0.65 && s.radius > std::sqrt(3.0) * untrusted.voxel_size;
   };

@@ -18,7 +18,7 @@ struct Parameters {
   double object_angle = 0.6;                         // radians
   double radius = 0;                                 // fraction of the longest side, 0: off
   double epsilon = 0.01;                             // fraction of the voxel side
-  int extra_levels = 4;                              // certified: subdivision below the finest voxel
+  int extra_levels = 6;                              // certified: subdivision below the finest voxel
   bool narrow_features = true;                       // thesis: Section 2.4.3
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
   // With a radius threshold on: the object angle that a point of that radius must have (never above object_angle).
@@ -35,6 +35,22 @@ struct Sphere {
   Eigen::Vector3i voxel;
 };
 
+/// What a salient medial point must be like that hides in an undecided voxel (docs/theory.md, "What undecided means");
+/// the first of these that holds.
+enum class UndecidedKind : std::uint8_t {
+  kNearFace,   // within 1/64 of the voxel side of a face of its voxel
+  kNearAngle,  // of an object angle less than 0.05 above the threshold
+  kBoundary,   // in a part of the voxel that the boundary crosses
+  kOther,
+};
+
+/// A finest voxel that is neither found nor proved empty.
+struct Undecided {
+  Eigen::Vector3i voxel;
+  UndecidedKind kind;
+  double width;  // no two feet of a salient medial point that hides there are farther apart (Section 3.4, equation 3.1)
+};
+
 struct LevelCount {
   double cell_size;
   std::uint64_t visited, kept, contacts, found;
@@ -44,8 +60,8 @@ struct Result {
   Eigen::Vector3d grid_origin;
   double voxel_size;
   Eigen::Vector3i grid_size;
-  std::vector<Sphere> spheres;                    // z slowest, then y, then x
-  std::vector<Eigen::Vector3i> undecided_voxels;  // certified, in the same order
+  std::vector<Sphere> spheres;              // z slowest, then y, then x
+  std::vector<Undecided> undecided_voxels;  // certified: in the same order
   std::vector<LevelCount> levels;
   std::uint64_t found = 0, undecided = 0, proved_empty = 0, queries = 0;
   bool interrupted = false;

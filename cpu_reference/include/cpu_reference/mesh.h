@@ -10,7 +10,7 @@ namespace medial_vk::reference {
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;  // counter-clockwise from outside
-  std::vector<std::uint8_t> trusted;       // one per triangle: may its outward normal be trusted (Lemma 2)? empty: no
+  std::vector<std::uint8_t> trusted;       // one per triangle: may its outward normal be trusted (Lemma B)? empty: no
   bool closed = false;                     // inside and outside can be decided for whole cells
 };
 

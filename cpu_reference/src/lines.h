@@ -1,0 +1,23 @@
+// Aimed lines: where in a cell the medial surface may be, and across it (docs/theory.md, "Aimed lines").
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "box.h"
+#include "contacts.h"
+#include "pairs.h"
+
+namespace medial_vk::reference {
+
+struct Line {
+  Eigen::Vector3d base;       // a point of the line, from the centre of the box
+  Eigen::Vector3d direction;  // unit
+};
+
+/// The lines that are tried in a box, best first. `contacts` are the box's, `pairs` its salient pairs.
+std::vector<Line> aimed_lines(const Tree& tree, const Box& box, const Closest& nearest,
+                              std::span<const Contact> contacts, std::span<const CarrierPair> pairs);
+
+}  // namespace medial_vk::reference

@@ -1,0 +1,130 @@
+#include "pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace medial_vk::reference {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCosineSlack = 1e-12;       // dots of unit vectors and cosines are off by less than 1e-15
+constexpr std::size_t kMostCarriers = 2000;  // the search is quadratic
+constexpr std::size_t kMostRivals = 16;      // nearest carriers that are tried for Lemma F
+
+class PairTest {
+ public:
+  PairTest(const Tree& tree, const Box& box, std::span<const Carrier> carriers, double angle)
+      : box_(box),
+        rivals_(carriers.first(std::min(carriers.size(), kMostRivals))),
+        angle_(angle),
+        sine_(std::sin(angle)),
+        size_(tree.longest_side()),
+        slack_(8 * tree.rounding()) {}
+
+  bool can_be_salient(const Carrier& a, const Carrier& b) const {
+    return spokes_can_part(a.spokes, b.spokes) && can_face(a, b) && can_face(b, a) && !is_beaten_by_a_third(a, b);
+  }
+
+ private:
+  /// Are two spokes of these caps ever 2 * angle apart? Not if the axes are nearer than 2 * angle less both angles.
+  bool spokes_can_part(const Cap& a, const Cap& b) const {
+    const double left = 2 * angle_ - a.angle - b.angle;
+    return left <= 0 || a.axis.dot(b.axis) <= std::cos(left) + kCosineSlack;
+  }
+
+  bool can_face(const Carrier& a, const Carrier& b) const;
+
+  // Lemma F, at the share for which the mean direction is nearest to the third's.
+  bool is_beaten_by_a_third(const Carrier& a, const Carrier& b) const {
+    const Vector3d across = b.direction - a.direction;
+    const double squared = across.squaredNorm();
+    return std::any_of(rivals_.begin(), rivals_.end(), [&](const Carrier& c) {
+      if (&c == &a || &c == &b) return false;
+      const double share = squared > 0 ? std::clamp(across.dot(c.direction - a.direction) / squared, 0.0, 1.0) : 0.5;
+      return is_beaten(a, b, share, c, box_, slack_);
+    });
+  }
+
+  const Box& box_;
+  std::span<const Carrier> rivals_;
+  double angle_, sine_, size_, slack_;
+};
+
+/// Unit vectors from the corners of one carrier to those of another (corners in common left out), and their mean.
+struct Chords {
+  Chords(const Carrier& from, const Carrier& to) {
+    for (int i = 0; i < from.corner_count; ++i) {
+      for (int j = 0; j < to.corner_count; ++j) {
+        const Vector3d d = to.corners[j] - from.corners[i];
+        const double length = d.norm();
+        if (length > 0) units[count++] = d / length;
+      }
+    }
+    mean = Vector3d::Zero();
+    for (int i = 0; i < count; ++i) mean += units[i];
+    mean /= std::max(mean.norm(), 1e-300);
+  }
+  std::array<Vector3d, 9> units;
+  int count = 0;
+  Vector3d mean;
+};
+
+bool is_behind(const Vector3d& n, const Carrier& a, const Carrier& b, double slack) {
+  for (int i = 0; i < a.corner_count; ++i) {
+    for (int j = 0; j < b.corner_count; ++j) {
+      if (n.dot(a.corners[i] - b.corners[j]) > slack) return true;
+    }
+  }
+  return false;
+}
+
+// Lemma E: is -n . c >= sin(angle) cos(phi) possible for a normal n at a, for the direction c of a chord from a to b?
+// A chord is a mean of corner differences d, and for a unit vector e with d . e > 0 for all of them it is at least as
+// long as its part along e: -n . c is at most the greatest -n . d / d . e. Taking the unit vectors along d changes no
+// ratio.
+// A corner that is behind by less than 1e-9 of the mesh's size (the error of a normal, 5e-10, times a length) counts as
+// not behind: only balls of a radius below 1e-9 / (sin(angle)^2 cos(phi)) of it are lost, which no voxel resolves.
+// Elsewhere -n . d is off by 5e-10 and d . e is at least kLeastAlong, so ratios below 1 are off by less than 2e-8;
+// spokes at flat edges and vertices are within kFaceAngle = 1e-7 of the normal of a face.
+bool PairTest::can_face(const Carrier& a, const Carrier& b) const {
+  constexpr double kLeastAlong = 0.05, kRatioSlack = 2e-7;
+  if (a.normal_count == 0) return true;
+  const double least = sine_ * a.normal_cosine - kRatioSlack;
+  for (int k = 0; k < a.normal_count; ++k) {
+    const Vector3d& n = a.normals[k];
+    if (!is_behind(n, a, b, 1e-9 * size_)) continue;
+    const Chords chords(a, b);
+    for (int i = 0; i < chords.count; ++i) {
+      const double along = chords.units[i].dot(chords.mean);
+      if (along < kLeastAlong || -n.dot(chords.units[i]) >= least * along) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+PairSearch salient_pairs(const Tree& tree, const Box& box, std::span<const Carrier> carriers, double angle,
+                         std::size_t most) {
+  PairSearch search;
+  if (carriers.size() > kMostCarriers) {
+    search.complete = false;
+    carriers = carriers.first(kMostCarriers);
+  }
+  const PairTest test(tree, box, carriers, angle);
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!test.can_be_salient(carriers[j], carriers[i])) continue;
+      if (search.pairs.size() == most) {
+        search.complete = false;
+        return search;
+      }
+      search.pairs.push_back({&carriers[j], &carriers[i]});
+    }
+  }
+  return search;
+}
+
+}  // namespace medial_vk::reference
