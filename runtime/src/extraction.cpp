@@ -112,7 +112,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
                                      const ExtractionParameters& parameters, const ProgressCallback& progress) {
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
-  if (Status s = mesh.value().add_spoke_cones(context, view); !s.ok()) return s.error();
+  if (Status s = mesh.value().add_links(context, view); !s.ok()) return s.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size);

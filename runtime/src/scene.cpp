@@ -7,7 +7,7 @@
 #include "context_impl.h"
 #include "device_tree.h"
 #include "point_math.h"
-#include "spoke_cones.h"
+#include "mesh_links.h"
 
 namespace medial_vk {
 namespace {
@@ -92,8 +92,8 @@ Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh, con
   return {};
 }
 
-Status DeviceMesh::add_spoke_cones(Context::Impl& context, const MeshView& mesh) {
-  const SpokeCones cones = make_spoke_cones(mesh, order);
+Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
+  const MeshLinks cones = make_mesh_links(mesh, order);
   Result<Buffer> links =
       create_filled(context, arena, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours");
   if (!links.ok()) return links.error();

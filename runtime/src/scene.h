@@ -38,7 +38,7 @@ struct DeviceMesh {
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
 
   /// Adds what the dismissal by pairs asks about edges and vertices; `mesh` as given to create(). Error: kOutOfMemory.
-  Status add_spoke_cones(Context::Impl& context, const MeshView& mesh);
+  Status add_links(Context::Impl& context, const MeshView& mesh);
 
   /// Cuts the leaf order into runs of at least `least` triangles (if there are as many) and fewer than twice that.
   std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
@@ -54,8 +54,8 @@ struct DeviceMesh {
   VkBufferView tree_texels = VK_NULL_HANDLE;
   /// Index into MeshView::triangles, one word per leaf position.
   Buffer triangle_info;
-  /// gpu::TriangleLinks by leaf position, and caps of spokes by vertex (runtime/src/spoke_cones.h); null until
-  /// add_spoke_cones().
+  /// gpu::TriangleLinks by leaf position, and caps of spokes by vertex (runtime/src/mesh_links.h); null until
+  /// add_links().
   Buffer triangle_links;
   Buffer corner_cones;
   /// Specialization constant 1 of every kernel that reads the mesh: false if a texel view would be too large for the

@@ -11,13 +11,13 @@
 
 namespace medial_vk {
 
-struct SpokeCones {
+struct MeshLinks {
   std::vector<gpu::TriangleLinks> links;  // by position in `order`
   std::vector<gpu::vec4> corners;         // by vertex: axis and half-angle of a cap that holds all spokes to it
 };
 
 /// `order` lists the triangles as the device does: links name positions in it. Linear in the size of the mesh, up to
 /// one sort of its edges.
-SpokeCones make_spoke_cones(const MeshView& mesh, std::span<const std::uint32_t> order);
+MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order);
 
 }  // namespace medial_vk

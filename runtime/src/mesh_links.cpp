@@ -1,4 +1,4 @@
-#include "spoke_cones.h"
+#include "mesh_links.h"
 
 #include <algorithm>
 #include <array>
@@ -103,7 +103,7 @@ class Builder {
  public:
   Builder(const MeshView& mesh, std::span<const std::uint32_t> order) : mesh_(mesh), order_(order) {}
 
-  SpokeCones build() {
+  MeshLinks build() {
     measure_triangles();
     link_edges();
     link_corners();
@@ -204,12 +204,12 @@ class Builder {
   std::span<const std::uint32_t> order_;
   std::vector<Point> normals_;
   std::vector<std::pair<uint, uint>> partners_;  // both triangles of every manifold edge, the earlier first
-  SpokeCones out_;
+  MeshLinks out_;
 };
 
 }  // namespace
 
-SpokeCones make_spoke_cones(const MeshView& mesh, std::span<const std::uint32_t> order) {
+MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order) {
   return Builder(mesh, order).build();
 }
 
