@@ -20,6 +20,7 @@ layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, 
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
+const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 const uint kFeasible = 1u, kFeasibleAtLargerAngle = 2u;
 
 shared uint shared_width;
@@ -96,7 +97,8 @@ void main() {
   if (lane != 0u || !exists) return;
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
   float width = decided ? min(bound, uintBitsToFloat(shared_width)) : bound;
-  uint kind = d0 <= step.circumradius ? kAtBoundary : kOtherReason;
+  bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
+  uint kind = close || is_hopeless(cell.flags) ? kAtBoundary : kOtherReason;
   if (inner_decided && (is_feasible & kFeasibleAtLargerAngle) == 0u) kind = kNearAngle;
   if (!has_inner || (inner_decided && is_feasible == 0u)) kind = kNearFace;
   atomicMax(reasons[cell.voxel].x, kind + 1u);

@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kPairsToAimAt = 64;
 constexpr double kFaceShare = 1.0 / 64;  // of the voxel side: what "near a face" means
+constexpr double kBoundaryRadius = 1.0 / 8;  // of the voxel side: what "at the boundary" means
 constexpr double kNearAngle = 0.05;      // radians: what "near the threshold" means
 
 /// What of a cell is not near a face of its voxel; empty if any half is not positive.
@@ -69,7 +70,8 @@ UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Threshold
   const double angle = thresholds.angle_at(inner_test.nearest().distance + inner.reach());
   if (inner_test.dismisses(angle)) return UndecidedKind::kNearFace;
   if (inner_test.dismisses(angle + kNearAngle)) return UndecidedKind::kNearAngle;
-  const bool at_boundary = test.nearest().distance <= test.box().reach();
+  const double greatest_radius = test.nearest().distance + test.box().reach();
+  const bool at_boundary = greatest_radius <= 2 * kBoundaryRadius * voxel.half.minCoeff();
   return at_boundary ? UndecidedKind::kBoundary : UndecidedKind::kOther;
 }
 

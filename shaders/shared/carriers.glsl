@@ -27,6 +27,11 @@ shared uint carrier_order[kMostCarriers];
 shared uint kept_count;
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
+// The plane, line or point that a carrier spans: the projection of the centre on it (from the centre) and how wrong that
+// may be; a unit normal or direction, and which.
+shared vec4 carrier_foot[kMostCarriers];
+shared vec4 carrier_span[kMostCarriers];
+const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
 shared float corner_distance[8];             // from the corners of the box to the triangle nearest to its centre
 shared uint is_feasible;
 
@@ -41,7 +46,7 @@ bool touches_box(vec3 v, float d, Box box) {
 }
 
 // Lists a carrier whose nearest point is at centre + v, unless Lemma A or C shows that no spoke ends there.
-void add_carrier(vec3 v, vec4 spokes, uint name, Box box) {
+void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, uint name, Box box) {
   float d = length(v);
   if (!touches_box(v, d, box)) return;
   vec3 g = unit_or_zero(v);
@@ -57,6 +62,8 @@ void add_carrier(vec3 v, vec4 spokes, uint name, Box box) {
   carrier_name[slot] = name;
   carrier_nearest[slot] = vec4(g, d);
   carrier_spokes[slot] = spokes;
+  carrier_foot[slot] = foot;
+  carrier_span[slot] = span;
 }
 
 vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
@@ -69,8 +76,12 @@ void add_edge(uint t, TriangleTexels texels, uint k, uint neighbour, Box box) {
   // Knife edges: the arc between opposite normals has no axis that float can tell.
   vec4 arc = size > 1e-3 ? vec4(sum / size, asin(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
-  float s = clamp(dot(box.centre - a, e) / max(dot(e, e), 1e-30), 0.0, 1.0);
-  add_carrier(a + s * e - box.centre, arc, 8u * t + kFirstEdge + k, box);
+  float size_e = max(length(e), 1e-30);
+  vec3 u = e / size_e;
+  float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + step.slack;
+  if (along < -reach || along > size_e + reach) return;  // no point of the box projects into the edge
+  vec4 foot = vec4(a + along * u - box.centre, step.slack * (1.0 + box.circumradius / size_e));
+  add_carrier(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), 8u * t + kFirstEdge + k, box);
 }
 
 void add_carriers_of(uint t, Box box) {
@@ -79,16 +90,20 @@ void add_carriers_of(uint t, Box box) {
   if (!touches_box(v, length(v), box)) return;
   TriangleLinks l = links[t];
   if ((l.flags & kLinkWhole) != 0u || texels.normal.w < 0.5) {
-    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), 8u * t + kWhole, box);
+    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), 8u * t + kWhole, box);
     return;
   }
-  add_carrier(v, vec4(texels.normal.xyz, kAngleSlack), 8u * t + kFace, box);
+  vec3 n = texels.normal.xyz;
+  vec4 foot = vec4(n * dot(n, texels.a.xyz - box.centre), step.slack);
+  add_carrier(v, vec4(n, kAngleSlack), foot, vec4(n, kPlane), 8u * t + kFace, box);
   uint neighbour[3] = uint[3](l.neighbour_0, l.neighbour_1, l.neighbour_2);
   uint corner[3] = uint[3](l.corner_0, l.corner_1, l.corner_2);
   for (uint k = 0; k < 3u; ++k) {
     if ((l.flags & (kLinkEdge << k)) != 0u) add_edge(t, texels, k, neighbour[k], box);
+    vec3 to_corner = corner_of(texels, k) - box.centre;
     if ((l.flags & (kLinkCorner << k)) != 0u)
-      add_carrier(corner_of(texels, k) - box.centre, corner_cones[corner[k]], 8u * t + kFirstCorner + k, box);
+      add_carrier(to_corner, corner_cones[corner[k]], vec4(to_corner, step.slack), vec4(kPoint),
+                  8u * t + kFirstCorner + k, box);
   }
 }
 
@@ -150,6 +165,56 @@ bool can_turn(uint i, uint j, float theta) {
   return left <= 0.0 || dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz) <= cos(left) + kCosineSlack;
 }
 
+// The normals between which the spokes to a face or an edge lie.
+void normals_of(uint name, out vec3 first, out vec3 second) {
+  uint t = name / 8u, kind = name % 8u;
+  first = triangle_texel(4u * t + 3u).xyz;
+  second = first;
+  if (kind == kFace) return;
+  TriangleLinks l = links[t];
+  second = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
+}
+
+// The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
+// two arcs differ by no more than some two ends, if those are closer than that.
+bool can_turn_between_normals(uint i, uint j, float theta) {
+  if (carrier_name[i] % 8u >= kFirstCorner || carrier_name[j] % 8u >= kFirstCorner) return true;
+  vec3 a, b, c, d;
+  normals_of(carrier_name[i], a, b);
+  normals_of(carrier_name[j], c, d);
+  float least = min(min(dot(a, c), dot(a, d)), min(dot(b, c), dot(b, d)));
+  return least <= max(0.0, cos(2.0 * (theta - kAngleSlack))) + kCosineSlack;
+}
+
+// Where x goes when it is projected along with the centre.
+vec3 project(vec4 span, vec3 x) {
+  float along = dot(span.xyz, x);
+  return span.w == kPlane ? x - along * span.xyz : span.w == kLine ? along * span.xyz : vec3(0.0);
+}
+
+// Lemma H: can the feet be as far apart as the object angle asks, 2 D sin(theta), anywhere in the box? D is bounded by
+// a mixture of the two distances: the one whose gradient cancels best that of the feet's distance.
+bool can_be_wide(uint i, uint j, float sine, Box box) {
+  vec4 span_a = carrier_span[i], span_b = carrier_span[j];
+  if (span_a.w == kUnknownSpan || span_b.w == kUnknownSpan) return true;
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j], ab = b - a;
+  vec3 apart = carrier_foot[i].xyz - carrier_foot[j].xyz;
+  vec3 pull = unit_or_zero(apart);
+  pull = project(span_a, pull) - project(span_b, pull) + 2.0 * sine * a.xyz;
+  float share = clamp(-dot(pull, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
+  // Outside [0, 1] one distance counts negatively: Lemma F's upper bound of it.
+  float excess = max(max(-share, share - 1.0), 0.0);
+  float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
+  float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) + (1.0 + 2.0 * excess) * slack_of(min(a.w, b.w), box);
+  vec4 mixture = a + share * ab;
+  for (uint k = 0; k < 8u; ++k) {
+    vec3 x = box.half_sides * corner_sign(k);
+    vec3 chord = apart + project(span_a, x) - project(span_b, x);
+    if (length(chord) + slack >= 2.0 * sine * (mixture.w - dot(mixture.xyz, x) - bend - slack)) return true;
+  }
+  return false;
+}
+
 // Corners of a carrier, the last repeated.
 void corners_of(uint name, out vec3 p[3], out uint count) {
   TriangleTexels t = load_triangle(name / 8u);
@@ -182,11 +247,8 @@ bool can_face(uint i, uint j, float sine) {
   for (uint a = 0; a < p_count; ++a)
     for (uint b = 0; b < q_count; ++b) mean += unit_or_zero(q[b] - p[a]);
   mean = unit_or_zero(mean);
-  vec3 normal = triangle_texel(4u * (name / 8u) + 3u).xyz, other = normal;
-  if (kind != kFace) {
-    TriangleLinks l = links[name / 8u];
-    other = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
-  }
+  vec3 normal, other;
+  normals_of(name, normal, other);
   float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(normal, other)));  // of the cap around both normals
   if (cos_phi < kLeastCosPhi) return true;
   float least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
@@ -220,7 +282,8 @@ bool is_beaten(uint i, uint j, Box box) {
 }
 
 bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
-  return can_turn(i, j, theta) && can_face(i, j, sine) && can_face(j, i, sine) && !is_beaten(i, j, box);
+  return can_turn(i, j, theta) && can_turn_between_normals(i, j, theta) && can_be_wide(i, j, sine, box) && can_face(i, j, sine) && can_face(j, i, sine) &&
+         !is_beaten(i, j, box);
 }
 
 // Where a cell may hold a point that the radius threshold makes salient, smaller angles count too.

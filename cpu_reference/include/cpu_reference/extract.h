@@ -40,7 +40,7 @@ struct Sphere {
 enum class UndecidedKind : std::uint8_t {
   kNearFace,   // within 1/64 of the voxel side of a face of its voxel
   kNearAngle,  // of an object angle less than 0.05 above the threshold
-  kBoundary,   // in a part of the voxel that the boundary crosses
+  kBoundary,   // radius below 1/8 of the voxel side, or where the boundary passes through untrusted triangles
   kOther,
 };
 

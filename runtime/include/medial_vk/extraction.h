@@ -61,7 +61,9 @@ struct MedialSphere {
 enum class UndecidedKind : std::uint32_t {
   kNearFace,   ///< It lies within 1/64 of the voxel side of a face of its voxel.
   kNearAngle,  ///< Its object angle is below object_angle + 0.05.
-  kBoundary,   ///< It lies in a part of the voxel that the boundary of the solid crosses.
+  /// Its radius is below 1/8 of the voxel side; or the boundary passes through that part of the voxel, with triangles
+  /// whose normals cannot be trusted.
+  kBoundary,
   kOther,
 };
 inline constexpr std::size_t kUndecidedKinds = 4;
