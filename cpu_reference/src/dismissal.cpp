@@ -11,9 +11,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kPairsToAimAt = 64;
-constexpr double kFaceShare = 1.0 / 64;  // of the voxel side: what "near a face" means
+constexpr double kFaceShare = 1.0 / 64;      // of the voxel side: what "near a face" means
 constexpr double kBoundaryRadius = 1.0 / 8;  // of the voxel side: what "at the boundary" means
-constexpr double kNearAngle = 0.05;      // radians: what "near the threshold" means
+constexpr double kNearAngle = 0.05;          // radians: what "near the threshold" means
 
 /// What of a cell is not near a face of its voxel; empty if any half is not positive.
 Box away_from_faces(const Box& cell, const Box& voxel) {

@@ -6,8 +6,8 @@
 
 #include "context_impl.h"
 #include "device_tree.h"
-#include "point_math.h"
 #include "mesh_links.h"
+#include "point_math.h"
 
 namespace medial_vk {
 namespace {

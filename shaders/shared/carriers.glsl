@@ -21,18 +21,21 @@ struct Box {
 
 shared uint carrier_count;
 shared uint carrier_name[kMostCarriers];
-shared bool carrier_beaten[kMostCarriers];
-// Those that are left, by name: results do not depend on the order of the atomics.
+// Nearest first, and by name where they tie: results do not depend on the order of the atomics. Of those that others
+// do not beat everywhere, there are kept_count.
 shared uint carrier_order[kMostCarriers];
 shared uint kept_count;
+shared uint rivals[4];  // the nearest
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
+shared vec2 carrier_error[kMostCarriers];    // of the bound D - g.x: by rounding; above it, by bending (Lemma F)
 // The plane, line or point that a carrier spans: the projection of the centre on it (from the centre) and how wrong that
 // may be; a unit normal or direction, and which.
 shared vec4 carrier_foot[kMostCarriers];
 shared vec4 carrier_span[kMostCarriers];
 const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
 shared float corner_distance[8];             // from the corners of the box to the triangle nearest to its centre
+shared float farthest_corner;                // the greatest of them
 shared uint is_feasible;
 
 float slack_of(float d, Box box) { return 4.0 * step.slack * (1.0 + box.circumradius / max(d, 1e-30)); }
@@ -40,9 +43,11 @@ float slack_of(float d, Box box) { return 4.0 * step.slack * (1.0 + box.circumra
 // Lemma A for a box.
 bool touches_box(vec3 v, float d, Box box) {
   vec3 h = box.half_sides * (v / max(d, 1e-30));
-  float most = -1.0;
-  for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
-  return d - most <= slack_of(d, box);
+  float least = d - slack_of(d, box);
+  if (farthest_corner + dot(abs(h), vec3(1.0)) < least) return false;
+  for (uint k = 0; k < 8u; ++k)
+    if (corner_distance[k] + dot(h, corner_sign(k)) >= least) return true;
+  return false;
 }
 
 // Lists a carrier whose nearest point is at centre + v, unless Lemma A or C shows that no spoke ends there.
@@ -62,6 +67,8 @@ void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, uint name, Box box) 
   carrier_name[slot] = name;
   carrier_nearest[slot] = vec4(g, d);
   carrier_spokes[slot] = spokes;
+  carrier_error[slot] =
+      vec2(slack_of(d, box), 0.5 * box.circumradius * box.circumradius / max(d, 1e-30));
   carrier_foot[slot] = foot;
   carrier_span[slot] = span;
 }
@@ -109,30 +116,44 @@ void add_carriers_of(uint t, Box box) {
 
 // Lemma F: is carrier c nearer than the mixture of two others wherever these tie?
 bool beats(uint c, vec4 mixture, float slack, Box box) {
-  vec4 third = carrier_nearest[c];
-  vec4 ahead = mixture - third;
-  float bend = 0.5 * box.circumradius * box.circumradius / max(third.w, 1e-30);
-  return ahead.w - slack > dot(box.half_sides, abs(ahead.xyz)) + bend;
+  vec4 ahead = mixture - carrier_nearest[c];
+  vec2 error = carrier_error[c];
+  return ahead.w - 3.0 * max(slack, error.x) > dot(box.half_sides, abs(ahead.xyz)) + error.y;
 }
+
+void rank_carriers(uint lane) {
+  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
+    float mine = carrier_nearest[i].w;
+    uint name = carrier_name[i], rank = 0;
+    for (uint j = 0; j < carrier_count; ++j) {
+      float other = carrier_nearest[j].w;
+      rank += other < mine || (other == mine && carrier_name[j] < name) ? 1u : 0u;
+    }
+    carrier_order[rank] = i;
+  }
+}
+
+const uint kRivals = 4u, kPairRivals = 16u;  // how many of the nearest are tried as the one that beats
+const uint kBeaten = 0xffffffffu;
 
 // Lemma F with one carrier in place of a pair: another is nearer everywhere in the box.
-bool is_always_beaten(uint i, Box box) {
-  vec4 mine = carrier_nearest[i];
-  for (uint c = 0; c < carrier_count; ++c)
-    if (c != i && beats(c, mine, 3.0 * slack_of(min(mine.w, carrier_nearest[c].w), box), box)) return true;
-  return false;
+void drop_beaten(uint lane, Box box) {
+  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
+    uint carrier = carrier_order[i];
+    bool beaten = false;
+    for (uint k = 0; k < min(kRivals, i) && !beaten; ++k)
+      beaten = beats(rivals[k], carrier_nearest[carrier], carrier_error[carrier].x, box);
+    if (beaten) carrier_order[i] = kBeaten;
+  }
 }
 
-// Puts those that are left in order.
-void order_carriers(uint lane) {
-  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
-    if (carrier_beaten[i]) continue;
-    uint rank = 0;
-    for (uint j = 0; j < carrier_count; ++j)
-      rank += !carrier_beaten[j] && carrier_name[j] < carrier_name[i] ? 1u : 0u;
-    carrier_order[rank] = i;
-    atomicAdd(kept_count, 1u);
+void pack_carriers() {
+  uint count = 0;
+  for (uint i = 0; i < carrier_count; ++i) {
+    uint carrier = carrier_order[i];
+    if (carrier != kBeaten) carrier_order[count++] = carrier;
   }
+  kept_count = count;
 }
 
 // All lanes of the workgroup call this. False: too many.
@@ -141,20 +162,26 @@ bool gather_carriers(Cell cell, Box box) {
   barrier();
   if (lane == 0u) {
     carrier_count = 0u;
-    kept_count = 0u;
     is_feasible = 0u;
   }
   TriangleTexels nearest = load_triangle(cell.nearest);
   for (uint k = lane; k < 8u; k += gl_WorkGroupSize.x)
     corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));
   barrier();
+  float farthest = 0.0;
+  for (uint k = 0; k < 8u; ++k) farthest = max(farthest, corner_distance[k]);
+  farthest_corner = farthest;  // the same of every lane
   if (cell.list_count <= kMostEntries)
     for (uint i = lane; i < cell.list_count; i += gl_WorkGroupSize.x) add_carriers_of(lists[cell.list_begin + i], box);
   barrier();
   if (cell.list_count > kMostEntries || carrier_count > kMostCarriers) return false;
-  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) carrier_beaten[i] = is_always_beaten(i, box);
+  rank_carriers(lane);
   barrier();
-  order_carriers(lane);
+  if (lane < min(kRivals, carrier_count)) rivals[lane] = carrier_order[lane];
+  barrier();
+  drop_beaten(lane, box);
+  barrier();
+  if (lane == 0u) pack_carriers();
   barrier();
   return true;
 }
@@ -271,12 +298,11 @@ bool can_face(uint i, uint j, float sine) {
 bool is_beaten(uint i, uint j, Box box) {
   vec4 a = carrier_nearest[i], b = carrier_nearest[j];
   vec3 ab = b.xyz - a.xyz;
-  float squared = dot(ab, ab), nearer = min(a.w, b.w);
-  for (uint k = 0; k < kept_count; ++k) {
+  float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(carrier_error[i].x, carrier_error[j].x);
+  for (uint k = 0; k < min(kPairRivals, kept_count); ++k) {
     uint c = carrier_order[k];
-    vec4 third = carrier_nearest[c];
-    float share = squared > 0.0 ? clamp(dot(ab, third.xyz - a.xyz) / squared, 0.0, 1.0) : 0.5;
-    if (c != i && c != j && beats(c, mix(a, b, share), 3.0 * slack_of(min(nearer, third.w), box), box)) return true;
+    float share = clamp(dot(ab, carrier_nearest[c].xyz - a.xyz) * inverse, 0.0, 1.0);
+    if (c != i && c != j && beats(c, mix(a, b, share), slack, box)) return true;
   }
   return false;
 }
