@@ -40,12 +40,14 @@ float pair_width(uint i, uint j, float nearest_distance, Box box) {
 // All lanes: the largest width of a pair, as float bits, in shared_width.
 void measure_width(float nearest_distance, float theta, Box box) {
   float width = 0.0, sine = sin(theta);
-  for (uint i = gl_LocalInvocationID.x; i < kept_count; i += gl_WorkGroupSize.x)
-    for (uint j = 0; j < i; ++j) {
-      uint a = carrier_order[i], b = carrier_order[j];
-      float more = pair_width(a, b, nearest_distance, box);
-      if (more > width && is_feasible_pair(a, b, theta, sine, box)) width = more;
+  for (uint first = 0; first < pair_count(); first += kQueueSize) {
+    queue_pairs(first, theta);
+    for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
+      uvec2 pair = queued(q);
+      float more = pair_width(pair.x, pair.y, nearest_distance, box);
+      if (more > width && is_feasible_pair(pair.x, pair.y, theta, sine, box)) width = more;
     }
+  }
   atomicMax(shared_width, floatBitsToUint(width));
 }
 
@@ -53,13 +55,16 @@ void measure_width(float nearest_distance, float theta, Box box) {
 void test_pairs(float theta, Box box) {
   float sine = sin(theta), larger = theta + kAngleMargin, larger_sine = sin(larger);
   uint found = 0u;
-  for (uint i = gl_LocalInvocationID.x; i < kept_count && found < kFeasibleAtLargerAngle; i += gl_WorkGroupSize.x)
-    for (uint j = 0; j < i && found < kFeasibleAtLargerAngle; ++j) {
-      uint a = carrier_order[i], b = carrier_order[j];
-      if (found == kFeasible && !can_turn(a, b, larger)) continue;
-      if (!is_feasible_pair(a, b, theta, sine, box)) continue;
-      found = is_feasible_pair(a, b, larger, larger_sine, box) ? kFeasible | kFeasibleAtLargerAngle : kFeasible;
+  for (uint first = 0; first < pair_count(); first += kQueueSize) {
+    queue_pairs(first, theta);
+    for (uint q = gl_LocalInvocationID.x; q < queue_count && found < kFeasibleAtLargerAngle; q += gl_WorkGroupSize.x) {
+      uvec2 pair = queued(q);
+      if (found == kFeasible && !can_turn(pair.x, pair.y, larger)) continue;
+      if (!is_feasible_pair(pair.x, pair.y, theta, sine, box)) continue;
+      bool also = is_feasible_pair(pair.x, pair.y, larger, larger_sine, box);
+      found = also ? kFeasible | kFeasibleAtLargerAngle : kFeasible;
     }
+  }
   atomicOr(is_feasible, found);
 }
 

@@ -18,9 +18,12 @@ layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
 
 const float kParallel = 0.98;  // cosine above which aims at the same place count as one
 const float kNoAim = 3e38;
-const uint kMostLanes = 64u;
+const uint kNoPair = 0xffffffffu;
+const uint kAimSlots = 32u;
 
-shared Aim lane_aims[kMostLanes];
+// The best pair of every kAimSlots-th: its key (as bits; no key is negative), and the pair, the first where keys tie.
+shared uint slot_key[kAimSlots];
+shared uint slot_pair[kAimSlots];
 
 // Where the plane between two carriers crosses the cell (equation 2.11): at the point nearest to the centre, or, if
 // that is outside, towards the corner in its direction.
@@ -33,7 +36,7 @@ Aim aim_between(uint i, uint j, float half_side) {
   vec3 base = across * (offset / (turn * turn));
   if (any(greaterThan(abs(base), vec3(half_side))))
     base = clamp(offset / extent, -1.0, 1.0) * half_side * mix(vec3(-1.0), vec3(1.0), greaterThan(across, vec3(0.0)));
-  float away = max(a.w - dot(a.xyz, base), b.w - dot(b.xyz, base));
+  float away = max(0.0, max(a.w - dot(a.xyz, base), b.w - dot(b.xyz, base)));
   return Aim(vec4(base, away), vec4(across / turn, 1.0));
 }
 
@@ -42,15 +45,17 @@ bool is_same(Aim a, Aim b) {
          distance(a.base.xyz, b.base.xyz) < 0.2 * step.cell_size;
 }
 
-// The best aims of the lanes, different ones.
+// The best aims of the slots, different ones.
 void choose_aims(uint cell) {
   Aim chosen[kAimsPerCell];
   uint count = 0;
   for (; count < kAimsPerCell; ++count) {
     Aim best = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
-    for (uint i = 0; i < gl_WorkGroupSize.x; ++i) {
-      Aim aim = lane_aims[i];
-      bool skip = aim.base.w >= best.base.w;
+    for (uint slot = 0; slot < kAimSlots; ++slot) {
+      if (slot_pair[slot] == kNoPair || uintBitsToFloat(slot_key[slot]) >= best.base.w) continue;
+      uvec2 pair = pair_at(slot_pair[slot]);
+      Aim aim = aim_between(carrier_order[pair.x], carrier_order[pair.y], step.half_side);
+      bool skip = false;
       for (uint k = 0; k < count; ++k) skip = skip || is_same(aim, chosen[k]);
       if (!skip) best = aim;
     }
@@ -59,6 +64,33 @@ void choose_aims(uint cell) {
     aims[kAimsPerCell * cell + count] = best;
   }
   for (uint k = count; k < kAimsPerCell; ++k) aims[kAimsPerCell * cell + k] = Aim(vec4(0.0), vec4(0.0));
+}
+
+// One pass over the queue: puts feasible pairs into their slots. A pair that is no better than a feasible one in its
+// slot need not be asked.
+void rate_queue(float theta, float sine, Box box) {
+  for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
+    uint slot = queue[q] % kAimSlots;
+    uvec2 pair = queued(q);
+    uint key = floatBitsToUint(aim_between(pair.x, pair.y, step.half_side).base.w);
+    bool needed = key < slot_key[slot] || is_feasible == 0u;
+    if (!needed || !is_feasible_pair(pair.x, pair.y, theta, sine, box)) {
+      queue[q] = kNoPair;
+      continue;
+    }
+    atomicOr(is_feasible, 1u);
+    atomicMin(slot_key[slot], key);
+  }
+}
+
+void settle_slots() {
+  for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
+    if (queue[q] == kNoPair) continue;
+    uint slot = queue[q] % kAimSlots;
+    uvec2 pair = queued(q);
+    uint key = floatBitsToUint(aim_between(pair.x, pair.y, step.half_side).base.w);
+    if (key == slot_key[slot]) atomicMin(slot_pair[slot], queue[q]);
+  }
 }
 
 void main() {
@@ -71,22 +103,18 @@ void main() {
   bool decided = gather_carriers(cell, box);
   float d0 = length(vector_to_triangle(box.centre, load_triangle(cell.nearest)));
   float theta = threshold_angle(d0, box), sine = sin(theta);
-  Aim best = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
-  if (decided) {
-    bool found = false;
-    for (uint i = lane; i < kept_count; i += gl_WorkGroupSize.x)
-      for (uint j = 0; j < i; ++j) {
-        uint a = carrier_order[i], b = carrier_order[j];
-        if (!can_turn(a, b, theta)) continue;
-        Aim aim = aim_between(a, b, step.half_side);
-        bool better = aim.base.w < best.base.w;
-        if ((found && !better) || !is_feasible_pair(a, b, theta, sine, box)) continue;
-        found = true;
-        if (better) best = aim;
-      }
-    if (found) atomicOr(is_feasible, 1u);
+  for (uint slot = lane; slot < kAimSlots; slot += gl_WorkGroupSize.x) {
+    slot_key[slot] = floatBitsToUint(kNoAim);
+    slot_pair[slot] = kNoPair;
   }
-  lane_aims[lane] = best;
+  if (decided) {
+    for (uint first = 0; first < pair_count(); first += kQueueSize) {
+      queue_pairs(first, theta);
+      rate_queue(theta, sine, box);
+      barrier();
+      settle_slots();
+    }
+  }
   barrier();
   if (lane != 0u || !exists) return;
   choose_aims(index);

@@ -37,6 +37,10 @@ const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
 shared float corner_distance[8];             // from the corners of the box to the triangle nearest to its centre
 shared float farthest_corner;                // the greatest of them
 shared uint is_feasible;
+// Pairs that may turn enough, packed so that all lanes have work: most pairs do not get that far.
+const uint kQueueSize = 1024u;
+shared uint queue[kQueueSize];
+shared uint queue_count;
 
 float slack_of(float d, Box box) { return 4.0 * step.slack * (1.0 + box.circumradius / max(d, 1e-30)); }
 
@@ -308,8 +312,36 @@ bool is_beaten(uint i, uint j, Box box) {
 }
 
 bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
-  return can_turn(i, j, theta) && can_turn_between_normals(i, j, theta) && can_be_wide(i, j, sine, box) && can_face(i, j, sine) && can_face(j, i, sine) &&
-         !is_beaten(i, j, box);
+  return can_turn(i, j, theta) && !is_beaten(i, j, box) && can_turn_between_normals(i, j, theta) &&
+         can_be_wide(i, j, sine, box) && can_face(i, j, sine) && can_face(j, i, sine);
+}
+
+uint pair_count() { return kept_count * (max(kept_count, 1u) - 1u) / 2u; }
+
+// The pairs (1, 0), (2, 0), (2, 1), (3, 0)... by their number: places in carrier_order, the second smaller.
+uvec2 pair_at(uint p) {
+  uint i = uint(0.5 + sqrt(2.0 * float(p) + 0.25));
+  i = i * (i - 1u) / 2u > p ? i - 1u : (i + 1u) * i / 2u <= p ? i + 1u : i;
+  return uvec2(i, p - i * (i - 1u) / 2u);
+}
+
+// All lanes: queues those of the kQueueSize pairs from `first` on that may turn enough.
+void queue_pairs(uint first, float theta) {
+  barrier();
+  if (gl_LocalInvocationID.x == 0u) queue_count = 0u;
+  barrier();
+  uint end = min(first + kQueueSize, pair_count());
+  for (uint p = first + gl_LocalInvocationID.x; p < end; p += gl_WorkGroupSize.x) {
+    uvec2 pair = pair_at(p);
+    if (can_turn(carrier_order[pair.x], carrier_order[pair.y], theta)) queue[atomicAdd(queue_count, 1u)] = p;
+  }
+  barrier();
+}
+
+// The carriers of a queued pair.
+uvec2 queued(uint q) {
+  uvec2 pair = pair_at(queue[q]);
+  return uvec2(carrier_order[pair.x], carrier_order[pair.y]);
 }
 
 // Where a cell may hold a point that the radius threshold makes salient, smaller angles count too.
