@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // Cells that the search leaves: what must a salient medial point that hides there be like (docs/theory.md, "What
 // undecided means")? The pairs of carriers that remain bound its width (equation 3.1), and the same test on the part of
 // the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. One workgroup

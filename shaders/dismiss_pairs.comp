@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // Cells that are kept because no axis obeys all contacts: is there any pair of carriers that can hold the spokes of a
 // salient point (docs/theory.md, theorem on pairs)? If not the cell is empty. If so, the pairs that tie nearest to the
 // boundary say where to aim (equation 2.11). One workgroup per cell.

@@ -137,7 +137,7 @@ void rank_carriers(uint lane) {
   }
 }
 
-const uint kRivals = 4u, kPairRivals = 16u;  // how many of the nearest are tried as the one that beats
+const uint kRivals = 4u, kPairRivals = 8u;  // how many of the nearest are tried as the one that beats
 const uint kBeaten = 0xffffffffu;
 
 // Lemma F with one carrier in place of a pair: another is nearer everywhere in the box.
@@ -238,7 +238,7 @@ bool can_be_wide(uint i, uint j, float sine, Box box) {
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
   float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) + (1.0 + 2.0 * excess) * slack_of(min(a.w, b.w), box);
   vec4 mixture = a + share * ab;
-  for (uint k = 0; k < 8u; ++k) {
+  [[unroll]] for (uint k = 0; k < 8u; ++k) {
     vec3 x = box.half_sides * corner_sign(k);
     vec3 chord = apart + project(span_a, x) - project(span_b, x);
     if (length(chord) + slack >= 2.0 * sine * (mixture.w - dot(mixture.xyz, x) - bend - slack)) return true;
@@ -246,56 +246,62 @@ bool can_be_wide(uint i, uint j, float sine, Box box) {
   return false;
 }
 
-// Corners of a carrier, the last repeated.
-void corners_of(uint name, out vec3 p[3], out uint count) {
+// Corners of a carrier: edges repeat one, vertices two.
+void corners_of(uint name, out vec3 p[3]) {
   TriangleTexels t = load_triangle(name / 8u);
   uint kind = name % 8u;
-  p[0] = t.a.xyz;
-  p[1] = corner_of(t, 1u);
-  p[2] = corner_of(t, 2u);
-  count = 3u;
-  if (kind >= kFirstEdge && kind < kFirstCorner) {
-    uint k = kind - kFirstEdge;
-    vec3 first = corner_of(t, k), second = corner_of(t, k == 2u ? 0u : k + 1u);
-    p[0] = first;
-    p[1] = second;
-    count = 2u;
-  } else if (kind >= kFirstCorner && kind < kWhole) {
-    p[0] = corner_of(t, kind - kFirstCorner);
-    count = 1u;
-  }
+  vec3 a = t.a.xyz, b = corner_of(t, 1u), c = corner_of(t, 2u);
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kWhole;
+  uint first = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
+  p[0] = first == 0u ? a : first == 1u ? b : c;
+  p[1] = is_corner ? p[0] : first == 0u ? b : first == 1u ? c : a;
+  p[2] = is_edge ? p[1] : is_corner ? p[0] : c;
 }
 
-// Lemma E: chords from carrier i to carrier j that make an angle with a normal at i as a salient pair does.
-bool can_face(uint i, uint j, float sine) {
-  uint name = carrier_name[i], kind = name % 8u;
-  if (kind >= kFirstCorner) return true;  // vertices and untrusted triangles: not asked
-  vec3 p[3], q[3];
-  uint p_count, q_count;
-  corners_of(name, p, p_count);
-  corners_of(carrier_name[j], q, q_count);
-  vec3 mean = vec3(0.0);
-  for (uint a = 0; a < p_count; ++a)
-    for (uint b = 0; b < q_count; ++b) mean += unit_or_zero(q[b] - p[a]);
-  mean = unit_or_zero(mean);
+// Lemma E at one end: what the chords must reach for an edge or a face, or a bound that all reach.
+struct Facing {
   vec3 normal, other;
-  normals_of(name, normal, other);
-  float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(normal, other)));  // of the cap around both normals
-  if (cos_phi < kLeastCosPhi) return true;
-  float least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
-  float most = -1.0;
-  bool behind = false, bounded = true;
-  for (uint a = 0; a < p_count; ++a)
-    for (uint b = 0; b < q_count; ++b) {
-      vec3 chord = q[b] - p[a];
-      if (dot(chord, chord) == 0.0) continue;  // a corner of both
-      float depth = max(-dot(normal, chord), -dot(other, chord)) + step.slack;
-      float along = dot(chord, mean) - step.slack;
-      behind = behind || depth > 2.0 * step.slack;
-      bounded = bounded && along > 0.0;
-      most = max(most, depth / max(along, 1e-30));
-    }
-  return behind && (!bounded || most >= least);
+  float least;  // -n.c that a salient pair has
+  bool asked;
+};
+
+Facing facing_of(uint name, float sine) {
+  Facing f = Facing(vec3(0.0), vec3(0.0), 0.0, false);
+  if (name % 8u >= kFirstCorner) return f;  // vertices and untrusted triangles
+  normals_of(name, f.normal, f.other);
+  float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(f.normal, f.other)));  // of the cap around both normals
+  f.least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
+  f.asked = cos_phi >= kLeastCosPhi;
+  return f;
+}
+
+// Lemma E: may both face each other along some chord?
+bool can_face(uint i, uint j, float sine) {
+  Facing a = facing_of(carrier_name[i], sine), b = facing_of(carrier_name[j], sine);
+  if (!a.asked && !b.asked) return true;
+  vec3 p[3], q[3], mean = vec3(0.0);
+  corners_of(carrier_name[i], p);
+  corners_of(carrier_name[j], q);
+  [[unroll]] for (uint k = 0; k < 9u; ++k) mean += unit_or_zero(q[k % 3u] - p[k / 3u]);
+  mean = unit_or_zero(mean);
+  float most_a = -1.0, most_b = -1.0;
+  bool behind_a = false, behind_b = false, bounded = true;
+  [[unroll]] for (uint k = 0; k < 9u; ++k) {
+    vec3 chord = q[k % 3u] - p[k / 3u];
+    bool apart = dot(chord, chord) > 0.0;  // else a corner of both
+    float along = dot(chord, mean) - step.slack;
+    float depth_a = max(-dot(a.normal, chord), -dot(a.other, chord)) + step.slack;
+    float depth_b = max(dot(b.normal, chord), dot(b.other, chord)) + step.slack;
+    bounded = bounded && (!apart || along > 0.0);
+    behind_a = behind_a || (apart && depth_a > 2.0 * step.slack);
+    behind_b = behind_b || (apart && depth_b > 2.0 * step.slack);
+    float inverse = apart ? 1.0 / max(along, 1e-30) : 0.0;
+    most_a = max(most_a, depth_a * inverse);
+    most_b = max(most_b, depth_b * inverse);
+  }
+  bool a_faces = !a.asked || (behind_a && (!bounded || most_a >= a.least));
+  bool b_faces = !b.asked || (behind_b && (!bounded || most_b >= b.least));
+  return a_faces && b_faces;
 }
 
 // Lemma F: a third carrier is nearer wherever these two tie.
@@ -313,7 +319,7 @@ bool is_beaten(uint i, uint j, Box box) {
 
 bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
   return can_turn(i, j, theta) && !is_beaten(i, j, box) && can_turn_between_normals(i, j, theta) &&
-         can_be_wide(i, j, sine, box) && can_face(i, j, sine) && can_face(j, i, sine);
+         can_be_wide(i, j, sine, box) && can_face(i, j, sine);
 }
 
 uint pair_count() { return kept_count * (max(kept_count, 1u) - 1u) / 2u; }
