@@ -38,6 +38,18 @@ class Certifier {
         epsilon_(parameters.epsilon * grid.voxel_size),
         rounding_(distance_rounding(bvh, longest_side)) {}
 
+  /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
+  /// (contacts of three sheets that nearly tie) double can.
+  bool certify_or_mend(MedialSphere& s) const {
+    const MedialSphere as_found = s;
+    if (certify(s)) return true;
+    for (const MedialSphere& mended : narrowed(as_found)) {
+      s = mended;
+      if (certify(s)) return true;
+    }
+    return false;
+  }
+
   /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
   bool certify(MedialSphere& s) const {
     if (!in_its_voxel(s)) return false;
@@ -70,6 +82,40 @@ class Certifier {
       magnitude = std::max({magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
     }
     return 32 * u * longest + 4 * u * magnitude;
+  }
+
+  struct End {
+    Point point, toward;
+    double distance;
+  };
+
+  End look(const Point& p) const {
+    const BvhHit nearest = bvh_.closest(p);
+    const double distance = std::sqrt(nearest.squared_distance);
+    return {p, (1 / std::max(distance, rounding_)) * (nearest.point - p), distance};
+  }
+
+  // The segment through the centre along the sheet's normal (equation 2.11), epsilon to both sides, bisected towards the
+  // larger turn until the growth test must hold (docs/theory.md, "How far to narrow"): a sphere at each end. None where
+  // the boundary is within twice epsilon, so that the ends lie in the solid if the centre does.
+  std::vector<MedialSphere> narrowed(const MedialSphere& s) const {
+    const Point across = widen(s.spoke_b) - widen(s.spoke_a);
+    if (norm(across) < 1e-3 || look(s.centre).distance <= 2 * epsilon_) return {};
+    const Point step = (epsilon_ / norm(across)) * across;
+    End p = look(s.centre - step), q = look(s.centre + step);
+    const double sine = std::sin(double{s.object_angle});
+    for (int i = 0; i < 64; ++i) {
+      const double distance = std::min(p.distance, q.distance);
+      if (norm(p.point - q.point) <= 0.5 * epsilon_ * sine * sine * distance / (distance + epsilon_)) break;
+      const End middle = look(0.5 * (p.point + q.point));
+      (dot(p.toward, middle.toward) < dot(middle.toward, q.toward) ? q : p) = middle;
+    }
+    MedialSphere at_p = s, at_q = s;
+    at_p.centre = p.point;
+    at_q.centre = q.point;
+    at_p.spoke_a = at_q.spoke_b = unit_float(p.toward);
+    at_p.spoke_b = at_q.spoke_a = unit_float(q.toward);
+    return {at_p, at_q};
   }
 
   static bool set_angle(MedialSphere& s) {
@@ -135,7 +181,7 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
   const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   const auto certify_part = [&](std::size_t part) {
     for (std::size_t i = part * spheres.size() / count; i < (part + 1) * spheres.size() / count; ++i)
-      passed[i] = certifier.certify(spheres[i]) ? 1 : 0;
+      passed[i] = certifier.certify_or_mend(spheres[i]) ? 1 : 0;
   };
   std::vector<std::thread> workers;
   for (std::size_t part = 1; part < count; ++part) workers.emplace_back(certify_part, part);

@@ -11,7 +11,7 @@ namespace medial_vk {
 
 struct CertifyReport {
   std::uint64_t passed = 0;
-  std::uint64_t rejected = 0;  ///< Dropped: counted as undecided voxels.
+  std::uint64_t rejected = 0;  ///< Dropped, as nothing on their sheet beside them passed: undecided voxels.
 };
 
 /// Recomputes radius and spoke a exactly at each centre as it will be written, rounds the radius down by a derived

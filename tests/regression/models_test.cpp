@@ -1,6 +1,7 @@
 // Real models, if their folder lies beside the source tree: closed ones and ones with holes, cracks and double walls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -42,6 +43,16 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
   EXPECT_GT(c.found, 500u);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  if (GetParam().closed) {
+    const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+    const double visited = static_cast<double>(c.levels[finest].visited);
+    const auto& undecided = result.extraction.undecided;
+    ASSERT_EQ(undecided.size(), c.undecided);
+    const auto other = std::count_if(undecided.begin(), undecided.end(),
+                                     [](const UndecidedVoxel& u) { return u.kind == UndecidedKind::kOther; });
+    EXPECT_LT(static_cast<double>(c.undecided), 0.01 * visited);
+    EXPECT_LT(static_cast<double>(other), 0.0005 * visited);
+  }
   // Balls that the device believed in and double precision did not: rounding, so hardly any.
   EXPECT_LE(result.certify.rejected, c.found / 100);
 }
