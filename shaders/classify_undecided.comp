@@ -17,7 +17,9 @@ layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
 layout(set = 0, binding = 5) readonly buffer CornerCones { vec4 corner_cones[]; };
 layout(set = 0, binding = 6) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
-#include "carriers.glsl"
+#include "pair_queue.glsl"
+
+shared uint is_feasible;
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
@@ -88,7 +90,10 @@ void main() {
   exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
            (step.last_level != 0u || is_hopeless(cell.flags));
   if (!exists) cell.list_count = 0u;
-  if (lane == 0u) shared_width = 0u;
+  if (lane == 0u) {
+    shared_width = 0u;
+    is_feasible = 0u;
+  }
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
   float d0 = length(vector_to_triangle(whole.centre, load_triangle(cell.nearest)));
   float theta = threshold_angle(d0, whole);

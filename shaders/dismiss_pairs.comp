@@ -15,7 +15,9 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
 layout(set = 0, binding = 5) readonly buffer CornerCones { vec4 corner_cones[]; };
 layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
-#include "carriers.glsl"
+#include "pair_queue.glsl"
+
+shared uint is_feasible;
 
 const float kParallel = 0.98;  // cosine above which aims at the same place count as one
 const float kNoAim = 3e38;
@@ -25,6 +27,7 @@ const uint kAimSlots = 32u;
 // The best pair of every kAimSlots-th: its key (as bits; no key is negative), and the pair, the first where keys tie.
 shared uint slot_key[kAimSlots];
 shared uint slot_pair[kAimSlots];
+shared uint slot_settled[kAimSlots];  // the key that the pair belongs to
 
 // Where the plane between two carriers crosses the cell (equation 2.11): at the point nearest to the centre, or, if
 // that is outside, towards the corner in its direction.
@@ -74,13 +77,22 @@ void rate_queue(float theta, float sine, Box box) {
     uint slot = queue[q] % kAimSlots;
     uvec2 pair = queued(q);
     uint key = floatBitsToUint(aim_between(pair.x, pair.y, step.half_side).base.w);
-    bool needed = key < slot_key[slot] || is_feasible == 0u;
+    // Ties are asked, so that the choice between them does not depend on who comes first.
+    bool needed = is_feasible == 0u || (key <= slot_key[slot] && key != floatBitsToUint(kNoAim));
     if (!needed || !is_feasible_pair(pair.x, pair.y, theta, sine, box)) {
       queue[q] = kNoPair;
       continue;
     }
     atomicOr(is_feasible, 1u);
     atomicMin(slot_key[slot], key);
+  }
+}
+
+void clear_improved_slots() {
+  for (uint slot = gl_LocalInvocationID.x; slot < kAimSlots; slot += gl_WorkGroupSize.x) {
+    if (slot_key[slot] == slot_settled[slot]) continue;
+    slot_settled[slot] = slot_key[slot];
+    slot_pair[slot] = kNoPair;
   }
 }
 
@@ -106,12 +118,16 @@ void main() {
   float theta = threshold_angle(d0, box), sine = sin(theta);
   for (uint slot = lane; slot < kAimSlots; slot += gl_WorkGroupSize.x) {
     slot_key[slot] = floatBitsToUint(kNoAim);
+    slot_settled[slot] = slot_key[slot];
     slot_pair[slot] = kNoPair;
   }
+  if (lane == 0u) is_feasible = 0u;
   if (decided) {
     for (uint first = 0; first < pair_count(); first += kQueueSize) {
       queue_pairs(first, theta);
       rate_queue(theta, sine, box);
+      barrier();
+      clear_improved_slots();
       barrier();
       settle_slots();
     }

@@ -95,9 +95,9 @@ class Certifier {
     return {p, (1 / std::max(distance, rounding_)) * (nearest.point - p), distance};
   }
 
-  // The segment through the centre along the sheet's normal (equation 2.11), epsilon to both sides, bisected towards the
-  // larger turn until the growth test must hold (docs/theory.md, "How far to narrow"): a sphere at each end. None where
-  // the boundary is within twice epsilon, so that the ends lie in the solid if the centre does.
+  // The segment through the centre along the sheet's normal (equation 2.11), epsilon to both sides, bisected towards
+  // the larger turn until the growth test must hold (docs/theory.md, "How far to narrow"): a sphere at each end. None
+  // where the boundary is within twice epsilon, so that the ends lie in the solid if the centre does.
   std::vector<MedialSphere> narrowed(const MedialSphere& s) const {
     const Point across = widen(s.spoke_b) - widen(s.spoke_a);
     if (norm(across) < 1e-3 || look(s.centre).distance <= 2 * epsilon_) return {};

@@ -1,0 +1,140 @@
+// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to H)?
+#ifndef MEDIAL_VK_CARRIER_PAIRS_GLSL
+#define MEDIAL_VK_CARRIER_PAIRS_GLSL
+#include "carriers.glsl"
+
+const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: docs/theory.md, "Rounding"
+
+// Lemmas C and D: can their spokes be 2 theta apart?
+bool can_turn(uint i, uint j, float theta) {
+  float left = 2.0 * (theta - kAngleSlack) - carrier_spokes[i].w - carrier_spokes[j].w;
+  return left <= 0.0 || dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz) <= cos(left) + kCosineSlack;
+}
+
+// The normals between which the spokes to a face or an edge lie.
+void normals_of(uint name, out vec3 first, out vec3 second) {
+  uint t = name / 8u, kind = name % 8u;
+  first = triangle_texel(4u * t + 3u).xyz;
+  second = first;
+  if (kind == kFace) return;
+  TriangleLinks l = links[t];
+  second = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
+}
+
+// The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
+// two arcs differ by no more than some two ends, if those are closer than that.
+bool can_turn_between_normals(uint i, uint j, float theta) {
+  if (carrier_name[i] % 8u >= kFirstCorner || carrier_name[j] % 8u >= kFirstCorner) return true;
+  vec3 a, b, c, d;
+  normals_of(carrier_name[i], a, b);
+  normals_of(carrier_name[j], c, d);
+  float least = min(min(dot(a, c), dot(a, d)), min(dot(b, c), dot(b, d)));
+  return least <= max(0.0, cos(2.0 * (theta - kAngleSlack))) + kCosineSlack;
+}
+
+// Where x goes when it is projected along with the centre.
+vec3 project(vec4 span, vec3 x) {
+  float along = dot(span.xyz, x);
+  return span.w == kPlane ? x - along * span.xyz : span.w == kLine ? along * span.xyz : vec3(0.0);
+}
+
+// Lemma H: can the feet be as far apart as the object angle asks, 2 D sin(theta), anywhere in the box? D is bounded by
+// a mixture of the two distances: the one whose gradient cancels best that of the feet's distance.
+bool can_be_wide(uint i, uint j, float sine, Box box) {
+  vec4 span_a = carrier_span[i], span_b = carrier_span[j];
+  if (span_a.w == kUnknownSpan || span_b.w == kUnknownSpan) return true;
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j], ab = b - a;
+  vec3 apart = carrier_foot[i].xyz - carrier_foot[j].xyz;
+  vec3 pull = unit_or_zero(apart);
+  pull = project(span_a, pull) - project(span_b, pull) + 2.0 * sine * a.xyz;
+  float share = clamp(-dot(pull, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
+  // Outside [0, 1] one distance counts negatively: Lemma F's upper bound of it.
+  float excess = max(max(-share, share - 1.0), 0.0);
+  float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
+  float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) + (1.0 + 2.0 * excess) * slack_of(min(a.w, b.w), box);
+  vec4 mixture = a + share * ab;
+  [[unroll]] for (uint k = 0; k < 8u; ++k) {
+    vec3 x = box.half_sides * corner_sign(k);
+    vec3 chord = apart + project(span_a, x) - project(span_b, x);
+    if (length(chord) + slack >= 2.0 * sine * (mixture.w - dot(mixture.xyz, x) - bend - slack)) return true;
+  }
+  return false;
+}
+
+// Corners of a carrier: edges repeat one, vertices two.
+void corners_of(uint name, out vec3 p[3]) {
+  TriangleTexels t = load_triangle(name / 8u);
+  uint kind = name % 8u;
+  vec3 a = t.a.xyz, b = corner_of(t, 1u), c = corner_of(t, 2u);
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kWhole;
+  uint first = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
+  p[0] = first == 0u ? a : first == 1u ? b : c;
+  p[1] = is_corner ? p[0] : first == 0u ? b : first == 1u ? c : a;
+  p[2] = is_edge ? p[1] : is_corner ? p[0] : c;
+}
+
+// Lemma E at one end: what the chords must reach for an edge or a face, or a bound that all reach.
+struct Facing {
+  vec3 normal, other;
+  float least;  // -n.c that a salient pair has
+  bool asked;
+};
+
+Facing facing_of(uint name, float sine) {
+  Facing f = Facing(vec3(0.0), vec3(0.0), 0.0, false);
+  if (name % 8u >= kFirstCorner) return f;  // vertices and untrusted triangles
+  normals_of(name, f.normal, f.other);
+  float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(f.normal, f.other)));  // of the cap around both normals
+  f.least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
+  f.asked = cos_phi >= kLeastCosPhi;
+  return f;
+}
+
+// Lemma E: may both face each other along some chord?
+bool can_face(uint i, uint j, float sine) {
+  Facing a = facing_of(carrier_name[i], sine), b = facing_of(carrier_name[j], sine);
+  if (!a.asked && !b.asked) return true;
+  vec3 p[3], q[3], mean = vec3(0.0);
+  corners_of(carrier_name[i], p);
+  corners_of(carrier_name[j], q);
+  [[unroll]] for (uint k = 0; k < 9u; ++k) mean += unit_or_zero(q[k % 3u] - p[k / 3u]);
+  mean = unit_or_zero(mean);
+  float most_a = -1.0, most_b = -1.0;
+  bool behind_a = false, behind_b = false, bounded = true;
+  [[unroll]] for (uint k = 0; k < 9u; ++k) {
+    vec3 chord = q[k % 3u] - p[k / 3u];
+    bool apart = dot(chord, chord) > 0.0;  // else a corner of both
+    float along = dot(chord, mean) - step.slack;
+    float depth_a = max(-dot(a.normal, chord), -dot(a.other, chord)) + step.slack;
+    float depth_b = max(dot(b.normal, chord), dot(b.other, chord)) + step.slack;
+    bounded = bounded && (!apart || along > 0.0);
+    behind_a = behind_a || (apart && depth_a > 2.0 * step.slack);
+    behind_b = behind_b || (apart && depth_b > 2.0 * step.slack);
+    float inverse = apart ? 1.0 / max(along, 1e-30) : 0.0;
+    most_a = max(most_a, depth_a * inverse);
+    most_b = max(most_b, depth_b * inverse);
+  }
+  bool a_faces = !a.asked || (behind_a && (!bounded || most_a >= a.least));
+  bool b_faces = !b.asked || (behind_b && (!bounded || most_b >= b.least));
+  return a_faces && b_faces;
+}
+
+// Lemma F: a third carrier is nearer wherever these two tie.
+bool is_beaten(uint i, uint j, Box box) {
+  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+  vec3 ab = b.xyz - a.xyz;
+  float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(carrier_error[i].x, carrier_error[j].x);
+  for (uint k = 0; k < min(kPairRivals, kept_count); ++k) {
+    uint c = carrier_order[k];
+    float share = clamp(dot(ab, carrier_nearest[c].xyz - a.xyz) * inverse, 0.0, 1.0);
+    if (c != i && c != j && beats(c, mix(a, b, share), slack, box)) return true;
+  }
+  return false;
+}
+
+bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
+  return can_turn(i, j, theta) && !is_beaten(i, j, box) && can_turn_between_normals(i, j, theta) &&
+         can_be_wide(i, j, sine, box) && can_face(i, j, sine);
+}
+
+#endif
