@@ -42,7 +42,7 @@ float pair_width(uint i, uint j, float nearest_distance, Box box) {
 
 // All lanes: the largest width of a pair, as float bits, in shared_width.
 void measure_width(float nearest_distance, float theta, Box box) {
-  float width = 0.0, sine = sin(theta);
+  float width = 0.0, sine = sin(theta - kAngleSlack);
   for (uint first = 0; first < pair_count(); first += kQueueSize) {
     queue_pairs(first, theta);
     for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
@@ -56,7 +56,7 @@ void measure_width(float nearest_distance, float theta, Box box) {
 
 // All lanes: kFeasible* in is_feasible.
 void test_pairs(float theta, Box box) {
-  float sine = sin(theta), larger = theta + kAngleMargin, larger_sine = sin(larger);
+  float sine = sin(theta - kAngleSlack), larger = theta + kAngleMargin, larger_sine = sin(larger - kAngleSlack);
   uint found = 0u;
   for (uint first = 0; first < pair_count(); first += kQueueSize) {
     queue_pairs(first, theta);
@@ -77,7 +77,7 @@ Box inner_part(Cell cell, Box whole, out bool exists) {
   vec3 corner = finest_voxel_corner(cell);
   vec3 lower = max(whole.centre - whole.half_sides, corner + margin);
   vec3 upper = min(whole.centre + whole.half_sides, corner + step.voxel_size - margin);
-  exists = all(lessThan(lower, upper));
+  exists = all(lessThan(lower + 1e-6, upper));  // half sides are rounded up by 3e-7
   vec3 half_sides = 0.5 * (upper - lower);
   return Box(0.5 * (lower + upper), half_sides, length(half_sides));
 }

@@ -19,7 +19,8 @@ layout(set = 0, binding = 8) writeonly buffer UndecidedCells { UndecidedCell und
 UndecidedCell describe(uint index) {
   Cell voxel = voxels[index];
   uvec2 reason = reasons[index];
-  return UndecidedCell(voxel.x, voxel.y, voxel.z, max(reason.x, 1u) - 1u, uintBitsToFloat(reason.y), 0u, 0u, 0u);
+  if (reason.x == 0u) reason = uvec2(kOtherReason + 1u, floatBitsToUint(2.0));  // nobody asked: wider than the box
+  return UndecidedCell(voxel.x, voxel.y, voxel.z, reason.x - 1u, uintBitsToFloat(reason.y), 0u, 0u, 0u);
 }
 
 void main() {

@@ -46,8 +46,8 @@ float violation(uint t, vec3 axis, out vec3 help, inout bool distrust) {
   float d = length(v), rho = step.circumradius;
   vec3 g = unit_or_zero(v);
   distrust = distrust || !trusted;
-  float spread = d > rho ? asin(min(1.0, (rho + 2.0 * step.slack) / d)) : 4.0;
-  float by_direction = spread < theta ? cos(theta - spread) - dot(g, axis) : 4.0;
+  float spread = d > rho ? asin(min(1.0, (rho + 2.0 * step.slack) / d)) + tilt_of(texels) : 4.0;
+  float by_direction = spread < theta ? cos(theta - spread) + 1e-6 - dot(g, axis) : 4.0;
   help = by_direction < by_normal ? g : texels.normal.xyz;
   return min(by_normal, by_direction);
 }

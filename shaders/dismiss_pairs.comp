@@ -115,7 +115,7 @@ void main() {
   Box box = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
   bool decided = gather_carriers(cell, box);
   float d0 = length(vector_to_triangle(box.centre, load_triangle(cell.nearest)));
-  float theta = threshold_angle(d0, box), sine = sin(theta);
+  float theta = threshold_angle(d0, box), sine = sin(theta - kAngleSlack);
   for (uint slot = lane; slot < kAimSlots; slot += gl_WorkGroupSize.x) {
     slot_key[slot] = floatBitsToUint(kNoAim);
     slot_settled[slot] = slot_key[slot];

@@ -48,13 +48,13 @@ bool touches_box(vec3 v, float d, Box box) {
 }
 
 // Lists a carrier whose nearest point is at centre + v, unless Lemma A or C shows that no spoke ends there.
-void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, uint name, Box box) {
+void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, float tilt, uint name, Box box) {
   float d = length(v);
   if (!touches_box(v, d, box)) return;
   vec3 g = unit_or_zero(v);
   float rho = box.circumradius + 2.0 * step.slack;
   if (d > rho) {
-    float wander = asin(rho / d) + kAngleSlack;
+    float wander = asin(rho / d) + tilt + kAngleSlack;
     float sum = wander + spokes.w;
     if (sum < 3.1 && dot(g, spokes.xyz) < cos(sum) - kCosineSlack) return;
     if (wander < spokes.w) spokes = vec4(g, wander);
@@ -77,14 +77,16 @@ void add_edge(uint t, TriangleTexels texels, uint k, uint neighbour, Box box) {
   vec3 sum = texels.normal.xyz + other;
   float size = length(sum);
   // Knife edges: the arc between opposite normals has no axis that float can tell.
-  vec4 arc = size > 1e-3 ? vec4(sum / size, asin(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
+  vec4 arc = size > 0.05 ? vec4(sum / size, asin(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
   float size_e = max(length(e), 1e-30);
   vec3 u = e / size_e;
-  float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + step.slack;
+  float tilt = 1.2e-7 / size_e, sway = tilt * length(box.centre - a);
+  float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + step.slack + sway;
   if (along < -reach || along > size_e + reach) return;  // no point of the box projects into the edge
-  vec4 foot = vec4(a + along * u - box.centre, step.slack * (1.0 + box.circumradius / size_e));
-  add_carrier(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), 8u * t + kFirstEdge + k, box);
+  vec4 foot = vec4(a + along * u - box.centre, step.slack * (1.0 + box.circumradius / size_e) + sway);
+  add_carrier(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), tilt, 8u * t + kFirstEdge + k,
+              box);
 }
 
 void add_carriers_of(uint t, Box box) {
@@ -93,19 +95,19 @@ void add_carriers_of(uint t, Box box) {
   if (!touches_box(v, length(v), box)) return;
   TriangleLinks l = links[t];
   if ((l.flags & kLinkWhole) != 0u || texels.normal.w < 0.5) {
-    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), 8u * t + kWhole, box);
+    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), 8u * t + kWhole, box);
     return;
   }
   vec3 n = texels.normal.xyz;
   vec4 foot = vec4(n * dot(n, texels.a.xyz - box.centre), step.slack);
-  add_carrier(v, vec4(n, kAngleSlack), foot, vec4(n, kPlane), 8u * t + kFace, box);
+  add_carrier(v, vec4(n, kAngleSlack), foot, vec4(n, kPlane), tilt_of(texels), 8u * t + kFace, box);
   uint neighbour[3] = uint[3](l.neighbour_0, l.neighbour_1, l.neighbour_2);
   uint corner[3] = uint[3](l.corner_0, l.corner_1, l.corner_2);
   for (uint k = 0; k < 3u; ++k) {
     if ((l.flags & (kLinkEdge << k)) != 0u) add_edge(t, texels, k, neighbour[k], box);
     vec3 to_corner = corner_of(texels, k) - box.centre;
     if ((l.flags & (kLinkCorner << k)) != 0u)
-      add_carrier(to_corner, corner_cones[corner[k]], vec4(to_corner, step.slack), vec4(kPoint),
+      add_carrier(to_corner, corner_cones[corner[k]], vec4(to_corner, step.slack), vec4(kPoint), 0.0,
                   8u * t + kFirstCorner + k, box);
   }
 }

@@ -9,6 +9,13 @@ layout(set = 0, binding = TRIANGLE_TEXEL_BINDING) uniform samplerBuffer triangle
 
 vec4 triangle_texel(uint i) { return kUseTexels ? texelFetch(triangle_texels, int(i)) : triangle_storage[i]; }
 
+// How far the rounding of its corners (6e-8 each) can turn a triangle, at most: docs/theory.md, "Rounding".
+float tilt_of(TriangleTexels t) {
+  vec3 bc = t.ac.xyz - t.ab.xyz;
+  float longest = max(dot(bc, bc), max(dot(t.ab.xyz, t.ab.xyz), dot(t.ac.xyz, t.ac.xyz)));
+  return min(1.2e-7 * sqrt(longest) / max(length(cross(t.ab.xyz, t.ac.xyz)), 1e-30), 1.0);
+}
+
 TriangleTexels load_triangle(uint t) {
   return TriangleTexels(triangle_texel(4 * t), triangle_texel(4 * t + 1), triangle_texel(4 * t + 2),
                         triangle_texel(4 * t + 3));
