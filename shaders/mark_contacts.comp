@@ -26,7 +26,7 @@ bool touches_cube(vec3 v, float d) {
   float most = -1.0;
   [[unroll]] for (uint k = 0; k < 8u; ++k)
     most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
-  return d - most <= distance_slack(d);
+  return d - most <= distance_slack(d, step.circumradius);
 }
 
 void main() {
@@ -37,16 +37,15 @@ void main() {
   uint entry = step.first_entry;
   if (entry >= parent.list_count) return;
   vec3 centre = cell_centre(child_coordinates(parent, child));
-  vec3 to_nearest = vector_to_triangle(centre, load_triangle(nearest[item].y));
+  TriangleTexels nearest_texels = load_triangle(nearest[item].y);
+  vec3 to_nearest = vector_to_triangle(centre, nearest_texels);
   float nearest_distance = length(to_nearest);
   vec3 nearest_direction = unit_or_zero(to_nearest);
   float radius = step.list_radius;
   bool far = nearest_distance > radius;
-  // dist(m, nearest) <= D0 - g0.x + |x|^2 / (2 D0): what curvature of the distance to a point adds.
-  TriangleTexels nearest_texels = load_triangle(nearest[item].y);
   [[unroll]] for (uint k = 0; k < 8u; ++k)
-    corner_distance[k] =
-        sqrt(squared_distance_to_triangle(centre + step.half_side * corner_sign(k), nearest_texels));
+    corner_distance[k] = sqrt(squared_distance_to_triangle(centre + step.half_side * corner_sign(k), nearest_texels));
+  // dist(m, nearest) <= D0 - g0.x + |x|^2 / (2 D0): what curvature of the distance to a point adds.
   float bend = far ? radius * radius / (2.0 * nearest_distance) : 0.0;
   uint end = min(parent.list_count, entry + kEntriesPerRound);
   uint word_count = (parent.list_count + 31u) / 32u;

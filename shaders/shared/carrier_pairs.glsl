@@ -51,7 +51,8 @@ bool can_be_wide(uint i, uint j, float sine, Box box) {
   // Outside [0, 1] one distance counts negatively: Lemma F's upper bound of it.
   float excess = max(max(-share, share - 1.0), 0.0);
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
-  float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) + (1.0 + 2.0 * excess) * slack_of(min(a.w, b.w), box);
+  float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) +
+                (1.0 + 2.0 * excess) * distance_slack(min(a.w, b.w), box.circumradius);
   vec4 mixture = a + share * ab;
   [[unroll]] for (uint k = 0; k < 8u; ++k) {
     vec3 x = box.half_sides * corner_sign(k);
@@ -73,10 +74,10 @@ void corners_of(uint name, out vec3 p[3]) {
   p[2] = is_edge ? p[1] : is_corner ? p[0] : c;
 }
 
-// Lemma E at one end: what the chords must reach for an edge or a face, or a bound that all reach.
+// Lemma E at one end, if it is asked there: the normals, and what -n.c must reach for one of them.
 struct Facing {
   vec3 normal, other;
-  float least;  // -n.c that a salient pair has
+  float least;
   bool asked;
 };
 

@@ -1,6 +1,6 @@
-// The carriers of a box: the faces, edges and vertices on which the spokes of its medial points can end (docs/theory.md,
-// Lemmas A, C and D). A workgroup gathers them, nearest first. Include after "triangles.glsl" and after declaring
-// `cells`, `lists`, `links` and `corner_cones`.
+// The carriers of a box: the faces, edges and vertices on which the spokes of its medial points can end
+// (docs/theory.md, Lemmas A, C and D). A workgroup gathers them, nearest first. Include after "triangles.glsl" and after
+// declaring `cells`, `lists`, `links` and `corner_cones`.
 #ifndef MEDIAL_VK_CARRIERS_GLSL
 #define MEDIAL_VK_CARRIERS_GLSL
 
@@ -27,20 +27,18 @@ shared uint kept_count;
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
 shared vec2 carrier_error[kMostCarriers];    // of the bound D - g.x: by rounding; above it, by bending (Lemma F)
-// The plane, line or point that a carrier spans: the projection of the centre on it (from the centre) and how wrong that
-// may be; a unit normal or direction, and which.
+// The plane, line or point that a carrier spans: the projection of the centre on it (from the centre) and how wrong
+// that may be; a unit normal or direction, and which.
 shared vec4 carrier_foot[kMostCarriers];
 shared vec4 carrier_span[kMostCarriers];
 const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
 shared float corner_distance[8];  // from the corners of the box to the triangle nearest to its centre
 float farthest_corner;            // the greatest of them
 
-float slack_of(float d, Box box) { return 4.0 * step.slack * (1.0 + box.circumradius / max(d, 1e-30)); }
-
 // Lemma A for a box.
 bool touches_box(vec3 v, float d, Box box) {
   vec3 h = box.half_sides * (v / max(d, 1e-30));
-  float least = d - slack_of(d, box);
+  float least = d - distance_slack(d, box.circumradius);
   if (farthest_corner + dot(abs(h), vec3(1.0)) < least) return false;
   for (uint k = 0; k < 8u; ++k)
     if (corner_distance[k] + dot(h, corner_sign(k)) >= least) return true;
@@ -64,7 +62,8 @@ void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, float tilt, uint nam
   carrier_name[slot] = name;
   carrier_nearest[slot] = vec4(g, d);
   carrier_spokes[slot] = spokes;
-  carrier_error[slot] = vec2(slack_of(d, box), 0.5 * box.circumradius * box.circumradius / max(d, 1e-30));
+  float rho_squared = box.circumradius * box.circumradius;
+  carrier_error[slot] = vec2(distance_slack(d, box.circumradius), 0.5 * rho_squared / max(d, 1e-30));
   carrier_foot[slot] = foot;
   carrier_span[slot] = span;
 }
@@ -159,9 +158,7 @@ void pack_carriers() {
 bool gather_carriers(Cell cell, Box box) {
   uint lane = gl_LocalInvocationID.x;
   barrier();
-  if (lane == 0u) {
-    carrier_count = 0u;
-  }
+  if (lane == 0u) carrier_count = 0u;
   TriangleTexels nearest = load_triangle(cell.nearest);
   for (uint k = lane; k < 8u; k += gl_WorkGroupSize.x)
     corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));

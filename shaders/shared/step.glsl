@@ -35,7 +35,7 @@ vec3 corner_sign(uint k) { return vec3(k & 1u, (k >> 1) & 1u, k >> 2) * 2.0 - 1.
 
 // Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g is wrong by up
 // to 2 slack / D.
-float distance_slack(float d) { return 4.0 * step.slack * (1.0 + step.circumradius / max(d, 1e-30)); }
+float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1.0 + circumradius / max(d, 1e-30)); }
 
 // Where the boundary itself passes through triangles whose normals prove nothing, subdividing follows the surface for
 // ever: one level below the finest voxel is enough.
