@@ -5,6 +5,7 @@
 // undecided means")? The pairs of carriers that remain bound its width (equation 3.1), and the same test on the part of
 // the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. One workgroup
 // per cell; a voxel takes the gravest reason and the largest width of its cells.
+#include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 8
@@ -30,12 +31,10 @@ shared uint shared_width;
 
 // Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
 // expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
-float pair_width(uint i, uint j, float nearest_distance, Box box) {
-  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
   float rho = box.circumradius + step.slack;
-  float by_feet = distance(a.xyz * a.w, b.xyz * b.w) + 2.0 * rho;
-  float turn = acos(clamp(dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz), -1.0, 1.0)) + carrier_spokes[i].w +
-               carrier_spokes[j].w + 1e-3;
+  float by_feet = distance(a.nearest.xyz * a.nearest.w, b.nearest.xyz * b.nearest.w) + 2.0 * rho;
+  float turn = acos(clamp(dot(a.spokes.xyz, b.spokes.xyz), -1.0, 1.0)) + a.spokes.w + b.spokes.w + 1e-3;
   float by_turn = 2.0 * (nearest_distance + rho) * sin(min(0.5 * turn, 1.5707964));
   return min(by_feet, by_turn);
 }
@@ -43,12 +42,14 @@ float pair_width(uint i, uint j, float nearest_distance, Box box) {
 // All lanes: the largest width of a pair, as float bits, in shared_width.
 void measure_width(float nearest_distance, float theta, Box box) {
   float width = 0.0, sine = sin(theta - kAngleSlack);
-  for (uint first = 0; first < pair_count(); first += kQueueSize) {
-    queue_pairs(first, theta);
-    for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
-      uvec2 pair = queued(q);
-      float more = pair_width(pair.x, pair.y, nearest_distance, box);
-      if (more > width && is_feasible_pair(pair.x, pair.y, theta, sine, box)) width = more;
+  start_pairs();
+  while (has_more_blocks()) {
+    fill_queue(theta, box);
+    while (has_enough_queued()) {
+      Carrier a, b;
+      bool exists = take_pair(a, b);
+      float more = pair_width(a, b, nearest_distance, box);
+      if (exists && more > width && is_feasible_survivor(a, b, theta, sine, box)) width = more;
     }
   }
   atomicMax(shared_width, floatBitsToUint(width));
@@ -58,17 +59,18 @@ void measure_width(float nearest_distance, float theta, Box box) {
 void test_pairs(float theta, Box box) {
   float sine = sin(theta - kAngleSlack), larger = theta + kAngleMargin, larger_sine = sin(larger - kAngleSlack);
   uint found = 0u;
-  for (uint first = 0; first < pair_count(); first += kQueueSize) {
-    queue_pairs(first, theta);
-    for (uint q = gl_LocalInvocationID.x; q < queue_count && found < kFeasibleAtLargerAngle; q += gl_WorkGroupSize.x) {
-      uvec2 pair = queued(q);
-      if (found == kFeasible && !can_turn(pair.x, pair.y, larger)) continue;
-      if (!is_feasible_pair(pair.x, pair.y, theta, sine, box)) continue;
-      bool also = is_feasible_pair(pair.x, pair.y, larger, larger_sine, box);
-      found = also ? kFeasible | kFeasibleAtLargerAngle : kFeasible;
+  start_pairs();
+  while (has_more_blocks() && found < kFeasibleAtLargerAngle) {
+    fill_queue(theta, box);
+    while (has_enough_queued() && found < kFeasibleAtLargerAngle) {
+      Carrier a, b;
+      bool feasible = take_pair(a, b);
+      feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
+      bool also = feasible && can_turn(a, b, larger) && is_feasible_survivor(a, b, larger, larger_sine, box);
+      found = or_of_lanes(found | (feasible ? kFeasible : 0u) | (also ? kFeasibleAtLargerAngle : 0u));
     }
   }
-  atomicOr(is_feasible, found);
+  is_feasible = found;
 }
 
 // The part of a cell that is farther than the margin from the faces of its voxel.
@@ -89,7 +91,7 @@ void main() {
   Cell cell = cells[exists ? index : 0u];
   exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
            (step.last_level != 0u || is_hopeless(cell.flags));
-  if (!exists) cell.list_count = 0u;
+  if (!exists) cell.touching = 0u;
   if (lane == 0u) {
     shared_width = 0u;
     is_feasible = 0u;
