@@ -20,15 +20,9 @@ layout(set = 0, binding = 6) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 #include "pair_queue.glsl"
 
-shared uint is_feasible;
-
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
-const uint kFeasible = 1u, kFeasibleAtLargerAngle = 2u;
-
-shared uint shared_width;
-
 // Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
 // expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
 float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
@@ -39,38 +33,29 @@ float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
   return min(by_feet, by_turn);
 }
 
-// All lanes: the largest width of a pair, as float bits, in shared_width.
-void measure_width(float nearest_distance, float theta, Box box) {
-  float width = 0.0, sine = sin(theta - kAngleSlack);
+// What a box may hold: whether its carriers could be listed, whether a pair of them is feasible, and its width.
+struct Remains {
+  bool decided, feasible;
+  float width;
+};
+
+// All lanes: all pairs if the width is wanted, else until one is feasible.
+Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bool wants_width) {
+  Remains r = Remains(gather_carriers(cell, box), false, 0.0);
+  float sine = sin(theta - kAngleSlack);
   start_pairs();
-  while (has_more_blocks()) {
+  while (r.decided && has_more_blocks() && (wants_width || !r.feasible)) {
     fill_queue(theta, box);
     while (has_enough_queued()) {
       Carrier a, b;
-      bool exists = take_pair(a, b);
-      float more = pair_width(a, b, nearest_distance, box);
-      if (exists && more > width && is_feasible_survivor(a, b, theta, sine, box)) width = more;
-    }
-  }
-  atomicMax(shared_width, floatBitsToUint(width));
-}
-
-// All lanes: kFeasible* in is_feasible.
-void test_pairs(float theta, Box box) {
-  float sine = sin(theta - kAngleSlack), larger = theta + kAngleMargin, larger_sine = sin(larger - kAngleSlack);
-  uint found = 0u;
-  start_pairs();
-  while (has_more_blocks() && found < kFeasibleAtLargerAngle) {
-    fill_queue(theta, box);
-    while (has_enough_queued() && found < kFeasibleAtLargerAngle) {
-      Carrier a, b;
       bool feasible = take_pair(a, b);
       feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
-      bool also = feasible && can_turn(a, b, larger) && is_feasible_survivor(a, b, larger, larger_sine, box);
-      found = or_of_lanes(found | (feasible ? kFeasible : 0u) | (also ? kFeasibleAtLargerAngle : 0u));
+      r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
+      r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
     }
   }
-  is_feasible = found;
+  r.width = -least_of_lanes(-r.width);
+  return r;
 }
 
 // The part of a cell that is farther than the margin from the faces of its voxel.
@@ -92,28 +77,25 @@ void main() {
   exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
            (step.last_level != 0u || is_hopeless(cell.flags));
   if (!exists) cell.touching = 0u;
-  if (lane == 0u) {
-    shared_width = 0u;
-    is_feasible = 0u;
-  }
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
   float d0 = length(vector_to_triangle(whole.centre, load_triangle(cell.nearest)));
   float theta = threshold_angle(d0, whole);
-  bool decided = gather_carriers(cell, whole);
-  if (decided) measure_width(d0, theta, whole);
-  barrier();
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
-  bool inner_decided = gather_carriers(cell, inner);
-  if (inner_decided) test_pairs(theta, inner);
-  barrier();
+  // The whole cell; its inner part; its inner part at a larger angle.
+  Remains found[3];
+  for (uint k = 0; k < 3u; ++k) {
+    Box box = whole;
+    if (k > 0u) box = inner;
+    found[k] = what_remains(cell, box, k == 2u ? theta + kAngleMargin : theta, d0, k == 0u);
+  }
   if (lane != 0u || !exists) return;
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
-  float width = decided ? min(bound, uintBitsToFloat(shared_width)) : bound;
+  float width = found[0].decided ? min(bound, found[0].width) : bound;
   bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
   uint kind = close || is_hopeless(cell.flags) ? kAtBoundary : kOtherReason;
-  if (inner_decided && (is_feasible & kFeasibleAtLargerAngle) == 0u) kind = kNearAngle;
-  if (!has_inner || (inner_decided && is_feasible == 0u)) kind = kNearFace;
+  if (found[2].decided && !found[2].feasible) kind = kNearAngle;
+  if (!has_inner || (found[1].decided && !found[1].feasible)) kind = kNearFace;
   atomicMax(reasons[cell.voxel].x, kind + 1u);
   atomicMax(reasons[cell.voxel].y, floatBitsToUint(width));
 }

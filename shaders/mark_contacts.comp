@@ -7,7 +7,8 @@
 //
 // The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the nearest
 // triangle: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey
-// no common axis, and is left open for dismiss_cells.comp else.
+// no common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest
+// triangles tell it (docs/theory.md, "Outside").
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -21,14 +22,18 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
-// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the nearest triangle; and
-// whether one of them has no trusted normal.
+// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the nearest triangle; what
+// has been seen (kSeen*).
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 // Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the nearest triangle.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
+
+const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
+// One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
+const uint kSeenInFront = 2u, kSeenBehind = 4u;
 
 float corner_distance[8];  // from the corners of the cube to the triangle nearest to its centre
 
@@ -57,6 +62,12 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 #endif
 }
 
+// Of a triangle that may be the nearest: on which side of it the centre may be, given how far that is behind its plane.
+uint sides_seen(float depth, bool trusted) {
+  float clear = 4.0 * step.slack;
+  return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
+}
+
 bool is_in_grid(uvec3 coordinates) {
   return step.depth > 0u ||
          all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
@@ -69,13 +80,20 @@ void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, fl
   float theta = dismissal_angle(nearest_distance);
   bool is_empty = least_cosine > cos(theta) + kAxisSlack;
   uint flags = parent_flags & kCellInside;
-  if (count.w != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
+  if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
+  bool asks = must_ask_side(flags, nearest_distance);
+  if (asks && step.closed != 0u) {
+    bool inside = (count.w & kSeenInFront) == 0u, outside = (count.w & kSeenBehind) == 0u;
+    flags |= inside ? kCellInside : 0u;
+    is_empty = is_empty || outside;
+    asks = !inside;
+  }
   states[item] = is_empty ? uvec4(0u) : uvec4(1u, count.x, (count.x + 31u) / 32u, flags);
   bool is_kept = !is_empty && incompatible(obedience_of(nearest_triangle, centre, theta),
                                            obedience_of(count.z, centre, theta));
   // Their order does not matter: every answer goes to its own state.
   if (!is_empty && !is_kept) open[atomicAdd(counters[kOpen], 1u)] = item;
-  if (is_kept && must_ask_side(flags, nearest_distance)) asked[atomicAdd(counters[kAsked], 1u)] = item;
+  if (is_kept && asks) asked[atomicAdd(counters[kAsked], 1u)] = item;
 }
 
 void main() {
@@ -122,7 +140,8 @@ void main() {
       bool trusted = texels.normal.w > 0.5;
       float cosine = trusted ? dot(texels.normal.xyz, nearest_texels.normal.xyz) : -2.0;
       count.z = touches && cosine < axis.w ? name_of_lane(mine_name, min(first + k, last), k) : count.z;
-      count.w |= touches && !trusted ? 1u : 0u;
+      count.w |= touches && !trusted ? kSeenUntrusted : 0u;
+      count.w |= excess <= 0.0 ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
       axis.xyz += touches ? texels.normal.xyz : vec3(0.0);
       axis.w = touches ? min(axis.w, cosine) : axis.w;
     }

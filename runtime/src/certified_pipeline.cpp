@@ -264,7 +264,7 @@ CertifiedPipeline::Kernel CertifiedPipeline::pair_kernel(const char* shader, con
                                       level.lists->range(),          counters_.range(),
                                       mesh_->triangle_links.range(), mesh_->corner_cones.range()};
   buffers.insert(buffers.end(), more.begin(), more.end());
-  return {shader, std::move(buffers), Reads::kTriangles, {}, kPairLanes, Lanes::kEight};
+  return {shader, std::move(buffers), Reads::kTriangles, {}, kEightLanes, Lanes::kEight};
 }
 
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,

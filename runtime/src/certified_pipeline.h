@@ -92,7 +92,7 @@ class CertifiedPipeline {
   // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
   // texel views follow its buffers.
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
-  static constexpr std::uint32_t kPairLanes = 8;  // of a workgroup that lists carriers
+  static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup for one cell
   // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
   enum class Lanes : std::uint32_t { kAlone, kEight };
   // One kernel over counter * multiplier / divisor invocations.

@@ -63,10 +63,11 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
       {treelets_.range(), counters_.range(), states_.range(), offsets_.range(), cells_[0].range(), lists_[0].range()},
       Reads::kNoMesh,
       {0},
-      256};
+      kEightLanes,
+      Lanes::kEight};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
-  const Extent groups{gpu::kParents, 256};
+  const Extent groups{gpu::kParents, kEightLanes};
   run(r, count_entries, groups, step);
   Kernel side = side_kernel("decide_side",
                             {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});
@@ -136,7 +137,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   r.begin_stage("pairs");
-  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kPairLanes}, step);
+  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kEightLanes}, step);
   r.begin_stage("search");
   const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
   run(r,
@@ -196,7 +197,7 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
 void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   if (step.last_level == 0u && !(step.depth >= 1 && mesh_->has_untrusted)) return;
   r.begin_stage("classification");
-  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kPairLanes},
+  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kEightLanes},
       step);
 }
 

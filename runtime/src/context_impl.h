@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class Context::Impl {
   /// The program for this shader and these specialization constants; made once, kept until the context ends.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.
   Result<const Program*> program(const ProgramKey& key);
+  /// Makes those of them that are missing, on all processors. Errors: as program(), of the first that fails.
+  Status make_programs(const std::set<ProgramKey>& keys);
 
  private:
   friend class Context;
@@ -62,6 +65,8 @@ class Context::Impl {
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
+  const EmbeddedShader* shader(const std::string& name) const;
+  Result<std::unique_ptr<Program>> build_program(const ProgramKey& key) const;
   void destroy_programs();
 
   Instance instance_;  // owns `instance`

@@ -205,7 +205,7 @@ void order_unbeaten(uint lane, Box box) {
     Carrier mine = load_carrier(slot);
     float slack = error_of(mine, box).x;
     bool keep = first + lane < carrier_count;
-    [[unroll]] for (uint k = 0; k < kRivals; ++k) {
+    for (uint k = 0; k < min(kRivals, carrier_count); ++k) {
       Carrier rival = CARRIER_OF_LANE(nearest_row, ranked, 0u, k);
       keep = keep && (k >= first + lane || !beats(rival, mine.nearest, slack, box));
     }

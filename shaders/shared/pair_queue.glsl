@@ -35,10 +35,10 @@ uint turning_partners(Carrier mine, Carrier row, float theta) {
   bool is_same_row = next_row == next_other_row;
   bool exists = kLanes * next_row + lane < kept_count;
   uint mask = 0u;
-  for (uint r = 0; r < kLanes; ++r) {
+  for (uint r = is_same_row ? 1u : 0u; r < (is_same_row ? 5u : kLanes); ++r) {
     uint k = (lane + r) % kLanes;
     Carrier other = CARRIER_OF_LANE(row, carrier_order, kLanes * next_other_row, k);
-    bool is_pair = !is_same_row || (r >= 1u && (r < 4u || (r == 4u && lane < 4u)));
+    bool is_pair = !is_same_row || r < 4u || lane < 4u;
     bool asked = is_pair && exists && kLanes * next_other_row + k < kept_count;
     mask |= asked && can_turn(mine, other, theta) ? 1u << r : 0u;
   }
