@@ -4,14 +4,15 @@
 // Cells that the search leaves: what must a salient medial point that hides there be like (docs/theory.md, "What
 // undecided means")? The pairs of carriers that remain bound its width (equation 3.1), and the same test on the part of
 // the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. One workgroup
-// per cell; a voxel takes the gravest reason and the largest width of its cells.
+// per cell; a voxel takes the gravest reason and the largest width of its cells. Above the last level only cells that can
+// hide nothing else are given up; the others are left to be subdivided.
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 8
 #include "triangles.glsl"
 
-layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 1) buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
@@ -22,6 +23,7 @@ layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, 
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
+const float kSettleMargin = 0.02;  // above the last level: what is given up is at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 // Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
 // expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
@@ -74,28 +76,32 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   bool exists = index < counters[kCells];
   Cell cell = cells[exists ? index : 0u];
+  bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
   exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
-           (step.last_level != 0u || is_hopeless(cell.flags));
+           (gives_up || step.settles != 0u);
   if (!exists) cell.touching = 0u;
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
   float d0 = length(vector_to_triangle(whole.centre, load_triangle(cell.nearest)));
   float theta = threshold_angle(d0, whole);
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
-  // The whole cell; its inner part; its inner part at a larger angle.
+  // Its inner part at a larger angle; its inner part; the whole cell.
+  float margin = gives_up ? kAngleMargin : kSettleMargin;
   Remains found[3];
   for (uint k = 0; k < 3u; ++k) {
-    Box box = whole;
-    if (k > 0u) box = inner;
-    found[k] = what_remains(cell, box, k == 2u ? theta + kAngleMargin : theta, d0, k == 0u);
+    Box box = inner;
+    if (k == 2u) box = whole;
+    found[k] = what_remains(cell, box, k == 0u ? theta + margin : theta, d0, k == 2u);
+    if (!gives_up && has_inner && (!found[0].decided || found[0].feasible)) return;
   }
   if (lane != 0u || !exists) return;
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
-  float width = found[0].decided ? min(bound, found[0].width) : bound;
+  float width = found[2].decided ? min(bound, found[2].width) : bound;
   bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
   uint kind = close || is_hopeless(cell.flags) ? kAtBoundary : kOtherReason;
-  if (found[2].decided && !found[2].feasible) kind = kNearAngle;
+  if (found[0].decided && !found[0].feasible) kind = kNearAngle;
   if (!has_inner || (found[1].decided && !found[1].feasible)) kind = kNearFace;
+  if (!gives_up) cells[index].flags |= kCellSettled;
   atomicMax(reasons[cell.voxel].x, kind + 1u);
   atomicMax(reasons[cell.voxel].y, floatBitsToUint(width));
 }

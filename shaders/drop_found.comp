@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // After the search of a level: cells of voxels that have their point are done. What is left is subdivided, or stays
-// undecided: at the last level, or where subdividing is hopeless.
+// undecided: at the last level, or where subdividing is hopeless or settles nothing.
 #include "step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
@@ -15,7 +15,8 @@ void main() {
   uint voxel = cells[index].voxel;
   bool found = (verdicts[voxel] & kVerdictFound) != 0u;
   bool done = found || (cells[index].flags & kCellEmpty) != 0u;
-  bool last = step.last_level != 0u || is_hopeless(cells[index].flags);
+  uint flags = cells[index].flags;
+  bool last = step.last_level != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u;
   if (!done && last) atomicOr(verdicts[voxel], kVerdictUndecided);
   states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

@@ -5,9 +5,9 @@
 // the aims that the dismissal by pairs left. Where it could not list all carriers, six scouts look through the contacts
 // instead: the sheet between the nearest one (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right
 // angles by the line through the centre along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it; each
-// proposes its best line, and lines nearly parallel to a better one are given up. The seventh lane aims at the point
-// where the contacts tie: curves of the medial surface, such as the axis of a round tube, are thinner than any set of
-// lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
+// proposes its best line, and lines nearly parallel to a better one are given up. The sixth lane, if it is free, and the
+// seventh aim at the point where the contacts tie: curves of the medial surface, such as the axis of a round tube, are
+// thinner than any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -21,9 +21,9 @@ layout(set = 0, binding = 4) readonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
 
 const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
-const uint kScoutLanes = 6, kTieLane = 6, kDeepLane = 7;
+const uint kScoutLanes = 6, kSecondTieLane = 5, kTieLane = 6, kDeepLane = 7;
 const uint kTieEntries = 64;      // contacts that the tie is computed from
-const uint kTieSteps = 3;
+const uint kTieSteps = 3;         // and two more below the finest level
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kNoLine = 3e38;
 
@@ -59,7 +59,7 @@ vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
   vec3 x = vec3(0.0);
   float nearest_distance = d0;
   uint stride = kLinesPerCell * (1u + cell.touching / kTieEntries);
-  for (uint k = 0; k < kTieSteps; ++k) {
+  for (uint k = 0; k < kTieSteps + 2u * min(step.depth, 1u); ++k) {
     vec4 directions = vec4(0.0), mixed = vec4(0.0);  // sums of w (g, 1) and w d (g, 1)
     vec4 squares = vec4(0.0), products = vec4(0.0);  // sums of w g g^T: diagonal; xy, xz, yz
     float least = 3e38;
@@ -88,6 +88,36 @@ vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
     x *= min(1.0, step.circumradius / max(length(x), 1e-30));
   }
   return x;
+}
+
+// Of the contacts that tie at a point within epsilon, the direction that differs most from g. All lanes call it.
+vec3 opposite_direction(Cell cell, uint lane, vec3 point, float nearest_distance, vec3 g) {
+  uint stride = kLinesPerCell * (1u + cell.touching / kTieEntries);
+  vec3 opposite = g;
+  float least = 1.0;
+  for (uint entry = lane; entry < cell.touching; entry += stride) {
+    vec3 v = vector_to_triangle(point, load_triangle(lists[cell.list_begin + entry]));
+    float d = length(v), cosine = dot(v, g) / max(d, 1e-30);
+    bool better = d <= nearest_distance + step.epsilon && cosine < least;
+    opposite = better ? v / max(d, 1e-30) : opposite;
+    least = better ? cosine : least;
+  }
+  bool is_least = least == least_of_lanes(least);
+  vec4 sum = sum_of_lanes(is_least ? vec4(opposite, 1.0) : vec4(0.0));
+  return sum.xyz / max(sum.w, 1.0);
+}
+
+// The normal of the sheet between the two contacts at the tie whose spokes differ most, or as good as most.
+vec3 widest_turn(Cell cell, uint lane, vec3 point) {
+  float nearest_distance = 3e38;
+  for (uint entry = lane; entry < cell.touching; entry += kLinesPerCell)
+    nearest_distance =
+        min(nearest_distance, squared_distance_to_triangle(point, load_triangle(lists[cell.list_begin + entry])));
+  nearest_distance = sqrt(least_of_lanes(nearest_distance));
+  vec3 a = opposite_direction(cell, lane, point, nearest_distance, vec3(0.0));
+  vec3 b = opposite_direction(cell, lane, point, nearest_distance, a);
+  a = opposite_direction(cell, lane, point, nearest_distance, b);
+  return unit_or_zero(a - b);
 }
 
 // The part of the line through centre + base that lies in the cell's ball and in the finest voxel, both enlarged by
@@ -137,12 +167,16 @@ void main() {
       best = Candidate(aim.direction.xyz, aim.direction.w > 0.0 ? 0.0 : kNoLine);
     }
     if (!aimed && lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
-    if (lane >= kTieLane) best = Candidate(g0, 1e30);
+    if (lane == kDeepLane) best = Candidate(g0, 1e30);
   }
-  vec3 tie = step_to_tie(cell, lane, centre, d0);
-  if (open && lane == kTieLane) base = tie;
+  vec3 tie = step_to_tie(cell, lane, centre, d0), across = widest_turn(cell, lane, centre + tie);
+  bool takes_tie = lane == kTieLane || (lane == kSecondTieLane && best.key == kNoLine && step.depth > 0u);
+  if (open && takes_tie) {
+    base = tie;
+    best = Candidate(lane == kSecondTieLane && dot(across, across) > 0.0 ? across : g0, 1e30);
+  }
   // Lines that do not go through the centre stand for themselves.
-  bool alone = dot(base, base) > 0.0 || lane == kTieLane;
+  bool alone = dot(base, base) > 0.0 || takes_tie;
   proposals[slot] = alone ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);
   barrier();
   if (!exists) return;

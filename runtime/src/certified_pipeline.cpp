@@ -22,6 +22,10 @@ constexpr float kSlack = 2e-6f;
 // Centres of cells are rounded three times: at most 3 * 2^-25 a coordinate.
 constexpr double kCentreError = 3e-7;
 
+// Below the finest voxel, the number of cells along a sheet that runs on a face of its voxel, or whose angle is the
+// threshold, grows fourfold with every level. Those smaller than this that can hide nothing else are not subdivided.
+constexpr double kSettleSize = 1.0 / 4096;
+
 const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
@@ -179,6 +183,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.depth = below ? level - coarse_levels_ : 0u;
   step.level = level;
   step.closed = mesh_->closed ? 1u : 0u;
+  step.settles = below && size < kSettleSize ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
   step.half_side = static_cast<float>(size / 2 + kCentreError);
   // At the finest level lines are asked among the contacts that touch: they reach 2 epsilon beyond the voxel.

@@ -5,7 +5,9 @@
 #define MEDIAL_VK_CARRIERS_GLSL
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
-const uint kMostFeatures = 512u;  // nor are those with contacts of more features
+const uint kMostEntries = 8192u;  // nor are those with more contacts
+// Contacts whose features are listed at a time, and features of a contact: at most a face, three edges, three vertices.
+const uint kEntriesAtOnce = 64u, kMostFeatures = 7u * kEntriesAtOnce;
 // What kind of carrier, in the low bits of its name: a trusted face, an edge 1 to 3, a vertex 4 to 6 of its triangle,
 // or an untrusted triangle as a whole.
 const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kWhole = 7u;
@@ -129,8 +131,7 @@ void list_features(uint t) {
   uint kinds = whole ? 1u << kWhole : 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
   uint slot = atomicAdd(feature_count, uint(bitCount(kinds)));
   while (kinds != 0u) {
-    if (slot < kMostFeatures) feature_name[slot] = 8u * t + uint(findLSB(kinds));
-    ++slot;
+    feature_name[slot++] = 8u * t + uint(findLSB(kinds));
     kinds &= kinds - 1u;
   }
 }
@@ -219,14 +220,21 @@ void order_unbeaten(uint lane, Box box) {
 // Lists the features of the contacts that touch the cell (the first of its list), then those that carry spokes. In two
 // passes, so that all lanes have work in the second, which is dear.
 void list_carriers(uint lane, Cell cell, Box box) {
-  for (uint i = lane; i < cell.touching; i += kLanes) list_features(lists[cell.list_begin + i]);
-  synchronize();
-  uint count = min(feature_count, kMostFeatures);
-  for (uint i = lane; i < count; i += kLanes) {
-    uint name = feature_name[i];
-    add_carrier(feature_named(name, box), name, box);
+  uint begin = 0u;
+  for (;;) {
+    uint end = min(begin + kEntriesAtOnce, cell.touching);
+    for (uint i = begin + lane; i < end; i += kLanes) list_features(lists[cell.list_begin + i]);
+    synchronize();
+    for (uint i = lane; i < feature_count; i += kLanes) {
+      uint name = feature_name[i];
+      add_carrier(feature_named(name, box), name, box);
+    }
+    synchronize();
+    begin = end;
+    if (begin >= cell.touching || carrier_count > kMostCarriers) return;
+    if (lane == 0u) feature_count = 0u;
+    synchronize();
   }
-  synchronize();
 }
 
 void measure_corners(uint lane, TriangleTexels nearest, Box box) {
@@ -251,9 +259,9 @@ bool gather_carriers(Cell cell, Box box) {
   }
   synchronize();
   kept_count = 0u;
-  if (cell.touching > kMostFeatures) return false;
+  if (cell.touching > kMostEntries) return false;
   list_carriers(lane, cell, box);
-  if (feature_count > kMostFeatures || carrier_count > kMostCarriers) return false;
+  if (carrier_count > kMostCarriers) return false;
   if (carrier_count == 0u) return true;
   rank_carriers(lane);
   synchronize();

@@ -36,6 +36,7 @@ struct Cell {
 };
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
 MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
+MEDIAL_VK_GPU_CONSTANT kCellSettled = 8u;     // given up: what may hide in it is near a face or near the angle
 MEDIAL_VK_GPU_CONSTANT kCellUntrusted = 2u;   // meets the boundary and touches a triangle without a trusted normal
 
 // A segment that crosses the medial surface: the ends and the directions from them to the boundary.
@@ -121,6 +122,7 @@ struct StepConstants {
   uint level;                   // index into the statistics
   uint closed;                  // 1: inside and outside can be decided for whole cells
   uint last_level;              // 1: what is kept now stays undecided
+  uint settles;                 // 1: cells that can only hide what is near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint treelet_count;

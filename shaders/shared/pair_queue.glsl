@@ -7,17 +7,36 @@
 #define MEDIAL_VK_PAIR_QUEUE_GLSL
 #include "carrier_pairs.glsl"
 
-const uint kQueueSize = 128u;  // a power of two, above kLanes + kLanes^2
+const uint kQueueSize = 256u;  // a power of two, above kLanes + 3 kLanes^2
 shared uint queue[kQueueSize];  // two slots of carriers, modulo its size
 // The same in all lanes: where the queue begins and ends, and the next block of pairs: of a row with an earlier one, or
 // with itself.
 uint queue_head, queue_tail, next_row, next_other_row;
+
+const float kNoAim = 3e38;
+Aim best_aim;  // of the pairs that this lane has queued: the one that ties nearest to the boundary
 
 void start_pairs() {
   queue_head = 0u;
   queue_tail = 0u;
   next_row = 0u;
   next_other_row = 0u;
+  best_aim = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
+}
+
+// Where the plane between two carriers crosses the cell (equation 2.11): at the point nearest to the centre, or, if
+// that is outside, towards the corner in its direction. Direction w is 0 where it does not cross.
+Aim aim_between(vec4 a, vec4 b, float half_side) {
+  vec3 across = b.xyz - a.xyz;
+  float turn = length(across), offset = b.w - a.w;
+  float extent = half_side * dot(abs(across), vec3(1.0));
+  bool crosses = turn >= 0.1 && abs(offset) <= 1.2 * extent;
+  vec3 base = across * (offset / max(turn * turn, 1e-2));
+  if (any(greaterThan(abs(base), vec3(half_side))))
+    base = clamp(offset / max(extent, 1e-30), -1.0, 1.0) * half_side *
+           mix(vec3(-1.0), vec3(1.0), greaterThan(across, vec3(0.0)));
+  float away = max(0.0, max(a.w - dot(a.xyz, base), b.w - dot(b.xyz, base)));
+  return Aim(vec4(base, crosses ? away : kNoAim), crosses ? vec4(across / turn, 1.0) : vec4(0.0));
 }
 
 bool has_more_blocks() { return next_row < row_count(kept_count); }
@@ -51,7 +70,10 @@ uint unbeaten_partners(uint mask, Carrier mine, Carrier row, Carrier nearest_row
   for (; mask != 0u; mask &= mask - 1u) {
     uint r = uint(findLSB(mask));
     Carrier other = CARRIER_OF_LANE(row, carrier_order, kLanes * next_other_row, (gl_LocalInvocationID.x + r) % kLanes);
-    unbeaten |= is_beaten(mine, other, nearest_row, box) ? 0u : 1u << r;
+    if (is_beaten(mine, other, nearest_row, box)) continue;
+    unbeaten |= 1u << r;
+    Aim aim = aim_between(mine.nearest, other.nearest, step.half_side);
+    if (aim.base.w < best_aim.base.w) best_aim = aim;
   }
   return unbeaten;
 }
@@ -74,13 +96,15 @@ void queue_block(Carrier nearest_row, float theta, Box box) {
   synchronize();
 }
 
-// Queues pairs until there is one for every lane, or there are no more.
+// Queues pairs until there is one for every lane, or there are no more. Below the finest level, where cells are few and
+// hard, until the sixteen nearest carriers have been paired too: the aims are the better.
 void fill_queue(float theta, Box box) {
   uint slot;
   Carrier nearest_row = load_row(0u, slot);
   for (;;) {
     queue_block(nearest_row, theta, box);
-    if (queue_tail - queue_head >= kLanes || !has_more_blocks()) break;
+    bool enough = queue_tail - queue_head >= kLanes && (step.depth == 0u || next_row >= 2u);
+    if (enough || !has_more_blocks()) break;
   }
 }
 
