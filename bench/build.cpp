@@ -1,14 +1,21 @@
-// How long it takes to index a mesh: the hierarchy built and refitted, by triangles and threads (Google Benchmark).
+// What a mesh goes through before its extraction, by triangles (Google Benchmark): the hierarchy built and refitted,
+// and everything else that is done to it on the host.
 //   build/release/bin/bench_build [--benchmark_filter=REGEX] [--benchmark_format=json]
 // The counter `sah` is the cost of the tree by the surface area heuristic: the expected number of boxes and triangles
 // that a random line through the mesh's box tests.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <string>
 #include <thread>
 
+#include "device_tree.h"
 #include "medial_vk/bvh.h"
+#include "mesh/load_mesh.h"
+#include "mesh_links.h"
 #include "support/solids.h"
 
 namespace {
@@ -76,7 +83,79 @@ void by_size_and_threads(benchmark::internal::Benchmark* benchmark) {
   }
 }
 
+/// To and fro between two shapes, so that every run moves everything.
+void refit(benchmark::State& state) {
+  const Mesh& mesh = mesh_of(state.range(0));
+  Mesh bent = mesh;
+  for (Point& p : bent.vertices) p[2] += 0.3 * std::sin(2 * p[0]);
+  const auto threads = static_cast<unsigned>(state.range(2));
+  Bvh bvh = Bvh::build(view_of(mesh), static_cast<std::uint32_t>(state.range(1))).value();
+  bool is_bent = false;
+  for (auto _ : state) {
+    is_bent = !is_bent;
+    if (!bvh.refit(view_of(is_bent ? bent : mesh), threads).ok()) state.SkipWithError("refit failed");
+  }
+  if (!is_bent && !bvh.refit(view_of(bent)).ok()) state.SkipWithError("refit failed");
+  state.counters["sah"] = sah_cost(bvh);
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+}
+
+/// Times body(mesh) on all threads.
+template <class Body>
+void run_on_mesh(benchmark::State& state, Body body) {
+  const Mesh& mesh = mesh_of(state.range(0));
+  for (auto _ : state) body(mesh);
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+}
+
+void parse_obj(benchmark::State& state) {
+  std::string text;
+  char line[100];
+  for (const Point& p : mesh_of(state.range(0)).vertices) {
+    text.append(line, std::snprintf(line, sizeof(line), "v %.9g %.9g %.9g\n", p[0], p[1], p[2]));
+  }
+  for (const Triangle& t : mesh_of(state.range(0)).triangles) {
+    text.append(line, std::snprintf(line, sizeof(line), "f %u %u %u\n", t[0] + 1, t[1] + 1, t[2] + 1));
+  }
+  run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(parse_mesh(text, "torus.obj")); });
+}
+
+void prepare(benchmark::State& state) {
+  run_on_mesh(state, [](const Mesh& mesh) { benchmark::DoNotOptimize(prepare_mesh(mesh)); });
+}
+
+const UnitTransform kUnit = {{-2, -2, -2}, 4};
+
+void triangle_texels(benchmark::State& state) {
+  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), 8).value();
+  run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_triangle_texels(bvh, kUnit, {})); });
+}
+
+void tree_texels(benchmark::State& state) {
+  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), 8).value();
+  run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_tree_texels(bvh, kUnit)); });
+}
+
+void mesh_links(benchmark::State& state) {
+  const Mesh& mesh = mesh_of(state.range(0));
+  const Bvh bvh = Bvh::build(view_of(mesh), 8).value();
+  const std::vector<std::uint8_t> flags(mesh.triangles.size(), kTrustedNormal);
+  const MeshView view = {mesh.vertices, mesh.triangles, flags, true};
+  run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_mesh_links(view, bvh.order())); });
+}
+
+void by_size(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->ArgName("triangles");
+  for (const int triangles : {10'000, 100'000, 1'000'000}) benchmark->Arg(triangles);
+}
+
 BENCHMARK(build)->Apply(by_size_and_threads);
+BENCHMARK(refit)->Apply(by_size_and_threads);
+BENCHMARK(parse_obj)->Apply(by_size);
+BENCHMARK(prepare)->Apply(by_size);
+BENCHMARK(triangle_texels)->Apply(by_size);
+BENCHMARK(tree_texels)->Apply(by_size);
+BENCHMARK(mesh_links)->Apply(by_size);
 
 }  // namespace
 

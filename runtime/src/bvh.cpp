@@ -18,7 +18,7 @@ Error invalid_mesh(std::string message) { return {ErrorCode::kInvalidMesh, std::
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 /// Vertices and triangles of a block that a thread looks at.
-constexpr std::size_t kBlock = 8192;
+constexpr std::size_t kBlock = 32768;
 
 Status check_triangle(const MeshView& mesh, std::size_t triangle) {
   for (const std::uint32_t v : mesh.triangles[triangle]) {

@@ -9,7 +9,7 @@ namespace medial_vk {
 namespace {
 
 /// Nodes that one thread looks at in one go.
-constexpr std::uint32_t kMostNodes = 4096;
+constexpr std::uint32_t kMostNodes = 16384;
 
 void fit(std::span<BvhNode> nodes, std::span<const std::array<Point, 3>> corners, std::uint32_t index) {
   BvhNode& node = nodes[index];
