@@ -5,13 +5,15 @@ from html import escape
 
 # Told apart by people with the common kinds of colour blindness (Okabe and Ito), on white and on dark grey.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#8c564b"]
+# Without CSS variables, which not every program that shows SVG knows.
 STYLE = """
-  svg { --ink: #1f2328; --faint: #d1d9e0; --page: #ffffff; }
-  @media (prefers-color-scheme: dark) { svg { --ink: #e6edf3; --faint: #3d444d; --page: #0d1117; } }
-  .page { fill: var(--page); } text { fill: var(--ink); font: 12px sans-serif; } .title { font-weight: bold; }
-  .grid { stroke: var(--faint); stroke-width: 1; } .line { fill: none; stroke-width: 2; }
+  .page { fill: #ffffff; } .grid { stroke: #d1d9e0; } .line { fill: none; stroke-width: 2; }
+  text { fill: #1f2328; font: 12px sans-serif; } .title { font-weight: bold; }
+  @media (prefers-color-scheme: dark) {
+    .page { fill: #0d1117; } .grid { stroke: #3d444d; } text { fill: #e6edf3; }
+  }
 """
-WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 460, 330, 56, 34, 14, 44
+WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 460, 340, 56, 46, 14, 44
 
 
 def label(value):
@@ -63,7 +65,7 @@ def chart(title, x_name, y_name, series, x_ticks=None):
         path = " ".join(f"{x_axis(x):.1f},{y_axis(y):.1f}" for x, y in sorted(line))
         out.append(f'<polyline class="line" stroke="{colour}" points="{path}"/>')
         out += [f'<circle r="3" fill="{colour}" cx="{x_axis(x):.1f}" cy="{y_axis(y):.1f}"/>' for x, y in line]
-        at = HEIGHT + 8 + 17 * i
+        at = HEIGHT + 10 + 17 * i
         out.append(f'<path stroke="{colour}" class="line" d="M{LEFT} {at - 4}h22"/>')
         out.append(f'<text x="{LEFT + 30}" y="{at}">{escape(name)}{escape(note)}</text>')
     return "\n".join(out)
@@ -72,7 +74,7 @@ def chart(title, x_name, y_name, series, x_ticks=None):
 def page(charts):
     """Charts, each (title, x name, y name, series, x ticks), side by side as one SVG document."""
     rows = max(len(series) for _, _, _, series, _ in charts)
-    width, height = WIDTH * len(charts), HEIGHT + 17 * rows + 12
+    width, height = WIDTH * len(charts), HEIGHT + 17 * rows + 14
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}">',
              f"<style>{STYLE}</style>", f'<rect class="page" width="{width}" height="{height}"/>']
     for i, contents in enumerate(charts):
