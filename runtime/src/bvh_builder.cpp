@@ -9,13 +9,14 @@ namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kBlock = 8192;          // of a piece that all threads split together
-constexpr std::uint32_t kLeastSubtree = 2048;   // below this a thread costs more than it saves
+constexpr std::uint32_t kParallelFrom = 16384;  // below this waiting for threads can cost more than they save
+constexpr std::uint32_t kLeastSubtree = 2048;
 constexpr std::uint32_t kSubtreesPerMesh = 32;  // about; enough that threads end at nearly the same time
 
 }  // namespace
 
 BvhBuilder::BvhBuilder(std::vector<BvhPrimitive> primitives, std::uint32_t leaf_size, unsigned threads)
-    : leaf_size_(leaf_size), threads_(threads) {
+    : leaf_size_(leaf_size), threads_(primitives.size() < kParallelFrom ? 1 : threads) {
   order_.resize(primitives.size());
   arrays_[1].resize(primitives.size());
   arrays_[0] = std::move(primitives);
@@ -167,15 +168,19 @@ void BvhBuilder::move_apart(const Piece& piece, const BuildPlane& plane, std::ui
                             Pair& to) {
   const std::vector<BvhPrimitive>& from = arrays_[piece.array];
   std::vector<BvhPrimitive>& out = arrays_[1 - piece.array];
-  std::array<std::uint32_t, 2> next = {to.left.begin, to.right.begin};
-  std::array<BuildBox, 2> centres = {kEmptyBox, kEmptyBox};
+  std::uint32_t left = to.left.begin, right = to.right.begin;
+  BuildBox left_centres = kEmptyBox, right_centres = kEmptyBox;  // in registers
   for (std::uint32_t i = begin; i < end; ++i) {
-    const int side = plane.goes_left(from[i]) ? 0 : 1;
-    out[next[side]++] = from[i];
-    grow_by_centre(centres[side], from[i]);
+    if (plane.goes_left(from[i])) {
+      out[left++] = from[i];
+      grow_by_centre(left_centres, from[i]);
+    } else {
+      out[right++] = from[i];
+      grow_by_centre(right_centres, from[i]);
+    }
   }
-  to.left.centres = centres[0];
-  to.right.centres = centres[1];
+  to.left.centres = left_centres;
+  to.right.centres = right_centres;
 }
 
 BvhBuilder::Pair BvhBuilder::split_at_median(const Piece& piece) {
