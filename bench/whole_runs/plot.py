@@ -25,11 +25,15 @@ def label(value):
 
 
 def ticks(low, high):
-    """1, 2 and 5 times powers of ten; only the powers where these are too many."""
-    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    fine = [step * 10.0**power for power in powers for step in (1, 2, 5)]
-    fine = [t for t in fine if low <= t <= high]
-    return fine if len(fine) <= 9 else [t for t in fine if round(math.log10(t), 6).is_integer()]
+    """Round numbers between low and high: of the finest of these steps within a decade that gives nine at most."""
+    powers = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)
+    for steps in ([1 + i / 10 for i in range(90)], [1 + i / 5 for i in range(45)], [1 + i / 2 for i in range(18)],
+                  [1, 1.5, 2, 3, 4, 5, 7], [1, 2, 5], [1]):
+        places = [step * 10.0**power for power in powers for step in steps]
+        places = [place for place in places if low <= place <= high]
+        if len(places) <= 9:
+            return places
+    return places
 
 
 class Axis:
