@@ -3,14 +3,10 @@
 
 #include <volk.h>
 
-#include <atomic>
-#include <condition_variable>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "embedded_shaders.h"
@@ -58,9 +54,6 @@ class Context::Impl {
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
-  void expect_programs();
-  void remember_programs();  // ends expecting_, too
-  Result<const Program*> find_or_make(const ProgramKey& key, std::span<const EmbeddedShader> first_shaders);
   void destroy_programs();
 
   Instance instance_;  // owns `instance`
@@ -68,15 +61,7 @@ class Context::Impl {
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
   std::string pipeline_cache_file_;            // empty: none
   std::uint64_t pipeline_cache_checksum_ = 0;  // of the data that was read
-  // Programs that the last run needed are made by expecting_, last first; no other thread but this one and the
-  // caller's.
-  std::vector<ProgramKey> expected_;
-  std::thread expecting_;
-  std::atomic<bool> stop_expecting_ = false;
-  std::mutex programs_mutex_;  // of programs_; a null program is being made
-  std::condition_variable program_made_;
   std::map<ProgramKey, std::unique_ptr<Program>> programs_;
-  std::vector<const Program*> used_;  // by the caller, in the order of their first use
 };
 
 /// "vkCreateBuffer failed: out of device memory"; kOutOfMemory for the two memory results, else kInternal.

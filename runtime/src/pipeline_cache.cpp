@@ -99,13 +99,18 @@ std::vector<std::byte> read_pipeline_cache(const std::string& file, const Pipeli
   return data;
 }
 
-bool replace_file(const std::string& file, std::span<const std::byte> data) {
+bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data) {
+  if (file.empty() || data.size() > kMaxCacheBytes) return false;
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
   if (error) return false;
   const fs::path temporary = temporary_name(file, data.data());
+  FileHeader header;
+  header.bytes = data.size();
+  header.checksum = fnv1a(data);
   {
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
     stream.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
     stream.close();
     if (stream.good()) fs::rename(temporary, file, error);
@@ -113,17 +118,6 @@ bool replace_file(const std::string& file, std::span<const std::byte> data) {
   }
   fs::remove(temporary, error);
   return false;
-}
-
-bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data) {
-  if (file.empty() || data.size() > kMaxCacheBytes) return false;
-  FileHeader header;
-  header.bytes = data.size();
-  header.checksum = fnv1a(data);
-  std::vector<std::byte> bytes(sizeof(header) + data.size());
-  std::memcpy(bytes.data(), &header, sizeof(header));
-  if (!data.empty()) std::memcpy(bytes.data() + sizeof(header), data.data(), data.size());
-  return replace_file(file, bytes);
 }
 
 Status Context::Impl::open_pipeline_cache(const std::string& folder_option) {
@@ -141,13 +135,11 @@ Status Context::Impl::open_pipeline_cache(const std::string& folder_option) {
   }
   if (result != VK_SUCCESS) return vulkan_error("vkCreatePipelineCache", result);
   pipeline_cache_checksum_ = fnv1a(data);
-  expect_programs();
   return {};
 }
 
 void Context::Impl::close_pipeline_cache() noexcept try {
   if (pipeline_cache_ == VK_NULL_HANDLE) return;
-  remember_programs();
   std::size_t bytes = 0;
   std::vector<std::byte> data;
   // Without a program of its own this context has nothing to add to the file.

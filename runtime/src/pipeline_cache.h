@@ -34,7 +34,4 @@ std::vector<std::byte> read_pipeline_cache(const std::string& file, const Pipeli
 /// Makes the folder if need be. Returns whether it worked.
 bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data);
 
-/// Writes a temporary file beside it and renames that. False if it could not be written.
-bool replace_file(const std::string& file, std::span<const std::byte> data);
-
 }  // namespace medial_vk

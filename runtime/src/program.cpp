@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "context_impl.h"
-#include "program_list.h"
 
 namespace medial_vk {
 namespace {
@@ -136,64 +134,21 @@ Status make_program(const Context::Impl& context, VkPipelineCache cache, const E
 }  // namespace
 
 Result<const Program*> Context::Impl::program(const ProgramKey& key) {
-  Result<const Program*> found = find_or_make(key, extra_shaders);
-  if (found.ok() && std::find(used_.begin(), used_.end(), found.value()) == used_.end()) {
-    used_.push_back(found.value());
-  }
-  return found;
-}
-
-Result<const Program*> Context::Impl::find_or_make(const ProgramKey& key,
-                                                   std::span<const EmbeddedShader> first_shaders) {
-  std::unique_lock lock(programs_mutex_);
-  for (auto found = programs_.find(key); found != programs_.end(); found = programs_.find(key)) {
-    if (found->second) return found->second.get();
-    program_made_.wait(lock);
-  }
-  const EmbeddedShader* shader = find_shader(first_shaders, key.shader);
+  if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
+  const EmbeddedShader* shader = find_shader(extra_shaders, key.shader);
   if (shader == nullptr) shader = find_shader(embedded_shaders(), key.shader);
   if (shader == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
   if (const Status fits = check_limits(limits, key); !fits.ok()) return fits.error();
 
-  programs_[key] = nullptr;
-  lock.unlock();
   auto made = std::make_unique<Program>();
   made->key = key;
-  const Status status = make_program(*this, pipeline_cache_, *shader, *made);
-  if (!status.ok()) destroy_program(*this, *made);
-  lock.lock();
-  program_made_.notify_all();
-  if (!status.ok()) {
-    programs_.erase(key);
+  if (const Status status = make_program(*this, pipeline_cache_, *shader, *made); !status.ok()) {
+    destroy_program(*this, *made);
     return status.error();
   }
-  return (programs_[key] = std::move(made)).get();
-}
-
-/// Makes the programs of the last run on a thread of its own, while the caller still reads a mesh. The last first: the
-/// caller asks for the first ones first.
-void Context::Impl::expect_programs() {
-  expected_ = read_program_list(program_list_file(pipeline_cache_file_));
-  if (expected_.empty() || std::thread::hardware_concurrency() < 2) return;
-  try {
-    expecting_ = std::thread([this] {
-      for (auto key = expected_.rbegin(); key != expected_.rend() && !stop_expecting_; ++key) {
-        (void)find_or_make(*key, {});  // whoever needs it gets the error
-      }
-    });
-  } catch (const std::system_error&) {
-    // No thread to be had: programs are made when they are asked for.
-  }
-}
-
-void Context::Impl::remember_programs() {
-  stop_expecting_ = true;
-  if (expecting_.joinable()) expecting_.join();
-  // A context that used nothing, or something of a test, has nothing to tell.
-  if (used_.empty() || !extra_shaders.empty()) return;
-  std::vector<ProgramKey> keys;
-  for (const Program* program : used_) keys.push_back(program->key);
-  if (keys != expected_) write_program_list(program_list_file(pipeline_cache_file_), keys);
+  const Program* result = made.get();
+  programs_.emplace(key, std::move(made));
+  return result;
 }
 
 void Context::Impl::destroy_programs() {
