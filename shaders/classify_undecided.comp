@@ -5,6 +5,7 @@
 // undecided means")? The pairs of carriers that remain bound its width (equation 3.1), and the same test on the part of
 // the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. One workgroup
 // per cell; a voxel takes the gravest reason and the largest width of its cells.
+#include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 8
@@ -19,56 +20,42 @@ layout(set = 0, binding = 6) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 7) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 #include "pair_queue.glsl"
 
-shared uint is_feasible;
-
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
-const uint kFeasible = 1u, kFeasibleAtLargerAngle = 2u;
-
-shared uint shared_width;
-
 // Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
 // expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
-float pair_width(uint i, uint j, float nearest_distance, Box box) {
-  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
+float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
   float rho = box.circumradius + step.slack;
-  float by_feet = distance(a.xyz * a.w, b.xyz * b.w) + 2.0 * rho;
-  float turn = acos(clamp(dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz), -1.0, 1.0)) + carrier_spokes[i].w +
-               carrier_spokes[j].w + 1e-3;
+  float by_feet = distance(a.nearest.xyz * a.nearest.w, b.nearest.xyz * b.nearest.w) + 2.0 * rho;
+  float turn = acos(clamp(dot(a.spokes.xyz, b.spokes.xyz), -1.0, 1.0)) + a.spokes.w + b.spokes.w + 1e-3;
   float by_turn = 2.0 * (nearest_distance + rho) * sin(min(0.5 * turn, 1.5707964));
   return min(by_feet, by_turn);
 }
 
-// All lanes: the largest width of a pair, as float bits, in shared_width.
-void measure_width(float nearest_distance, float theta, Box box) {
-  float width = 0.0, sine = sin(theta - kAngleSlack);
-  for (uint first = 0; first < pair_count(); first += kQueueSize) {
-    queue_pairs(first, theta);
-    for (uint q = gl_LocalInvocationID.x; q < queue_count; q += gl_WorkGroupSize.x) {
-      uvec2 pair = queued(q);
-      float more = pair_width(pair.x, pair.y, nearest_distance, box);
-      if (more > width && is_feasible_pair(pair.x, pair.y, theta, sine, box)) width = more;
-    }
-  }
-  atomicMax(shared_width, floatBitsToUint(width));
-}
+// What a box may hold: whether its carriers could be listed, whether a pair of them is feasible, and its width.
+struct Remains {
+  bool decided, feasible;
+  float width;
+};
 
-// All lanes: kFeasible* in is_feasible.
-void test_pairs(float theta, Box box) {
-  float sine = sin(theta - kAngleSlack), larger = theta + kAngleMargin, larger_sine = sin(larger - kAngleSlack);
-  uint found = 0u;
-  for (uint first = 0; first < pair_count(); first += kQueueSize) {
-    queue_pairs(first, theta);
-    for (uint q = gl_LocalInvocationID.x; q < queue_count && found < kFeasibleAtLargerAngle; q += gl_WorkGroupSize.x) {
-      uvec2 pair = queued(q);
-      if (found == kFeasible && !can_turn(pair.x, pair.y, larger)) continue;
-      if (!is_feasible_pair(pair.x, pair.y, theta, sine, box)) continue;
-      bool also = is_feasible_pair(pair.x, pair.y, larger, larger_sine, box);
-      found = also ? kFeasible | kFeasibleAtLargerAngle : kFeasible;
+// All lanes: all pairs if the width is wanted, else until one is feasible.
+Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bool wants_width) {
+  Remains r = Remains(gather_carriers(cell, box), false, 0.0);
+  float sine = sin(theta - kAngleSlack);
+  start_pairs();
+  while (r.decided && has_more_blocks() && (wants_width || !r.feasible)) {
+    fill_queue(theta, box);
+    while (has_enough_queued()) {
+      Carrier a, b;
+      bool feasible = take_pair(a, b);
+      feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
+      r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
+      r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
     }
   }
-  atomicOr(is_feasible, found);
+  r.width = -least_of_lanes(-r.width);
+  return r;
 }
 
 // The part of a cell that is farther than the margin from the faces of its voxel.
@@ -89,29 +76,26 @@ void main() {
   Cell cell = cells[exists ? index : 0u];
   exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
            (step.last_level != 0u || is_hopeless(cell.flags));
-  if (!exists) cell.list_count = 0u;
-  if (lane == 0u) {
-    shared_width = 0u;
-    is_feasible = 0u;
-  }
+  if (!exists) cell.touching = 0u;
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
   float d0 = length(vector_to_triangle(whole.centre, load_triangle(cell.nearest)));
   float theta = threshold_angle(d0, whole);
-  bool decided = gather_carriers(cell, whole);
-  if (decided) measure_width(d0, theta, whole);
-  barrier();
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
-  bool inner_decided = gather_carriers(cell, inner);
-  if (inner_decided) test_pairs(theta, inner);
-  barrier();
+  // The whole cell; its inner part; its inner part at a larger angle.
+  Remains found[3];
+  for (uint k = 0; k < 3u; ++k) {
+    Box box = whole;
+    if (k > 0u) box = inner;
+    found[k] = what_remains(cell, box, k == 2u ? theta + kAngleMargin : theta, d0, k == 0u);
+  }
   if (lane != 0u || !exists) return;
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
-  float width = decided ? min(bound, uintBitsToFloat(shared_width)) : bound;
+  float width = found[0].decided ? min(bound, found[0].width) : bound;
   bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
   uint kind = close || is_hopeless(cell.flags) ? kAtBoundary : kOtherReason;
-  if (inner_decided && (is_feasible & kFeasibleAtLargerAngle) == 0u) kind = kNearAngle;
-  if (!has_inner || (inner_decided && is_feasible == 0u)) kind = kNearFace;
+  if (found[2].decided && !found[2].feasible) kind = kNearAngle;
+  if (!has_inner || (found[1].decided && !found[1].feasible)) kind = kNearFace;
   atomicMax(reasons[cell.voxel].x, kind + 1u);
   atomicMax(reasons[cell.voxel].y, floatBitsToUint(width));
 }

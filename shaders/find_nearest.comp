@@ -49,7 +49,10 @@ void main() {
   uint first_point = (index % lanes_per_item) * kPointsPerLane;
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
-  if (entry >= cell.list_count) return;
+  // Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
+  bool is_line = kSource == kLineEnds || kSource == kSections || kSource == kGrownEnds;
+  uint list_count = is_line && step.depth == 0u ? cell.touching : cell.list_count;
+  if (entry >= list_count) return;
   if (kSource == kLineEnds && points[2 * item].w < 0.0) return;  // no line
 
   vec3 point[kPointsPerLane];
@@ -62,7 +65,7 @@ void main() {
     best[k] = uintBitsToFloat(so_far.x);
     triangle[k] = so_far.y;
   }
-  uint end = min(cell.list_count, entry + kEntriesPerRound);
+  uint end = min(list_count, entry + kEntriesPerRound);
   for (;;) {
     uint t = lists[cell.list_begin + entry];
     TriangleTexels texels = load_triangle(t);

@@ -1,10 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // The contact lists of the top cells. The triangles come in treelets (consecutive leaves of the BVH with their box);
 // one workgroup per cell keeps the treelets that may hold the nearest triangle of some point of the cell's ball:
 // with U an upper bound of the distance from the centre to the mesh, those no farther than U + 2R.
 // Each lane looks at one run of treelets, so that lists are in order. Run twice: to count, then, without the cells that
 // lie outside, to write.
+#include "lanes.glsl"
 #include "step.glsl"
 
 layout(constant_id = 1) const bool kWrite = false;
@@ -16,48 +18,32 @@ layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 5) writeonly buffer Lists { uint lists[]; };
 
-shared uint shared_bound, shared_clearance;
-shared uint shared_counts[256];
-
 float nearest_in_box(vec3 p, Treelet t) { return length(max(max(t.lower.xyz - p, p - t.upper.xyz), vec3(0.0))); }
 float farthest_in_box(vec3 p, Treelet t) { return length(max(p - t.lower.xyz, t.upper.xyz - p)); }
 
 void main() {
-  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
+  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
   uint treelet_count = step.treelet_count;
   bool exists = item < counters[kParents];
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);
-  if (lane == 0u) {
-    shared_bound = 0x7f800000u;
-    shared_clearance = 0x7f800000u;
-  }
-  barrier();
-  float bound = uintBitsToFloat(0x7f800000u), clearance = bound;
-  for (uint i = lane; i < treelet_count; i += lanes) {
+  float bound = 3e38, clearance = bound;
+  for (uint i = lane; i < treelet_count; i += kLanes) {
     bound = min(bound, farthest_in_box(centre, treelets[i]));
     clearance = min(clearance, nearest_in_box(centre, treelets[i]));
   }
-  atomicMin(shared_bound, floatBitsToUint(bound));
-  atomicMin(shared_clearance, floatBitsToUint(clearance));
-  barrier();
-  float reach = uintBitsToFloat(shared_bound) + 2.0 * step.list_radius + step.slack;
-  uint run = (treelet_count + lanes - 1u) / lanes;
+  clearance = least_of_lanes(clearance);
+  float reach = least_of_lanes(bound) + 2.0 * step.list_radius + step.slack;
+  uint run = (treelet_count + kLanes - 1u) / kLanes;
   uint begin = min(treelet_count, lane * run), end = min(treelet_count, begin + run);
   uint count = 0;
   for (uint i = begin; i < end; ++i) count += nearest_in_box(centre, treelets[i]) <= reach ? treelets[i].count : 0u;
-  shared_counts[lane] = count;
-  barrier();
-  uint before = 0, total = 0;
-  for (uint i = 0; i < lanes; ++i) {
-    before += i < lane ? shared_counts[i] : 0u;
-    total += shared_counts[i];
-  }
+  uvec2 place = count_lanes(count);
+  uint total = place.y;
   if (!exists) return;
   if (!kWrite) {
     // decide_side.comp replaces the clearance by flags.
-    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, shared_clearance);
+    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, floatBitsToUint(clearance));
     return;
   }
   uvec4 state = states[item], offset = offsets[item];
@@ -67,7 +53,7 @@ void main() {
                            0u, 0u);
     atomicMax(counters[kLongestCellList], total);
   }
-  uint position = offset.y + before;
+  uint position = offset.y + place.x;
   for (uint i = begin; i < end; ++i) {
     Treelet t = treelets[i];
     if (nearest_in_box(centre, t) > reach) continue;

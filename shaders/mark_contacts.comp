@@ -3,11 +3,18 @@
 #extension GL_EXT_control_flow_attributes : enable
 // Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md), for the ball that the child's list
 // must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One invocation per parent and
-// child; one bit per list entry.
+// child; one bit per list entry. The eight children of a parent walk one list.
+//
+// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the nearest
+// triangle: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey
+// no common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest
+// triangles tell it (docs/theory.md, "Outside").
+#include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 9
+#define TRIANGLE_TEXEL_BINDING 12
 #include "triangles.glsl"
+#include "axis_test.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
@@ -15,18 +22,78 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
-layout(set = 0, binding = 7) buffer Counts { uint counts[]; };
-layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };  // sum of the contacts' normals: a first axis to try
+// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the nearest triangle; what
+// has been seen (kSeen*).
+layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
+// Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the nearest triangle.
+layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
+layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
+layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
+layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
+
+const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
+// One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
+const uint kSeenInFront = 2u, kSeenBehind = 4u;
 
 float corner_distance[8];  // from the corners of the cube to the triangle nearest to its centre
 
 // Lemma A for the cube: at some corner x_k, D_t - g_t.x_k <= dist(x_k, nearest).
 bool touches_cube(vec3 v, float d) {
-  vec3 h = step.half_side * (v / max(d, 1e-30));
+  vec3 h = step.touch_half_side * (v / max(d, 1e-30));
   float most = -1.0;
-  [[unroll]] for (uint k = 0; k < 8u; ++k)
-    most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
+  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
   return d - most <= distance_slack(d, step.circumradius);
+}
+
+// The triangle that lane k of the eight has loaded, from entry `list_entry`.
+TriangleTexels triangle_of_lane(TriangleTexels mine, uint list_entry, uint k) {
+#ifdef LOCKSTEP
+  return TriangleTexels(from_lane(mine.a, k), from_lane(mine.ab, k), from_lane(mine.ac, k), from_lane(mine.normal, k));
+#else
+  return load_triangle(lists[list_entry]);
+#endif
+}
+
+uint name_of_lane(uint mine, uint list_entry, uint k) {
+#ifdef LOCKSTEP
+  return from_lane(mine, k);
+#else
+  return lists[list_entry];
+#endif
+}
+
+// Of a triangle that may be the nearest: on which side of it the centre may be, given how far that is behind its plane.
+uint sides_seen(float depth, bool trusted) {
+  float clear = 4.0 * step.slack;
+  return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
+}
+
+bool is_in_grid(uvec3 coordinates) {
+  return step.depth > 0u ||
+         all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
+}
+
+// What becomes of a child, once all contacts have been seen.
+void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, float nearest_distance, uvec4 count,
+            float least_cosine) {
+  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level], 1u);
+  float theta = dismissal_angle(nearest_distance);
+  bool is_empty = least_cosine > cos(theta) + kAxisSlack;
+  uint flags = parent_flags & kCellInside;
+  if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
+  bool asks = must_ask_side(flags, nearest_distance);
+  if (asks && step.closed != 0u) {
+    bool inside = (count.w & kSeenInFront) == 0u, outside = (count.w & kSeenBehind) == 0u;
+    flags |= inside ? kCellInside : 0u;
+    is_empty = is_empty || outside;
+    asks = !inside;
+  }
+  states[item] = is_empty ? uvec4(0u) : uvec4(1u, count.x, (count.x + 31u) / 32u, flags);
+  bool is_kept = !is_empty && incompatible(obedience_of(nearest_triangle, centre, theta),
+                                           obedience_of(count.z, centre, theta));
+  // Their order does not matter: every answer goes to its own state.
+  if (!is_empty && !is_kept) open[atomicAdd(counters[kOpen], 1u)] = item;
+  if (is_kept && asks) asked[atomicAdd(counters[kAsked], 1u)] = item;
 }
 
 void main() {
@@ -36,7 +103,8 @@ void main() {
   uint child = item % 8;
   uint entry = step.first_entry;
   if (entry >= parent.list_count) return;
-  vec3 centre = cell_centre(child_coordinates(parent, child));
+  uvec3 coordinates = child_coordinates(parent, child);
+  vec3 centre = cell_centre(coordinates);
   TriangleTexels nearest_texels = load_triangle(nearest[item].y);
   vec3 to_nearest = vector_to_triangle(centre, nearest_texels);
   float nearest_distance = length(to_nearest);
@@ -44,36 +112,55 @@ void main() {
   float radius = step.list_radius;
   bool far = nearest_distance > radius;
   [[unroll]] for (uint k = 0; k < 8u; ++k)
-    corner_distance[k] = sqrt(squared_distance_to_triangle(centre + step.half_side * corner_sign(k), nearest_texels));
+    corner_distance[k] =
+        sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), nearest_texels));
   // dist(m, nearest) <= D0 - g0.x + |x|^2 / (2 D0): what curvature of the distance to a point adds.
   float bend = far ? radius * radius / (2.0 * nearest_distance) : 0.0;
   uint end = min(parent.list_count, entry + kEntriesPerRound);
   uint word_count = (parent.list_count + 31u) / 32u;
   uint base = 8u * parent.word_begin + child * word_count;
-  uint count = entry == 0 ? 0u : counts[item];
-  vec3 axis = entry == 0 ? vec3(0.0) : axes[item].xyz;
+  uvec4 count = entry == 0 ? uvec4(0u) : counts[item];
+  vec4 axis = entry == 0 ? vec4(0.0, 0.0, 0.0, 2.0) : axes[item];
   uint word = 0, touch_word = 0;
   for (;;) {
-    TriangleTexels texels = load_triangle(lists[parent.list_begin + entry]);
-    vec3 v = vector_to_triangle(centre, texels);
-    float d = length(v);
-    float excess = d - nearest_distance - 6.0 * step.slack;  // docs/theory.md, "Rounding"
-    float reach = far ? radius * length(v / max(d, 1e-30) - nearest_direction) + bend : 2.0 * radius;
-    bool contact = excess <= reach;
-    word |= contact ? 1u << (entry & 31u) : 0u;
-    bool touches = contact && touches_cube(v, d);
-    touch_word |= touches ? 1u << (entry & 31u) : 0u;
-    axis += touches ? texels.normal.xyz : vec3(0.0);
-    ++entry;
+    uint first = parent.list_begin + entry, last = parent.list_begin + end - 1u;
+    uint mine_name = lists[min(first + child, last)];
+    TriangleTexels mine = load_triangle(mine_name);
+    [[unroll]] for (uint k = 0; k < 8u; ++k) {
+      TriangleTexels texels = triangle_of_lane(mine, min(first + k, last), k);
+      vec3 v = vector_to_triangle(centre, texels);
+      float d = length(v);
+      float excess = d - nearest_distance - 6.0 * step.slack;  // docs/theory.md, "Rounding"
+      float reach = far ? radius * length(v / max(d, 1e-30) - nearest_direction) + bend : 2.0 * radius;
+      bool contact = excess <= reach && entry + k < end;
+      bool touches = contact && touches_cube(v, d);
+      uint bit = 1u << (entry + k & 31u);
+      word |= contact ? bit : 0u;
+      touch_word |= touches ? bit : 0u;
+      bool trusted = texels.normal.w > 0.5;
+      float cosine = trusted ? dot(texels.normal.xyz, nearest_texels.normal.xyz) : -2.0;
+      count.z = touches && cosine < axis.w ? name_of_lane(mine_name, min(first + k, last), k) : count.z;
+      count.w |= touches && !trusted ? kSeenUntrusted : 0u;
+      count.w |= excess <= 0.0 ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
+      axis.xyz += touches ? texels.normal.xyz : vec3(0.0);
+      axis.w = touches ? min(axis.w, cosine) : axis.w;
+    }
+    entry += 8u;
     if ((entry & 31u) == 0u || entry >= end) {
-      masks[base + (entry - 1u) / 32u] = word;
-      touch_masks[base + (entry - 1u) / 32u] = touch_word;
-      count += bitCount(word);
+      uint w = base + (min(entry, end) - 1u) / 32u;
+      masks[w] = word;
+      touch_masks[w] = touch_word;
+      count.xy += uvec2(bitCount(word), bitCount(touch_word));
       word = 0;
       touch_word = 0;
     }
     if (entry >= end) break;
   }
   counts[item] = count;
-  axes[item] = vec4(axis, 0.0);
+  axes[item] = axis;
+  if (end < parent.list_count) return;
+  if (is_in_grid(coordinates))
+    settle(item, centre, parent.flags, nearest[item].y, nearest_distance, count, axis.w);
+  else
+    states[item] = uvec4(0u);
 }

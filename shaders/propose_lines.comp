@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // Aims at the sheets that may cross a cell (docs/theory.md, "Aimed lines"). Eight lanes share a cell. The first take
 // the aims that the dismissal by pairs left. Where it could not list all carriers, six scouts look through the contacts
 // instead: the sheet between the nearest one (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right
@@ -7,6 +8,7 @@
 // proposes its best line, and lines nearly parallel to a better one are given up. The seventh lane aims at the point
 // where the contacts tie: curves of the medial surface, such as the axis of a round tube, are thinner than any set of
 // lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
+#include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 6
@@ -21,6 +23,7 @@ layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
 const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
 const uint kScoutLanes = 6, kTieLane = 6, kDeepLane = 7;
 const uint kTieEntries = 64;      // contacts that the tie is computed from
+const uint kTieSteps = 3;
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kNoLine = 3e38;
 
@@ -51,33 +54,38 @@ Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, floa
 
 // From the centre to the point equally far from all contacts that are about as near as the nearest, in the sense of
 // least squares: D_j - g_j.x = t for all j, by Gauss-Newton. Where the directions leave a degree of freedom (along a
-// sheet or a curve) the step has no part in it.
-vec3 step_to_tie(Cell cell, vec3 centre, float d0) {
+// sheet or a curve) the step has no part in it. The eight lanes of a cell share its contacts; all of them call this.
+vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
   vec3 x = vec3(0.0);
   float nearest_distance = d0;
-  uint stride = 1u + cell.list_count / kTieEntries;
-  for (uint k = 0; k < 3u; ++k) {
-    float weights = 0.0, distances = 0.0, least = 3e38;
-    vec3 directions = vec3(0.0), mixed = vec3(0.0);
-    mat3 squares = mat3(0.0);
-    for (uint entry = 0; entry < cell.list_count; entry += stride) {
+  uint stride = kLinesPerCell * (1u + cell.touching / kTieEntries);
+  for (uint k = 0; k < kTieSteps; ++k) {
+    vec4 directions = vec4(0.0), mixed = vec4(0.0);  // sums of w (g, 1) and w d (g, 1)
+    vec4 squares = vec4(0.0), products = vec4(0.0);  // sums of w g g^T: diagonal; xy, xz, yz
+    float least = 3e38;
+    for (uint entry = lane; entry < cell.touching; entry += stride) {
       vec3 v = vector_to_triangle(centre + x, load_triangle(lists[cell.list_begin + entry]));
       float d = length(v);
       vec3 g = v / max(d, 1e-30);
       float w = clamp(1.0 - 0.5 * (d - nearest_distance) / step.circumradius, 0.0, 1.0);
       least = min(least, d);
-      weights += w;
-      distances += w * d;
-      directions += w * g;
-      mixed += w * d * g;
-      squares += outerProduct(w * g, g);
+      directions += w * vec4(g, 1.0);
+      mixed += w * d * vec4(g, 1.0);
+      squares.xyz += w * g * g;
+      products.xyz += w * g.xxy * g.yzz;
     }
-    if (weights == 0.0) return x;
-    mat3 spread = squares - outerProduct(directions, directions) / weights;
+    directions = sum_of_lanes(directions);
+    mixed = sum_of_lanes(mixed);
+    squares = sum_of_lanes(squares);
+    products = sum_of_lanes(products);
+    nearest_distance = least_of_lanes(least);
+    float weights = max(directions.w, 1e-30);
+    mat3 spread = mat3(squares.x, products.x, products.y, products.x, squares.y, products.z, products.y, products.z,
+                       squares.z) -
+                  outerProduct(directions.xyz, directions.xyz) / weights;
     float trace = spread[0][0] + spread[1][1] + spread[2][2];
-    x += inverse(spread + mat3(1e-4 * trace + 1e-12)) * (mixed - distances / weights * directions);
+    x += inverse(spread + mat3(1e-4 * trace + 1e-12)) * (mixed.xyz - mixed.w / weights * directions.xyz);
     x *= min(1.0, step.circumradius / max(length(x), 1e-30));
-    nearest_distance = least;
   }
   return x;
 }
@@ -110,13 +118,15 @@ void main() {
   bool exists = index / kLinesPerCell < counters[kCells];
   bool open = exists && (cells[index / kLinesPerCell].flags & kCellEmpty) == 0u;
   Cell cell;
+  cell.touching = 0u;
   vec3 centre = vec3(0.0), g0 = vec3(0.0), base = vec3(0.0);
+  float d0 = 0.0;
   Candidate best = Candidate(vec3(0.0), kNoLine);
   if (open) {
     cell = cells[index / kLinesPerCell];
     centre = cell_centre(uvec3(cell.x, cell.y, cell.z));
     vec3 to_nearest = vector_to_triangle(centre, load_triangle(cell.nearest));
-    float d0 = length(to_nearest);
+    d0 = length(to_nearest);
     g0 = unit_or_zero(to_nearest);
     bool deep = d0 + step.circumradius + step.slack >= step.radius;
     float least_turn = sin(deep ? min(step.deep_angle, step.angle) : step.angle);
@@ -127,9 +137,10 @@ void main() {
       best = Candidate(aim.direction.xyz, aim.direction.w > 0.0 ? 0.0 : kNoLine);
     }
     if (!aimed && lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
-    if (lane == kTieLane) base = step_to_tie(cell, centre, d0);
     if (lane >= kTieLane) best = Candidate(g0, 1e30);
   }
+  vec3 tie = step_to_tie(cell, lane, centre, d0);
+  if (open && lane == kTieLane) base = tie;
   // Lines that do not go through the centre stand for themselves.
   bool alone = dot(base, base) > 0.0 || lane == kTieLane;
   proposals[slot] = alone ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);

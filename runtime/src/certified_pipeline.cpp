@@ -69,7 +69,7 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   // Bytes per kept cell and per list entry, from the table below. A fifth of the budget is left for the mesh and the
   // flux samples.
-  constexpr std::uint64_t kBytesPerCell = 1480, kBytesPerEntry = 14;
+  constexpr std::uint64_t kBytesPerCell = 1608, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
   const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
@@ -101,8 +101,9 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&grown_nearest_, 2 * lines * 8, "nearest triangles of grown balls"},
       {&masks_, 8 * words * 4, "masks of listed triangles"},
       {&touch_masks_, 8 * words * 4, "masks of contacts"},
-      {&counts_, 8 * c * 4, "contact counts"},
+      {&counts_, 8 * c * 16, "contact counts"},
       {&asked_, 8 * c * 4, "cells and lines whose side is asked"},
+      {&open_, 8 * c * 4, "cells that an axis may dismiss"},
       {&states_, scanned * 16, "states"},
       {&offsets_, scanned * 16, "offsets"},
       {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},
@@ -180,6 +181,9 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.closed = mesh_->closed ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
   step.half_side = static_cast<float>(size / 2 + kCentreError);
+  // At the finest level lines are asked among the contacts that touch: they reach 2 epsilon beyond the voxel.
+  step.touch_half_side =
+      level == coarse_levels_ ? static_cast<float>(size / 2 + 2 * epsilon + 4 * kCentreError) : step.half_side;
   step.treelet_count = treelet_count_;
   return step;
 }
@@ -208,6 +212,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   const std::uint32_t argument = prepare(r, d);
   ProgramKey key;
   key.shader = kernel.shader;
+  if (kernel.lanes == Lanes::kEight && context_->has_lockstep_lanes()) key.shader += "_lockstep";
   key.storage_buffers = static_cast<uint>(kernel.buffers.size());
   key.texel_buffers = static_cast<uint>(kernel.reads);
   key.push_constant_bytes = sizeof(step);
@@ -259,7 +264,7 @@ CertifiedPipeline::Kernel CertifiedPipeline::pair_kernel(const char* shader, con
                                       level.lists->range(),          counters_.range(),
                                       mesh_->triangle_links.range(), mesh_->corner_cones.range()};
   buffers.insert(buffers.end(), more.begin(), more.end());
-  return {shader, std::move(buffers), Reads::kTriangles, {}, kPairLanes};
+  return {shader, std::move(buffers), Reads::kTriangles, {}, kEightLanes, Lanes::kEight};
 }
 
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,

@@ -92,7 +92,9 @@ class CertifiedPipeline {
   // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
   // texel views follow its buffers.
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
-  static constexpr std::uint32_t kPairLanes = 8;  // of a workgroup that lists carriers
+  static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup for one cell
+  // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
+  enum class Lanes : std::uint32_t { kAlone, kEight };
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {
     const char* shader;
@@ -100,6 +102,7 @@ class CertifiedPipeline {
     Reads reads = Reads::kNoMesh;
     std::vector<std::uint32_t> constants = {};
     std::uint32_t workgroup_size = 64;
+    Lanes lanes = Lanes::kAlone;
   };
   struct Extent {
     std::uint32_t counter;
@@ -137,7 +140,7 @@ class CertifiedPipeline {
 
   Buffer treelets_, counters_, counters_readback_, arguments_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
-  Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, states_, offsets_, block_sums_;
+  Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;
   Buffer samples_, opposites_, sample_nearest_, opposite_nearest_;
 };

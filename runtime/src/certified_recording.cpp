@@ -54,6 +54,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.cell_size *= 2;
   step.circumradius *= 2;
   step.half_side *= 2;
+  step.touch_half_side *= 2;
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
@@ -62,10 +63,11 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
       {treelets_.range(), counters_.range(), states_.range(), offsets_.range(), cells_[0].range(), lists_[0].range()},
       Reads::kNoMesh,
       {0},
-      256};
+      kEightLanes,
+      Lanes::kEight};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
-  const Extent groups{gpu::kParents, 256};
+  const Extent groups{gpu::kParents, kEightLanes};
   run(r, count_entries, groups, step);
   Kernel side = side_kernel("decide_side",
                             {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});
@@ -95,19 +97,24 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
   find_nearest(r, Source::kChildren, {gpu::kParents, 1, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step,
                *level.parents, *level.parent_lists, points_, nearest_);
+  clear_counter(r, gpu::kAsked);
+  clear_counter(r, gpu::kOpen);
   run_rounds(r,
              {"mark_contacts",
               {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-               nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range()},
-              Reads::kTriangles},
+               nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range(), states_.range(),
+               open_.range(), asked_.range()},
+              Reads::kTriangles,
+              {},
+              64,
+              Lanes::kEight},
              children, step);
-  clear_counter(r, gpu::kAsked);
   run(r,
       {"dismiss_cells",
        {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), touch_masks_.range(), counts_.range(), axes.range(), states_.range(), asked_.range()},
+        nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range()},
        Reads::kTriangles},
-      {gpu::kParents, 8}, step);
+      {gpu::kOpen}, step);
   run(r,
       side_kernel("decide_side",
                   {counters_.range(), level.parents->range(), nearest_.range(), states_.range(), asked_.range()}),
@@ -120,9 +127,9 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   }
   run_rounds(r,
              {"write_children",
-              {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(),
-               offsets_.range(), nearest_.range(), level.cells->range(), level.lists->range(), counts_.range(),
-               winners_.range(), verdicts_.range(), reasons_.range()},
+              {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
+               touch_masks_.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
+               level.lists->range(), counts_.range(), winners_.range(), verdicts_.range(), reasons_.range()},
               Reads::kNoMesh,
               {finest ? 1u : 0u}},
              children, step);
@@ -130,14 +137,17 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   r.begin_stage("pairs");
-  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kPairLanes}, step);
+  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kEightLanes}, step);
   r.begin_stage("search");
   const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
   run(r,
       {"propose_lines",
        {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), aims_.range(),
         points_.range()},
-       Reads::kTriangles},
+       Reads::kTriangles,
+       {},
+       64,
+       Lanes::kEight},
       seeds, step);
   find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
                *level.cells, *level.lists, points_, nearest_);
@@ -187,7 +197,7 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
 void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   if (step.last_level == 0u && !(step.depth >= 1 && mesh_->has_untrusted)) return;
   r.begin_stage("classification");
-  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kPairLanes},
+  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kEightLanes},
       step);
 }
 

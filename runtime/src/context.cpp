@@ -61,6 +61,9 @@ void Context::Impl::query_properties() {
   VkPhysicalDeviceMaintenance3Properties maintenance{};
   maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
   maintenance.pNext = &identity;
+  VkPhysicalDeviceDriverProperties driver_properties{};
+  driver_properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  identity.pNext = &driver_properties;
   subgroup = {};
   subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   subgroup.pNext = &maintenance;
@@ -71,6 +74,7 @@ void Context::Impl::query_properties() {
   subgroup.pNext = nullptr;  // the chain was on this stack frame
 
   limits = query.properties.limits;
+  driver = driver_properties.driverID;
   max_allocation_bytes = maintenance.maxMemoryAllocationSize;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
   pipeline_cache_identity_ = {.vendor = query.properties.vendorID, .device = query.properties.deviceID};

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,7 +36,8 @@ class Context::Impl {
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
-  VkDeviceSize max_allocation_bytes = 0;   // of one vkAllocateMemory (maxMemoryAllocationSize)
+  VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
+  VkDriverId driver{};
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;
   // Written by the validation layer from any thread (through atomic_ref); this object must not move.
@@ -43,9 +45,18 @@ class Context::Impl {
   // Shaders that are looked up before the embedded ones: kernels of a test, for example.
   std::span<const EmbeddedShader> extra_shaders;
 
+  /// Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes.glsl)?
+  /// True on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it.
+  bool has_lockstep_lanes() const {
+    return driver == VK_DRIVER_ID_MESA_LLVMPIPE && subgroup.subgroupSize % 8 == 0 &&
+           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
+  }
+
   /// The program for this shader and these specialization constants; made once, kept until the context ends.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.
   Result<const Program*> program(const ProgramKey& key);
+  /// Makes those of them that are missing, on all processors. Errors: as program(), of the first that fails.
+  Status make_programs(const std::set<ProgramKey>& keys);
 
  private:
   friend class Context;
@@ -54,6 +65,8 @@ class Context::Impl {
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
+  const EmbeddedShader* shader(const std::string& name) const;
+  Result<std::unique_ptr<Program>> build_program(const ProgramKey& key) const;
   void destroy_programs();
 
   Instance instance_;  // owns `instance`

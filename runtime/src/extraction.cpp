@@ -65,7 +65,7 @@ class CertifiedRun {
 
  private:
   // Small enough that progress moves and an interruption is heard, large enough to keep a device busy.
-  static constexpr std::uint32_t kFirstChunk = 512, kLargestChunk = 4096;
+  static constexpr std::uint32_t kFirstChunk = 1024, kLargestChunk = 4096;
 
   // How full the fullest buffer has been: 1 is full.
   struct Fill {
@@ -120,6 +120,8 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   extraction.counters.levels.resize(pipeline.value().level_count());
   for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)
     extraction.counters.levels[level].cell_size = pipeline.value().cell_size(level);
+  const auto record_one = [&](Recorder& r) { return pipeline.value().record(r, 0, 1); };
+  if (Status made = make_programs(context, record_one); !made.ok()) return made.error();
   CertifiedRun run(context, mesh.value(), pipeline.value(), extraction);
   if (Status s = run.run(progress); !s.ok()) return s.error();
   ExtractionCounters& c = extraction.counters;

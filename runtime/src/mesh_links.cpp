@@ -124,7 +124,8 @@ class Builder {
       normals_[p] = unit(cross(corner(p, 1) - corner(p, 0), corner(p, 2) - corner(p, 0)));
       const bool trusted = !mesh_.flags.empty() && (mesh_.flags[order_[p]] & kTrustedNormal) != 0;
       const Triangle& t = triangle(p);
-      out_.links[p] = {t[0], t[1], t[2], gpu::kNoLink, gpu::kNoLink, gpu::kNoLink, trusted ? 0u : gpu::kLinkWhole, 0};
+      out_.links[p] = {
+          {t[0], t[1], t[2]}, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, trusted ? 0u : gpu::kLinkWhole, 0};
     }
   }
 
@@ -176,9 +177,7 @@ class Builder {
     const bool reflex = dot(normals_[first.position], d) >= -kTouchSlack * length(d);
     const bool flat = length(normals_[first.position] - normals_[second.position]) < kFlat;
     gpu::TriangleLinks& links = out_.links[first.position];
-    (first.corner == 0   ? links.neighbour_0
-     : first.corner == 1 ? links.neighbour_1
-                         : links.neighbour_2) = second.position;
+    links.neighbour[first.corner] = second.position;
     if (reflex && !flat) links.flags |= gpu::kLinkEdge << first.corner;
     partners_.push_back({first.position, second.position});
   }
@@ -187,8 +186,8 @@ class Builder {
   void link_corners() {
     for (const auto& [p, q] : partners_) {
       if ((out_.links[q].flags & gpu::kLinkWhole) == 0u) continue;
-      const gpu::TriangleLinks& l = out_.links[p];
-      const uint edge = l.neighbour_0 == q ? 0 : l.neighbour_1 == q ? 1 : 2;
+      const uint* neighbour = out_.links[p].neighbour;
+      const auto edge = static_cast<uint>(std::find(neighbour, neighbour + 3, q) - neighbour);
       out_.links[p].flags &= ~(gpu::kLinkEdge << edge);
     }
     std::vector<uint> begin(mesh_.vertices.size() + 1, 0), fans(3 * order_.size());

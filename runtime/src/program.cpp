@@ -1,7 +1,10 @@
 #include "program.h"
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "context_impl.h"
@@ -133,22 +136,65 @@ Status make_program(const Context::Impl& context, VkPipelineCache cache, const E
 
 }  // namespace
 
-Result<const Program*> Context::Impl::program(const ProgramKey& key) {
-  if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
-  const EmbeddedShader* shader = find_shader(extra_shaders, key.shader);
-  if (shader == nullptr) shader = find_shader(embedded_shaders(), key.shader);
-  if (shader == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
+const EmbeddedShader* Context::Impl::shader(const std::string& name) const {
+  const EmbeddedShader* extra = find_shader(extra_shaders, name);
+  return extra != nullptr ? extra : find_shader(embedded_shaders(), name);
+}
+
+Result<std::unique_ptr<Program>> Context::Impl::build_program(const ProgramKey& key) const {
+  const EmbeddedShader* found = shader(key.shader);
+  if (found == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
   if (const Status fits = check_limits(limits, key); !fits.ok()) return fits.error();
 
   auto made = std::make_unique<Program>();
   made->key = key;
-  if (const Status status = make_program(*this, pipeline_cache_, *shader, *made); !status.ok()) {
+  if (const Status status = make_program(*this, pipeline_cache_, *found, *made); !status.ok()) {
     destroy_program(*this, *made);
     return status.error();
   }
-  const Program* result = made.get();
-  programs_.emplace(key, std::move(made));
-  return result;
+  return made;
+}
+
+Result<const Program*> Context::Impl::program(const ProgramKey& key) {
+  if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
+  Result<std::unique_ptr<Program>> made = build_program(key);
+  if (!made.ok()) return made.error();
+  return programs_.emplace(key, std::move(made.value())).first->second.get();
+}
+
+// Vulkan lets any thread create pipelines of one device and one cache.
+Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
+  std::vector<const ProgramKey*> missing;
+  for (const ProgramKey& key : keys)
+    if (!programs_.contains(key)) missing.push_back(&key);
+  // The largest first: they take the longest.
+  const auto size = [this](const ProgramKey* key) {
+    const EmbeddedShader* found = shader(key->shader);
+    return found != nullptr ? found->words.size() : 0;
+  };
+  std::ranges::stable_sort(missing, std::greater<>{}, size);
+  std::vector<std::unique_ptr<Program>> made(missing.size());
+  std::vector<Status> status(missing.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < missing.size(); i = next++) {
+      Result<std::unique_ptr<Program>> program = build_program(*missing[i]);
+      if (program.ok())
+        made[i] = std::move(program.value());
+      else
+        status[i] = program.error();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), missing.size());
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
+    work();
+  }
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    if (made[i]) programs_.emplace(*missing[i], std::move(made[i]));
+  const auto failed = std::find_if(status.begin(), status.end(), [](const Status& s) { return !s.ok(); });
+  return failed == status.end() ? Status{} : *failed;
 }
 
 void Context::Impl::destroy_programs() {

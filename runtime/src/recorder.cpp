@@ -145,6 +145,10 @@ void Recorder::bind(const ProgramKey& key, std::span<const BufferRange> buffers,
                     std::span<const std::byte> push_constants) {
   check_bindings(key, buffers, texels, push_constants);
   if (!status_.ok()) return;
+  if (rehearses()) {
+    programs_.insert(key);
+    return;
+  }
   const Result<const Program*> program = context_->program(key);
   if (!program.ok()) return fail(program.error());
   const Program& bound = *program.value();
@@ -165,7 +169,7 @@ void Recorder::dispatch(const ProgramKey& key, std::span<const BufferRange> buff
                         std::uint64_t items) {
   if (items == 0 || !status_.ok()) return;
   bind(key, buffers, texels, push_constants);
-  if (!status_.ok()) return;
+  if (!status_.ok() || rehearses()) return;
   const std::uint64_t groups = items / key.workgroup_size + (items % key.workgroup_size != 0 ? 1 : 0);
   const std::uint64_t per_row =
       std::min<std::uint64_t>({groups, kMaxGroupsPerRow, context_->limits.maxComputeWorkGroupCount[0]});
@@ -185,11 +189,12 @@ void Recorder::dispatch_indirect(const ProgramKey& key, std::span<const BufferRa
                                                 std::to_string(arguments.size)));
   }
   bind(key, buffers, texels, push_constants);
-  if (!status_.ok()) return;
+  if (!status_.ok() || rehearses()) return;
   context_->vk.vkCmdDispatchIndirect(commands_, arguments.handle, offset);
 }
 
 void Recorder::pipeline_barrier(VkPipelineStageFlags to_stages, VkAccessFlags to_access) {
+  if (rehearses()) return;
   // DRAW_INDIRECT is where group counts are read: what follows must not overwrite them before.
   constexpr VkPipelineStageFlags kFromStages =
       VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -215,6 +220,7 @@ void Recorder::fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize byte
   if (offset % 4 != 0 || bytes % 4 != 0 || !inside(buffer, offset, bytes)) {
     return fail(recording_error("a fill", range_text(offset, bytes, buffer)));
   }
+  if (rehearses()) return;
   context_->vk.vkCmdFillBuffer(commands_, buffer.handle, offset, bytes, word);
 }
 
@@ -225,6 +231,7 @@ void Recorder::copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& 
     return fail(recording_error("a copy from", range_text(from_offset, bytes, from)));
   }
   if (!inside(to, to_offset, bytes)) return fail(recording_error("a copy to", range_text(to_offset, bytes, to)));
+  if (rehearses()) return;
   const VkBufferCopy region = {from_offset, to_offset, bytes};
   context_->vk.vkCmdCopyBuffer(commands_, from.handle, to.handle, 1, &region);
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ class Recorder {
  public:
   /// `commands` must be in the recording state. Errors are remembered; ask status() at the end.
   Recorder(Context::Impl& context, VkCommandBuffer commands);
+  /// A rehearsal: records nothing, and notes which programs the dispatches need.
+  explicit Recorder(Context::Impl& context) : Recorder(context, VK_NULL_HANDLE) {}
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();
@@ -46,11 +49,14 @@ class Recorder {
   void end_stages();
 
   Status status() const { return status_; }
+  /// Of a rehearsal: what dispatch() was given, each once.
+  const std::set<ProgramKey>& programs() const { return programs_; }
   /// After the command buffer has finished: seconds per stage. Empty without timestamps.
   std::vector<StageTime> stage_times() const;
 
  private:
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels);
+  bool rehearses() const { return commands_ == VK_NULL_HANDLE; }
   void bind(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
             std::span<const std::byte> push_constants);
   void check_bindings(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
@@ -71,6 +77,7 @@ class Recorder {
   Context::Impl* context_;
   VkCommandBuffer commands_;
   std::vector<VkDescriptorPool> descriptor_pools_;
+  std::set<ProgramKey> programs_;
   Room room_;
   std::uint32_t next_pool_sets_ = 0;
   std::vector<VkQueryPool> timestamps_;
@@ -84,6 +91,11 @@ template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span<const T, 1>(&value, 1));
 }
+
+/// Makes the programs that `record` needs and that are not there yet, on all processors: compiling them one by one as
+/// they are met takes longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`, and of
+/// the programs.
+Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record);
 
 /// Records with `record`, submits, waits; returns seconds per stage. Errors: device lost (kInternal),
 /// kOutOfMemory, whatever `record` returns.

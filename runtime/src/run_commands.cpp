@@ -86,6 +86,12 @@ Status Submission::submit_and_wait() {
 
 }  // namespace
 
+Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record) {
+  Recorder rehearsal(context);
+  if (Status s = record(rehearsal); !s.ok()) return s;
+  return context.make_programs(rehearsal.programs());
+}
+
 Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record) {
   Submission submission(context);
   if (const Status begun = submission.begin(); !begun.ok()) return begun.error();

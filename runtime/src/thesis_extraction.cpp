@@ -43,6 +43,8 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   Result<ThesisPipeline> created = ThesisPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
   if (!created.ok()) return created.error();
+  const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };
+  if (Status s = make_programs(context, record_one); !s.ok()) return s.error();
   ThesisPipeline pipeline = std::move(created).value();
   extraction.counters.levels.resize(pipeline.level_count());
   for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {

@@ -6,9 +6,9 @@
 const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: docs/theory.md, "Rounding"
 
 // Lemmas C and D: can their spokes be 2 theta apart?
-bool can_turn(uint i, uint j, float theta) {
-  float left = 2.0 * (theta - kAngleSlack) - carrier_spokes[i].w - carrier_spokes[j].w;
-  return left <= 0.0 || dot(carrier_spokes[i].xyz, carrier_spokes[j].xyz) <= cos(left) + kCosineSlack;
+bool can_turn(Carrier a, Carrier b, float theta) {
+  float left = 2.0 * (theta - kAngleSlack) - a.spokes.w - b.spokes.w;
+  return left <= 0.0 || dot(a.spokes.xyz, b.spokes.xyz) <= cos(left) + kCosineSlack;
 }
 
 // The normals between which the spokes to a face or an edge lie.
@@ -17,17 +17,16 @@ void normals_of(uint name, out vec3 first, out vec3 second) {
   first = triangle_texel(4u * t + 3u).xyz;
   second = first;
   if (kind == kFace) return;
-  TriangleLinks l = links[t];
-  second = triangle_texel(4u * (kind == 1u ? l.neighbour_0 : kind == 2u ? l.neighbour_1 : l.neighbour_2) + 3u).xyz;
+  if (kind < kFirstCorner) second = triangle_texel(4u * links[t].neighbour[kind - kFirstEdge] + 3u).xyz;
 }
 
 // The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
 // two arcs differ by no more than some two ends, if those are closer than that.
-bool can_turn_between_normals(uint i, uint j, float theta) {
-  if (carrier_name[i] % 8u >= kFirstCorner || carrier_name[j] % 8u >= kFirstCorner) return true;
+bool can_turn_between_normals(uint first, uint second, float theta) {
+  if (first % 8u >= kFirstCorner || second % 8u >= kFirstCorner) return true;
   vec3 a, b, c, d;
-  normals_of(carrier_name[i], a, b);
-  normals_of(carrier_name[j], c, d);
+  normals_of(first, a, b);
+  normals_of(second, c, d);
   float least = min(min(dot(a, c), dot(a, d)), min(dot(b, c), dot(b, d)));
   return least <= max(0.0, cos(2.0 * (theta - kAngleSlack))) + kCosineSlack;
 }
@@ -40,18 +39,19 @@ vec3 project(vec4 span, vec3 x) {
 
 // Lemma H: can the feet be as far apart as the object angle asks, 2 D sin(theta), anywhere in the box? D is bounded by
 // a mixture of the two distances: the one whose gradient cancels best that of the feet's distance.
-bool can_be_wide(uint i, uint j, float sine, Box box) {
-  vec4 span_a = carrier_span[i], span_b = carrier_span[j];
+bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
+  Feature at_a = feature_named(first.name, box), at_b = feature_named(second.name, box);
+  vec4 span_a = at_a.span, span_b = at_b.span;
   if (span_a.w == kUnknownSpan || span_b.w == kUnknownSpan) return true;
-  vec4 a = carrier_nearest[i], b = carrier_nearest[j], ab = b - a;
-  vec3 apart = carrier_foot[i].xyz - carrier_foot[j].xyz;
+  vec4 a = first.nearest, b = second.nearest, ab = b - a;
+  vec3 apart = at_a.foot.xyz - at_b.foot.xyz;
   vec3 pull = unit_or_zero(apart);
   pull = project(span_a, pull) - project(span_b, pull) + 2.0 * sine * a.xyz;
   float share = clamp(-dot(pull, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
   // Outside [0, 1] one distance counts negatively: Lemma F's upper bound of it.
   float excess = max(max(-share, share - 1.0), 0.0);
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
-  float slack = 4.0 * (carrier_foot[i].w + carrier_foot[j].w) +
+  float slack = 4.0 * (at_a.foot.w + at_b.foot.w) +
                 (1.0 + 2.0 * excess) * distance_slack(min(a.w, b.w), box.circumradius);
   vec4 mixture = a + share * ab;
   [[unroll]] for (uint k = 0; k < 8u; ++k) {
@@ -92,12 +92,12 @@ Facing facing_of(uint name, float sine) {
 }
 
 // Lemma E: may both face each other along some chord?
-bool can_face(uint i, uint j, float sine) {
-  Facing a = facing_of(carrier_name[i], sine), b = facing_of(carrier_name[j], sine);
+bool can_face(uint first, uint second, float sine) {
+  Facing a = facing_of(first, sine), b = facing_of(second, sine);
   if (!a.asked && !b.asked) return true;
   vec3 p[3], q[3], mean = vec3(0.0);
-  corners_of(carrier_name[i], p);
-  corners_of(carrier_name[j], q);
+  corners_of(first, p);
+  corners_of(second, q);
   [[unroll]] for (uint k = 0; k < 9u; ++k) mean += unit_or_zero(q[k % 3u] - p[k / 3u]);
   mean = unit_or_zero(mean);
   float most_a = -1.0, most_b = -1.0;
@@ -120,22 +120,23 @@ bool can_face(uint i, uint j, float sine) {
   return a_faces && b_faces;
 }
 
-// Lemma F: a third carrier is nearer wherever these two tie.
-bool is_beaten(uint i, uint j, Box box) {
-  vec4 a = carrier_nearest[i], b = carrier_nearest[j];
-  vec3 ab = b.xyz - a.xyz;
-  float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(carrier_error[i].x, carrier_error[j].x);
-  for (uint k = 0; k < min(kPairRivals, kept_count); ++k) {
-    uint c = carrier_order[k];
-    float share = clamp(dot(ab, carrier_nearest[c].xyz - a.xyz) * inverse, 0.0, 1.0);
-    if (c != i && c != j && beats(c, mix(a, b, share), slack, box)) return true;
+// Lemma F: a third carrier is nearer wherever these two tie. Row 0 of carrier_order holds the ones that are tried.
+bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
+  vec3 ab = b.nearest.xyz - a.nearest.xyz;
+  float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(error_of(a, box).x, error_of(b, box).x);
+  for (uint k = 0;;) {
+    Carrier rival = CARRIER_OF_LANE(nearest_row, carrier_order, 0u, k);
+    float share = clamp(dot(ab, rival.nearest.xyz - a.nearest.xyz) * inverse, 0.0, 1.0);
+    bool is_third = rival.name != a.name && rival.name != b.name;
+    bool beaten = is_third && beats(rival, mix(a.nearest, b.nearest, share), slack, box);
+    if (beaten || ++k >= min(kPairRivals, kept_count)) return beaten;
   }
-  return false;
 }
 
-bool is_feasible_pair(uint i, uint j, float theta, float sine, Box box) {
-  return can_turn(i, j, theta) && !is_beaten(i, j, box) && can_turn_between_normals(i, j, theta) &&
-         can_be_wide(i, j, sine, box) && can_face(i, j, sine);
+// May a pair that turns enough, and that no third carrier beats, hold the spokes?
+bool is_feasible_survivor(Carrier a, Carrier b, float theta, float sine, Box box) {
+  return can_turn_between_normals(a.name, b.name, theta) && can_be_wide(a, b, sine, box) &&
+         can_face(a.name, b.name, sine);
 }
 
 #endif

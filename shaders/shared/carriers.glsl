@@ -1,11 +1,11 @@
 // The carriers of a box: the faces, edges and vertices on which the spokes of its medial points can end
-// (docs/theory.md, Lemmas A, C and D). A workgroup gathers them, nearest first. Include after "triangles.glsl" and after
-// declaring `cells`, `lists`, `links` and `corner_cones`.
+// (docs/theory.md, Lemmas A, C and D). A workgroup of eight lanes gathers them, nearest first. Include after "lanes.glsl"
+// and "triangles.glsl" and after declaring `cells`, `lists`, `links` and `corner_cones`.
 #ifndef MEDIAL_VK_CARRIERS_GLSL
 #define MEDIAL_VK_CARRIERS_GLSL
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
-const uint kMostEntries = 8192u;  // nor are those with longer lists
+const uint kMostFeatures = 512u;  // nor are those with contacts of more features
 // What kind of carrier, in the low bits of its name: a trusted face, an edge 1 to 3, a vertex 4 to 6 of its triangle,
 // or an untrusted triangle as a whole.
 const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kWhole = 7u;
@@ -18,59 +18,53 @@ struct Box {
   float circumradius;
 };
 
+shared uint feature_count;
+shared uint feature_name[kMostFeatures];
 shared uint carrier_count;
 shared uint carrier_name[kMostCarriers];
-// Nearest first, and by name where they tie: results do not depend on the order of the atomics. Of those that others
-// do not beat everywhere, there are kept_count.
-shared uint carrier_order[kMostCarriers];
-shared uint kept_count;
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
-shared vec2 carrier_error[kMostCarriers];    // of the bound D - g.x: by rounding; above it, by bending (Lemma F)
-// The plane, line or point that a carrier spans: the projection of the centre on it (from the centre) and how wrong
-// that may be; a unit normal or direction, and which.
-shared vec4 carrier_foot[kMostCarriers];
-shared vec4 carrier_span[kMostCarriers];
+// Nearest first, and by name where they tie: results do not depend on the order of the atomics. Then without those that
+// others beat everywhere.
+shared uint ranked[kMostCarriers];
+shared uint carrier_order[kMostCarriers];
+uint kept_count;  // of carrier_order; the same in all lanes
+
+// The plane, line or point that a carrier spans.
 const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
-shared float corner_distance[8];  // from the corners of the box to the triangle nearest to its centre
-float farthest_corner;            // the greatest of them
+
+float corner_distance[8];  // from the corners of the box to the triangle nearest to its centre
 
 // Lemma A for a box.
 bool touches_box(vec3 v, float d, Box box) {
   vec3 h = box.half_sides * (v / max(d, 1e-30));
-  float least = d - distance_slack(d, box.circumradius);
-  if (farthest_corner + dot(abs(h), vec3(1.0)) < least) return false;
-  for (uint k = 0; k < 8u; ++k)
-    if (corner_distance[k] + dot(h, corner_sign(k)) >= least) return true;
-  return false;
+  float most = -1.0;
+  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
+  return d - distance_slack(d, box.circumradius) <= most;
 }
 
-// Lists a carrier whose nearest point is at centre + v, unless Lemma A or C shows that no spoke ends there.
-void add_carrier(vec3 v, vec4 spokes, vec4 foot, vec4 span, float tilt, uint name, Box box) {
-  float d = length(v);
-  if (!touches_box(v, d, box)) return;
-  vec3 g = unit_or_zero(v);
-  float rho = box.circumradius + 2.0 * step.slack;
-  if (d > rho) {
-    float wander = asin(rho / d) + tilt + kAngleSlack;
-    float sum = wander + spokes.w;
-    if (sum < 3.1 && dot(g, spokes.xyz) < cos(sum) - kCosineSlack) return;
-    if (wander < spokes.w) spokes = vec4(g, wander);
-  }
-  uint slot = atomicAdd(carrier_count, 1u);
-  if (slot >= kMostCarriers) return;
-  carrier_name[slot] = name;
-  carrier_nearest[slot] = vec4(g, d);
-  carrier_spokes[slot] = spokes;
-  float rho_squared = box.circumradius * box.circumradius;
-  carrier_error[slot] = vec2(distance_slack(d, box.circumradius), 0.5 * rho_squared / max(d, 1e-30));
-  carrier_foot[slot] = foot;
-  carrier_span[slot] = span;
+// What may carry spokes, before it is a carrier.
+struct Feature {
+  vec3 nearest;  // vector from the centre of the box to its nearest point
+  vec4 spokes;   // axis and half-angle of a cap
+  vec4 foot;     // projection of the centre on what it spans, from the centre; w: how wrong that may be
+  vec4 span;     // unit normal or direction of that; w: which
+  float tilt;    // how far rounding may turn it
+  bool meets;    // false: no point of the box projects into it
+};
+
+Feature face_feature(TriangleTexels texels, bool whole, Box box) {
+  vec3 v = vector_to_triangle(box.centre, texels), n = texels.normal.xyz;
+  Feature f = Feature(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), true);
+  f.spokes = whole ? f.spokes : vec4(n, kAngleSlack);
+  f.foot = whole ? f.foot : vec4(n * dot(n, texels.a.xyz - box.centre), step.slack);
+  f.span = whole ? f.span : vec4(n, kPlane);
+  return f;
 }
 
 vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
 
-void add_edge(uint t, TriangleTexels texels, uint k, uint neighbour, Box box) {
+Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, Box box) {
   vec3 a = corner_of(texels, k), e = corner_of(texels, k == 2u ? 0u : k + 1u) - a;
   vec3 other = triangle_texel(4u * neighbour + 3u).xyz;
   vec3 sum = texels.normal.xyz + other;
@@ -82,101 +76,188 @@ void add_edge(uint t, TriangleTexels texels, uint k, uint neighbour, Box box) {
   vec3 u = e / size_e;
   float tilt = 1.2e-7 / size_e, sway = tilt * length(box.centre - a);
   float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + step.slack + sway;
-  if (along < -reach || along > size_e + reach) return;  // no point of the box projects into the edge
   vec4 foot = vec4(a + along * u - box.centre, step.slack * (1.0 + box.circumradius / size_e) + sway);
-  add_carrier(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), tilt, 8u * t + kFirstEdge + k,
-              box);
+  return Feature(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), tilt,
+                 along >= -reach && along <= size_e + reach);
 }
 
-void add_carriers_of(uint t, Box box) {
+Feature corner_feature(TriangleTexels texels, uint k, vec4 cone, Box box) {
+  vec3 v = corner_of(texels, k) - box.centre;
+  return Feature(v, cone, vec4(v, step.slack), vec4(kPoint), 0.0, true);
+}
+
+// All three kinds are computed and one is chosen: lanes hold different kinds, so every branch would be taken anyway.
+Feature feature_named(uint name, Box box) {
+  uint t = name / 8u, kind = name % 8u;
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kWhole;
+  uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
   TriangleTexels texels = load_triangle(t);
-  vec3 v = vector_to_triangle(box.centre, texels);
-  if (!touches_box(v, length(v), box)) return;
-  TriangleLinks l = links[t];
-  if ((l.flags & kLinkWhole) != 0u || texels.normal.w < 0.5) {
-    add_carrier(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), 8u * t + kWhole, box);
-    return;
-  }
-  vec3 n = texels.normal.xyz;
-  vec4 foot = vec4(n * dot(n, texels.a.xyz - box.centre), step.slack);
-  add_carrier(v, vec4(n, kAngleSlack), foot, vec4(n, kPlane), tilt_of(texels), 8u * t + kFace, box);
-  uint neighbour[3] = uint[3](l.neighbour_0, l.neighbour_1, l.neighbour_2);
-  uint corner[3] = uint[3](l.corner_0, l.corner_1, l.corner_2);
-  for (uint k = 0; k < 3u; ++k) {
-    if ((l.flags & (kLinkEdge << k)) != 0u) add_edge(t, texels, k, neighbour[k], box);
-    vec3 to_corner = corner_of(texels, k) - box.centre;
-    if ((l.flags & (kLinkCorner << k)) != 0u)
-      add_carrier(to_corner, corner_cones[corner[k]], vec4(to_corner, step.slack), vec4(kPoint), 0.0,
-                  8u * t + kFirstCorner + k, box);
+  Feature face = face_feature(texels, kind == kWhole, box);
+  Feature edge = edge_feature(texels, k, is_edge ? links[t].neighbour[k] : t, box);
+  Feature corner = corner_feature(texels, k, corner_cones[links[t].corner[k]], box);
+  Feature f = face;
+  f.nearest = is_edge ? edge.nearest : is_corner ? corner.nearest : face.nearest;
+  f.spokes = is_edge ? edge.spokes : is_corner ? corner.spokes : face.spokes;
+  f.foot = is_edge ? edge.foot : is_corner ? corner.foot : face.foot;
+  f.span = is_edge ? edge.span : is_corner ? corner.span : face.span;
+  f.tilt = is_edge ? edge.tilt : is_corner ? corner.tilt : face.tilt;
+  f.meets = !is_edge || edge.meets;
+  return f;
+}
+
+// Lists a feature as a carrier, unless Lemma A or C shows that no spoke ends there.
+void add_carrier(Feature f, uint name, Box box) {
+  float d = length(f.nearest);
+  vec3 g = unit_or_zero(f.nearest);
+  float rho = box.circumradius + 2.0 * step.slack;
+  bool outside = d > rho;
+  float wander = (outside ? asin(rho / d) : 4.0) + f.tilt + kAngleSlack;
+  float sum = wander + f.spokes.w;
+  bool turned_away = outside && sum < 3.1 && dot(g, f.spokes.xyz) < cos(sum) - kCosineSlack;
+  if (!f.meets || turned_away || !touches_box(f.nearest, d, box)) return;
+  uint slot = atomicAdd(carrier_count, 1u);
+  if (slot >= kMostCarriers) return;
+  carrier_name[slot] = name;
+  carrier_nearest[slot] = vec4(g, d);
+  carrier_spokes[slot] = outside && wander < f.spokes.w ? vec4(g, wander) : f.spokes;
+}
+
+// Names the features of one contact that may carry spokes.
+void list_features(uint t) {
+  uint flags = links[t].flags;
+  bool whole = (flags & kLinkWhole) != 0u || triangle_texel(4u * t + 3u).w < 0.5;
+  uint kinds = whole ? 1u << kWhole : 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
+  uint slot = atomicAdd(feature_count, uint(bitCount(kinds)));
+  while (kinds != 0u) {
+    if (slot < kMostFeatures) feature_name[slot] = 8u * t + uint(findLSB(kinds));
+    ++slot;
+    kinds &= kinds - 1u;
   }
 }
 
-// Lemma F: is carrier c nearer than the mixture of two others wherever these tie?
-bool beats(uint c, vec4 mixture, float slack, Box box) {
-  vec4 ahead = mixture - carrier_nearest[c];
-  vec2 error = carrier_error[c];
+struct Carrier {
+  uint name;
+  vec4 nearest;
+  vec4 spokes;
+};
+
+Carrier load_carrier(uint slot) {
+  return Carrier(carrier_name[slot], carrier_nearest[slot], carrier_spokes[slot]);
+}
+
+// Carriers go in rows of eight, one for each lane. Lane k's of `row`, whose slots `order` holds from `first` on.
+#ifdef LOCKSTEP
+#define CARRIER_OF_LANE(row, order, first, k) \
+  Carrier(from_lane(row.name, k), from_lane(row.nearest, k), from_lane(row.spokes, k))
+#else
+#define CARRIER_OF_LANE(row, order, first, k) load_carrier(order[min((first) + (k), carrier_count - 1u)])
+#endif
+
+uint row_count(uint carriers) { return (carriers + kLanes - 1u) / kLanes; }
+
+// Writes the slots of the carriers, nearest first, to `ranked`.
+void rank_carriers(uint lane) {
+  uint rows = row_count(carrier_count);
+  for (uint a = 0; a < rows; ++a) {
+    uint i = kLanes * a + lane, name = carrier_name[i], rank = 0u;
+    float mine = carrier_nearest[i].w;
+    for (uint b = 0; b < rows; ++b) {
+      uint first = kLanes * b;
+      float theirs = carrier_nearest[first + lane].w;
+      uint their_name = carrier_name[first + lane];
+      [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+#ifdef LOCKSTEP
+        float other = from_lane(theirs, k);
+        uint other_name = from_lane(their_name, k);
+#else
+        float other = carrier_nearest[first + k].w;
+        uint other_name = carrier_name[first + k];
+#endif
+        bool before = other < mine || (other == mine && other_name < name);
+        rank += before && first + k < carrier_count ? 1u : 0u;
+      }
+    }
+    if (i < carrier_count) ranked[rank] = i;
+  }
+}
+
+const uint kRivals = 4u, kPairRivals = 8u;  // the nearest carriers, tried as those that beat one other, or a pair
+
+// What its bound D - g.x may be wrong by: x for rounding; y for bending, where it bounds from above (Lemma F).
+vec2 error_of(Carrier c, Box box) {
+  float rho = box.circumradius, d = c.nearest.w;
+  return vec2(distance_slack(d, rho), 0.5 * rho * rho / max(d, 1e-30));
+}
+
+// Lemma F: is a rival nearer than the mixture of two others wherever these tie?
+bool beats(Carrier rival, vec4 mixture, float slack, Box box) {
+  vec4 ahead = mixture - rival.nearest;
+  vec2 error = error_of(rival, box);
   return ahead.w - 3.0 * max(slack, error.x) > dot(box.half_sides, abs(ahead.xyz)) + error.y;
 }
 
-void rank_carriers(uint lane) {
-  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
-    float mine = carrier_nearest[i].w;
-    uint name = carrier_name[i], rank = 0;
-    for (uint j = 0; j < carrier_count; ++j) {
-      float other = carrier_nearest[j].w;
-      rank += other < mine || (other == mine && carrier_name[j] < name) ? 1u : 0u;
+// All lanes. Lemma F with one carrier in place of a pair: where another is nearer everywhere in the box, it is left out.
+void order_unbeaten(uint lane, Box box) {
+  kept_count = 0u;
+  Carrier nearest_row = load_carrier(ranked[min(lane, carrier_count - 1u)]);
+  for (uint first = 0; first < carrier_count; first += kLanes) {
+    uint slot = ranked[min(first + lane, carrier_count - 1u)];
+    Carrier mine = load_carrier(slot);
+    float slack = error_of(mine, box).x;
+    bool keep = first + lane < carrier_count;
+    for (uint k = 0; k < min(kRivals, carrier_count); ++k) {
+      Carrier rival = CARRIER_OF_LANE(nearest_row, ranked, 0u, k);
+      keep = keep && (k >= first + lane || !beats(rival, mine.nearest, slack, box));
     }
-    carrier_order[rank] = i;
+    uint kept = or_of_lanes(keep ? 1u << lane : 0u);
+    if (keep) carrier_order[kept_count + uint(bitCount(kept & ((1u << lane) - 1u)))] = slot;
+    kept_count += uint(bitCount(kept));
   }
+  synchronize();
 }
 
-const uint kRivals = 4u, kPairRivals = 8u;  // how many of the nearest are tried as the one that beats
-shared uint rivals[kRivals];
-const uint kBeaten = 0xffffffffu;
-
-// Lemma F with one carrier in place of a pair: another is nearer everywhere in the box.
-void drop_beaten(uint lane, Box box) {
-  for (uint i = lane; i < carrier_count; i += gl_WorkGroupSize.x) {
-    uint carrier = carrier_order[i];
-    bool beaten = false;
-    for (uint k = 0; k < min(kRivals, i) && !beaten; ++k)
-      beaten = beats(rivals[k], carrier_nearest[carrier], carrier_error[carrier].x, box);
-    if (beaten) carrier_order[i] = kBeaten;
+// Lists the features of the contacts that touch the cell (the first of its list), then those that carry spokes. In two
+// passes, so that all lanes have work in the second, which is dear.
+void list_carriers(uint lane, Cell cell, Box box) {
+  for (uint i = lane; i < cell.touching; i += kLanes) list_features(lists[cell.list_begin + i]);
+  synchronize();
+  uint count = min(feature_count, kMostFeatures);
+  for (uint i = lane; i < count; i += kLanes) {
+    uint name = feature_name[i];
+    add_carrier(feature_named(name, box), name, box);
   }
+  synchronize();
 }
 
-void pack_carriers() {
-  uint count = 0;
-  for (uint i = 0; i < carrier_count; ++i) {
-    uint carrier = carrier_order[i];
-    if (carrier != kBeaten) carrier_order[count++] = carrier;
-  }
-  kept_count = count;
+void measure_corners(uint lane, TriangleTexels nearest, Box box) {
+#ifdef LOCKSTEP
+  float mine = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(lane), nearest));
+  [[unroll]] for (uint k = 0; k < 8u; ++k) corner_distance[k] = from_lane(mine, k);
+#else
+  [[unroll]] for (uint k = 0; k < 8u; ++k)
+    corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));
+#endif
 }
 
 // All lanes of the workgroup call this. False: too many.
 bool gather_carriers(Cell cell, Box box) {
   uint lane = gl_LocalInvocationID.x;
-  barrier();
-  if (lane == 0u) carrier_count = 0u;
   TriangleTexels nearest = load_triangle(cell.nearest);
-  for (uint k = lane; k < 8u; k += gl_WorkGroupSize.x)
-    corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));
-  barrier();
-  farthest_corner = 0.0;
-  for (uint k = 0; k < 8u; ++k) farthest_corner = max(farthest_corner, corner_distance[k]);
-  if (cell.list_count <= kMostEntries)
-    for (uint i = lane; i < cell.list_count; i += gl_WorkGroupSize.x) add_carriers_of(lists[cell.list_begin + i], box);
-  barrier();
-  if (cell.list_count > kMostEntries || carrier_count > kMostCarriers) return false;
+  measure_corners(lane, nearest, box);
+  synchronize();
+  if (lane == 0u) {
+    feature_count = 0u;
+    carrier_count = 0u;
+  }
+  synchronize();
+  kept_count = 0u;
+  if (cell.touching > kMostFeatures) return false;
+  list_carriers(lane, cell, box);
+  if (feature_count > kMostFeatures || carrier_count > kMostCarriers) return false;
+  if (carrier_count == 0u) return true;
   rank_carriers(lane);
-  barrier();
-  if (lane < min(kRivals, carrier_count)) rivals[lane] = carrier_order[lane];
-  barrier();
-  drop_beaten(lane, box);
-  barrier();
-  if (lane == 0u) pack_carriers();
-  barrier();
+  synchronize();
+  order_unbeaten(lane, box);
   return true;
 }
 

@@ -31,7 +31,8 @@ struct Cell {
   uint word_begin;  // first 32-entry word of its contact masks
   uint flags;       // kCell*
   uint nearest;     // triangle nearest to the centre
-  uint padding_0, padding_1, padding_2;
+  uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
+  uint padding_0, padding_1;
 };
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
 MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
@@ -60,9 +61,9 @@ struct FoundPoint {
 
 // What a triangle shares with its neighbours (docs/theory.md, Lemma D). Edge k goes from corner k to the next.
 struct TriangleLinks {
-  uint corner_0, corner_1, corner_2;           // rows of the table of spokes to vertices
-  uint neighbour_0, neighbour_1, neighbour_2;  // across the edges that this triangle lists
-  uint flags;                                  // kLink*
+  uint corner[3];     // rows of the table of spokes to vertices
+  uint neighbour[3];  // across its edges
+  uint flags;         // kLink*
   uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kNoLink = 0xffffffffu;
@@ -121,6 +122,7 @@ struct StepConstants {
   uint closed;                  // 1: inside and outside can be decided for whole cells
   uint last_level;              // 1: what is kept now stays undecided
   float half_side;              // of the cells, rounded up
+  float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint treelet_count;
 };
 
@@ -168,6 +170,7 @@ MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
 MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
 MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit
 MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known
+MEDIAL_VK_GPU_CONSTANT kOpen = 18u;             // children that the first test of dismissal leaves open
 MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: visited, kept, contacts, found
 MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 4u;
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;

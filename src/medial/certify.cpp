@@ -53,13 +53,13 @@ class Certifier {
   /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
   bool certify(MedialSphere& s) const {
     if (!in_its_voxel(s)) return false;
-    const BvhHit nearest = bvh_.closest(s.centre);
+    const BvhHit nearest = closest(s.centre, s.radius);
     const double distance = std::sqrt(nearest.squared_distance);
     if (distance <= 2 * rounding_) return false;
     s.radius = distance - rounding_;
     const Point toward = (1 / distance) * (nearest.point - s.centre);
     const Point grown_centre = s.centre - epsilon_ * toward;
-    const BvhHit grown = bvh_.closest(grown_centre);
+    const BvhHit grown = closest(grown_centre, distance + epsilon_);
     // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon.
     if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
     const std::array<float, 3> a = unit_float(toward), beyond = unit_float(grown.point - grown_centre);
@@ -82,6 +82,12 @@ class Certifier {
       magnitude = std::max({magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
     }
     return 32 * u * longest + 4 * u * magnitude;
+  }
+
+  // The nearest point, expected at about this distance: with a bound the search is short.
+  BvhHit closest(const Point& p, double expected) const {
+    const BvhHit hit = bvh_.closest(p, expected + 1e-5 * longest_);
+    return hit.triangle != 0xffffffffu ? hit : bvh_.closest(p);
   }
 
   struct End {

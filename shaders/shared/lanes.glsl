@@ -1,0 +1,104 @@
+// Eight neighbouring invocations that work on one cell. Include it first.
+//
+// Kernels that include this are compiled twice. With LOCKSTEP, for devices where the eight are in one subgroup that runs
+// in lockstep and has shuffles (Context::Impl::has_lockstep_lanes), they exchange values without memory, and wait for
+// each other without a barrier of the workgroup, which costs a CPU a change of stacks. Without it they use shared memory.
+#ifndef MEDIAL_VK_LANES_GLSL
+#define MEDIAL_VK_LANES_GLSL
+#ifdef LOCKSTEP
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
+
+const uint kLanes = 8u;
+
+// Among the eight lanes of a cell, in workgroups of at most 64: all of them call these.
+//   from_lane (LOCKSTEP only)   the value that lane k holds
+//   sum_of_lanes, least_of_lanes, or_of_lanes, first_lane_with
+//   count_lanes                 the sum over the lanes before this one, and over all
+
+#ifdef LOCKSTEP
+
+void synchronize() { subgroupBarrier(); }
+
+// Lane k of my eight.
+uint lane_of_eight(uint k) { return (gl_SubgroupInvocationID & ~7u) + k; }
+
+float from_lane(float mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+vec2 from_lane(vec2 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+vec4 from_lane(vec4 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+uint from_lane(uint mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+
+vec4 sum_of_lanes(vec4 mine) {
+  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine += subgroupShuffleXor(mine, k);
+  return mine;
+}
+float least_of_lanes(float mine) {
+  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine = min(mine, subgroupShuffleXor(mine, k));
+  return mine;
+}
+uint or_of_lanes(uint mine) {
+  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine |= subgroupShuffleXor(mine, k);
+  return mine;
+}
+uvec2 count_lanes(uint mine) {
+  uvec2 sum = uvec2(0u);
+  [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+    uint theirs = from_lane(mine, k);
+    sum += uvec2(k < (gl_LocalInvocationID.x & 7u) ? theirs : 0u, theirs);
+  }
+  return sum;
+}
+
+#else
+
+void synchronize() { barrier(); }
+
+shared vec4 exchanged[64];
+shared uint exchanged_bits[64];
+
+vec4 sum_of_lanes(vec4 mine) {
+  uint slot = gl_LocalInvocationID.x;
+  barrier();
+  exchanged[slot] = mine;
+  barrier();
+  vec4 sum = vec4(0.0);
+  for (uint k = 0; k < kLanes; ++k) sum += exchanged[(slot & ~7u) + k];
+  return sum;
+}
+float least_of_lanes(float mine) {
+  uint slot = gl_LocalInvocationID.x;
+  barrier();
+  exchanged[slot].x = mine;
+  barrier();
+  for (uint k = 0; k < kLanes; ++k) mine = min(mine, exchanged[(slot & ~7u) + k].x);
+  return mine;
+}
+uint or_of_lanes(uint mine) {
+  uint slot = gl_LocalInvocationID.x;
+  barrier();
+  exchanged_bits[slot] = mine;
+  barrier();
+  for (uint k = 0; k < kLanes; ++k) mine |= exchanged_bits[(slot & ~7u) + k];
+  return mine;
+}
+uvec2 count_lanes(uint mine) {
+  uint slot = gl_LocalInvocationID.x;
+  barrier();
+  exchanged_bits[slot] = mine;
+  barrier();
+  uvec2 sum = uvec2(0u);
+  for (uint k = 0; k < kLanes; ++k) {
+    uint theirs = exchanged_bits[(slot & ~7u) + k];
+    sum += uvec2(k < (slot & 7u) ? theirs : 0u, theirs);
+  }
+  return sum;
+}
+
+#endif
+
+// The first of the eight lanes that asks, or kLanes.
+uint first_lane_with(bool asks) {
+  uint lanes = or_of_lanes(asks ? 1u << (gl_LocalInvocationID.x & 7u) : 0u);
+  return lanes == 0u ? kLanes : uint(findLSB(lanes));
+}
+#endif
