@@ -201,8 +201,8 @@ bool write_obj(const Mesh& mesh, const std::string& path) {
 
 int main(int argc, char** argv) {
   const int cells = argc > 2 ? std::atoi(argv[2]) : 72;
-  if (argc < 2 || argc > 3 || cells < 64 || cells > 1024) {
-    std::fprintf(stderr, "usage: make_model FILE.obj [CELLS]   (CELLS 64 to 1024, default 72)\n");
+  if (argc < 2 || argc > 3 || cells < 52 || cells > 1024) {
+    std::fprintf(stderr, "usage: make_model FILE.obj [CELLS]   (CELLS 52 to 1024, default 72)\n");
     return 2;
   }
   const Mesh mesh = SurfaceNets(cells).polygonise();

@@ -1,10 +1,12 @@
 #include "medial_vk/bvh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
-#include <thread>
 
+#include "bvh_boxes.h"
 #include "bvh_builder.h"
+#include "parallel_blocks.h"
 #include "point_math.h"
 #include "triangle_distance.h"
 
@@ -15,21 +17,39 @@ Error invalid_mesh(std::string message) { return {ErrorCode::kInvalidMesh, std::
 
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
-Status check_mesh(const MeshView& mesh) {
-  if (mesh.triangles.empty()) return invalid_mesh("the mesh has no triangle");
-  if (mesh.triangles.size() >= 0x7fffffffu) return invalid_mesh("the mesh has more than 2147483646 triangles");
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (v >= mesh.vertices.size()) {
-        return invalid_mesh("face " + std::to_string(t) + " uses vertex " + std::to_string(v) + " of " +
-                            std::to_string(mesh.vertices.size()));
-      }
-      if (!is_finite(mesh.vertices[v])) {
-        return invalid_mesh("vertex " + std::to_string(v) + " has a coordinate that is not finite");
-      }
+/// Vertices and triangles of a block that a thread looks at.
+constexpr std::size_t kBlock = 32768;
+
+Status check_triangle(const MeshView& mesh, std::size_t triangle) {
+  for (const std::uint32_t v : mesh.triangles[triangle]) {
+    if (v >= mesh.vertices.size()) {
+      return invalid_mesh("face " + std::to_string(triangle) + " uses vertex " + std::to_string(v) + " of " +
+                          std::to_string(mesh.vertices.size()));
+    }
+    if (!is_finite(mesh.vertices[v])) {
+      return invalid_mesh("vertex " + std::to_string(v) + " has a coordinate that is not finite");
     }
   }
   return {};
+}
+
+/// Names the first triangle that is at fault.
+Status check_mesh(const MeshView& mesh, unsigned threads) {
+  const std::size_t count = mesh.triangles.size();
+  if (count == 0) return invalid_mesh("the mesh has no triangle");
+  if (count >= 0x7fffffffu) return invalid_mesh("the mesh has more than 2147483646 triangles");
+  std::vector<std::size_t> faults((count + kBlock - 1) / kBlock, count);  // by block
+  parallel_blocks(count, kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = end; t-- > begin;) {
+      const Triangle& triangle = mesh.triangles[t];
+      const bool fine = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+        return v < mesh.vertices.size() && is_finite(mesh.vertices[v]);
+      });
+      if (!fine) faults[begin / kBlock] = t;
+    }
+  });
+  const std::size_t first = *std::min_element(faults.begin(), faults.end());
+  return first < count ? check_triangle(mesh, first) : Status();
 }
 
 std::array<Point, 3> corners_of(const MeshView& mesh, std::size_t triangle) {
@@ -37,12 +57,15 @@ std::array<Point, 3> corners_of(const MeshView& mesh, std::size_t triangle) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-std::vector<BvhPrimitive> make_primitives(const MeshView& mesh) {
+std::vector<BvhPrimitive> make_primitives(const MeshView& mesh, unsigned threads) {
   std::vector<BvhPrimitive> primitives(mesh.triangles.size());
-  for (std::size_t t = 0; t < primitives.size(); ++t) {
-    const auto [a, b, c] = corners_of(mesh, t);
-    primitives[t] = {{least(a, least(b, c)), greatest(a, greatest(b, c))}, static_cast<std::uint32_t>(t)};
-  }
+  parallel_blocks(primitives.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = corners_of(mesh, t);
+      const Point lower = least(a, least(b, c)), upper = greatest(a, greatest(b, c));
+      primitives[t] = {{lower[0], lower[1], lower[2], -upper[0], -upper[1], -upper[2]}, static_cast<std::uint32_t>(t)};
+    }
+  });
   return primitives;
 }
 
@@ -83,18 +106,34 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
 }  // namespace
 
 Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned threads) {
-  if (Status status = check_mesh(mesh); !status) return status.error();
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<BvhPrimitive> primitives = make_primitives(mesh);
+  threads = thread_count(threads);
+  if (Status status = check_mesh(mesh, threads); !status) return status.error();
+  BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, leaf_size), threads);
   Bvh bvh;
-  bvh.nodes_ = BvhBuilder(primitives, std::max(1u, leaf_size), threads).build();
-  bvh.order_.reserve(primitives.size());
-  bvh.corners_.reserve(primitives.size());
-  for (const BvhPrimitive& primitive : primitives) {
-    bvh.order_.push_back(primitive.triangle);
-    bvh.corners_.push_back(corners_of(mesh, primitive.triangle));
-  }
+  bvh.nodes_ = builder.build();
+  bvh.order_ = builder.take_order();
+  bvh.corners_.resize(bvh.order_.size());
+  bvh.take_corners(mesh, threads);
   return bvh;
+}
+
+Status Bvh::refit(const MeshView& mesh, unsigned threads) {
+  threads = thread_count(threads);
+  if (mesh.triangles.size() != order_.size()) {
+    return invalid_mesh("the mesh has " + std::to_string(mesh.triangles.size()) +
+                        " triangles, the tree was built over " + std::to_string(order_.size()));
+  }
+  if (order_.empty()) return {};
+  if (Status status = check_mesh(mesh, threads); !status) return status;
+  take_corners(mesh, threads);
+  return {};
+}
+
+void Bvh::take_corners(const MeshView& mesh, unsigned threads) {
+  parallel_blocks(order_.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) corners_[i] = corners_of(mesh, order_[i]);
+  });
+  fit_boxes(nodes_, corners_, threads);
 }
 
 BvhHit Bvh::closest(const Point& p, double bound) const {

@@ -1,11 +1,13 @@
 #include "device_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "parallel_blocks.h"
 #include "point_math.h"
 
 namespace medial_vk {
@@ -14,6 +16,9 @@ namespace {
 // Corners are rounded to float (2^-25 in the unit box), edges are differences of rounded corners (another 2^-25): the
 // triangle that a kernel sees stays within 2^-23 of the exact one. Twice that leaves room for the transform.
 constexpr double kBoxMargin = 0x1p-22;
+
+// Nodes or triangles that a thread looks at in one go.
+constexpr std::size_t kBlock = 4096;
 
 // A place that no query is near to, whose squared distance is still finite in float.
 constexpr float kFarAway = 1e18f;
@@ -81,33 +86,46 @@ std::array<Point, 3> unit_corners(const std::array<Point, 3>& corners, const Uni
   return {to_unit(corners[0]), to_unit(corners[1]), to_unit(corners[2])};
 }
 
-/// Moments of every node. Children come after their parents in a Bvh, so a pass from the back meets them first.
+Point centre_of(const Moments& m, const BvhNode& node, const UnitTransform& to_unit) {
+  return m.area > 0 ? (1 / m.area) * m.first : 0.5 * (to_unit(node.box.lower) + to_unit(node.box.upper));
+}
+
+Moments leaf_moments(const Bvh& bvh, const BvhNode& node, const UnitTransform& to_unit) {
+  Moments m;
+  const auto for_each_triangle = [&](auto visit) {
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) visit(unit_corners(bvh.corners()[t], to_unit));
+  };
+  for_each_triangle([&](const std::array<Point, 3>& corners) { m.add(moments_of(corners)); });
+  m.centre = centre_of(m, node, to_unit);
+  for_each_triangle([&](const std::array<Point, 3>& corners) {
+    for (const Point& corner : corners) m.reach = std::max(m.reach, length(corner - m.centre));
+  });
+  return m;
+}
+
+Moments joined_moments(const Moments& left, const Moments& right, const BvhNode& node, const UnitTransform& to_unit) {
+  Moments m;
+  m.add(left);
+  m.add(right);
+  m.centre = centre_of(m, node, to_unit);
+  m.reach = std::max(length(left.centre - m.centre) + left.reach, length(right.centre - m.centre) + right.reach);
+  m.reach = std::min(m.reach, farthest_corner(m.centre, {to_unit(node.box.lower), to_unit(node.box.upper)}));
+  return m;
+}
+
+/// Moments of every node: the leaves, which are most of the work, on all threads. Children come after their parents in
+/// a Bvh, so a pass from the back meets them first.
 std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit) {
   const std::vector<BvhNode>& nodes = bvh.nodes();
   std::vector<Moments> all(nodes.size());
+  parallel_blocks(nodes.size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (nodes[i].count != 0) all[i] = leaf_moments(bvh, nodes[i], to_unit);
+    }
+  });
   for (std::size_t i = nodes.size(); i-- > 0;) {
     const BvhNode& node = nodes[i];
-    const BvhBox box = {to_unit(node.box.lower), to_unit(node.box.upper)};
-    Moments& m = all[i];
-    if (node.count == 0) {
-      m.add(all[node.first]);
-      m.add(all[node.first + 1]);
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      m.add(moments_of(unit_corners(bvh.corners()[t], to_unit)));
-    }
-    m.centre = m.area > 0 ? (1 / m.area) * m.first : 0.5 * (box.lower + box.upper);
-    if (node.count == 0) {
-      const Moments& left = all[node.first];
-      const Moments& right = all[node.first + 1];
-      m.reach = std::max(length(left.centre - m.centre) + left.reach, length(right.centre - m.centre) + right.reach);
-      m.reach = std::min(m.reach, farthest_corner(m.centre, box));
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      for (const Point& corner : unit_corners(bvh.corners()[t], to_unit)) {
-        m.reach = std::max(m.reach, length(corner - m.centre));
-      }
-    }
+    if (node.count == 0) all[i] = joined_moments(all[node.first], all[node.first + 1], node, to_unit);
   }
   return all;
 }
@@ -137,6 +155,18 @@ std::pair<Texel, Texel> box_texels(const BvhNode& node, std::uint32_t first, con
           Texel{box.upper[0], box.upper[1], box.upper[2], static_cast<float>(node.count)}};
 }
 
+std::array<Texel, kTexelsPerTriangle> triangle_texels(const std::array<Point, 3>& exact, bool trusted) {
+  // Every triangle rounds a shared corner alike, so the float mesh is as watertight as the exact one.
+  const std::array<float, 3> a = to_float(exact[0]);
+  const Point ab = difference(to_float(exact[1]), a);
+  const Point ac = difference(to_float(exact[2]), a);
+  const Point normal = cross(exact[1] - exact[0], exact[2] - exact[0]);
+  const double size = length(normal);
+  return {Texel{a[0], a[1], a[2], static_cast<float>(inverse_square(ab))}, texel(ab, inverse_square(ac)),
+          texel(ac, inverse_square(ac - ab)),
+          texel(size > 0 ? (1 / size) * normal : Point{0, 0, 0}, trusted && size > 0 ? 1.0 : 0.0)};
+}
+
 }  // namespace
 
 FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit) {
@@ -152,22 +182,14 @@ FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit) {
 
 std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags) {
-  std::vector<Texel> texels;
-  texels.reserve(kTexelsPerTriangle * bvh.corners().size());
-  for (std::size_t i = 0; i < bvh.corners().size(); ++i) {
-    const std::array<Point, 3> exact = unit_corners(bvh.corners()[i], to_unit);
-    // Every triangle rounds a shared corner alike, so the float mesh is as watertight as the exact one.
-    const std::array<float, 3> a = to_float(exact[0]);
-    const Point ab = difference(to_float(exact[1]), a);
-    const Point ac = difference(to_float(exact[2]), a);
-    const Point normal = cross(exact[1] - exact[0], exact[2] - exact[0]);
-    const double size = length(normal);
-    const bool trusted = !flags.empty() && (flags[bvh.order()[i]] & kTrustedNormal) != 0;
-    texels.push_back({a[0], a[1], a[2], static_cast<float>(inverse_square(ab))});
-    texels.push_back(texel(ab, inverse_square(ac)));
-    texels.push_back(texel(ac, inverse_square(ac - ab)));
-    texels.push_back(texel(size > 0 ? (1 / size) * normal : Point{0, 0, 0}, trusted && size > 0 ? 1.0 : 0.0));
-  }
+  std::vector<Texel> texels(kTexelsPerTriangle * bvh.corners().size());
+  parallel_blocks(bvh.corners().size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool trusted = !flags.empty() && (flags[bvh.order()[i]] & kTrustedNormal) != 0;
+      const auto four = triangle_texels(unit_corners(bvh.corners()[i], to_unit), trusted);
+      std::copy(four.begin(), four.end(), texels.begin() + kTexelsPerTriangle * static_cast<std::ptrdiff_t>(i));
+    }
+  });
   return texels;
 }
 
@@ -189,11 +211,13 @@ std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit
     const std::array<Texel, 4> m = moment_texels(moments[child], total_area);
     std::copy(m.begin(), m.end(), texels.begin() + 4 * std::ptrdiff_t{count} + 8 * std::ptrdiff_t{parent} + 4 * side);
   };
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].count != 0) continue;
-    put_child(inner[i], 0, nodes[i].first);
-    put_child(inner[i], 1, nodes[i].first + 1);
-  }
+  parallel_blocks(nodes.size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (nodes[i].count != 0) continue;
+      put_child(inner[i], 0, nodes[i].first);
+      put_child(inner[i], 1, nodes[i].first + 1);
+    }
+  });
   if (inner_count == 0) {  // a single leaf: its sibling is one triangle, far away and without area
     put_child(0, 0, 0);
     texels[2] = {kFarAway, kFarAway, kFarAway, 0};

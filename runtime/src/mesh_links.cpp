@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "parallel_blocks.h"
 #include "point_math.h"
 
 namespace medial_vk {
@@ -24,6 +25,8 @@ constexpr double kTouchSlack = 3e-7;
 constexpr double kFlat = 5e-6;
 // Axes and angles are stored as floats.
 constexpr double kCapSlack = 1e-6;
+// Vertices that a thread looks at in one go.
+constexpr std::size_t kBlock = 2048;
 
 Point unit(const Point& v) {
   const double size = length(v);
@@ -126,19 +129,36 @@ class Builder {
     }
   }
 
+  // By low, high, position: a counting sort by the first, which leaves runs of a few edges to sort by the others.
+  std::vector<HalfEdge> sorted_edges() const {
+    std::vector<std::size_t> begin(mesh_.vertices.size() + 1, 0);
+    const auto for_each = [&](auto visit) {
+      for (uint p = 0; p < order_.size(); ++p) {
+        for (std::uint8_t k = 0; k < 3; ++k) {
+          const uint a = triangle(p)[k], b = triangle(p)[(k + 1) % 3];
+          visit(HalfEdge{std::min(a, b), std::max(a, b), p, k, a < b});
+        }
+      }
+    };
+    for_each([&](const HalfEdge& edge) { ++begin[edge.low + 1]; });
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<HalfEdge> edges(3 * order_.size());
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for_each([&](const HalfEdge& edge) { edges[next[edge.low]++] = edge; });
+    const auto at = [&](std::size_t v) { return edges.begin() + static_cast<std::ptrdiff_t>(begin[v]); };
+    parallel_blocks(mesh_.vertices.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) {
+        std::sort(at(v), at(v + 1), [](const HalfEdge& a, const HalfEdge& b) {
+          return std::tie(a.high, a.position) < std::tie(b.high, b.position);
+        });
+      }
+    });
+    return edges;
+  }
+
   // Of an edge between p and q, the earlier triangle lists it: both are contacts wherever a spoke ends on it.
   void link_edges() {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * order_.size());
-    for (uint p = 0; p < order_.size(); ++p) {
-      for (std::uint8_t k = 0; k < 3; ++k) {
-        const uint a = triangle(p)[k], b = triangle(p)[(k + 1) % 3];
-        edges.push_back({std::min(a, b), std::max(a, b), p, k, a < b});
-      }
-    }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-      return std::tie(a.low, a.high, a.position) < std::tie(b.low, b.high, b.position);
-    });
+    const std::vector<HalfEdge> edges = sorted_edges();
     for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
       while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
       if (end == i + 2 && edges[i].rising != edges[i + 1].rising) {
@@ -178,11 +198,18 @@ class Builder {
     for (uint p = 0; p < order_.size(); ++p)
       for (const uint v : triangle(p)) fans[next[v]++] = p;
     out_.corners.resize(mesh_.vertices.size(), kNoSpoke);
-    for (uint v = 0; v < mesh_.vertices.size(); ++v)
-      link_corner(v, std::span(fans).subspan(begin[v], begin[v + 1] - begin[v]));
+    const auto fan_of = [&](std::size_t v) {
+      return std::span<const uint>(fans).subspan(begin[v], begin[v + 1] - begin[v]);
+    };
+    parallel_blocks(mesh_.vertices.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) measure_corner(static_cast<uint>(v), fan_of(v));
+    });
+    for (uint v = 0; v < mesh_.vertices.size(); ++v) {
+      if (out_.corners[v].w >= 0) link_corner(v, fan_of(v));
+    }
   }
 
-  void link_corner(uint vertex, std::span<const uint> fan) {
+  void measure_corner(uint vertex, std::span<const uint> fan) {
     const auto whole = [&](uint p) { return (out_.links[p].flags & gpu::kLinkWhole) != 0u; };
     if (fan.empty() || std::any_of(fan.begin(), fan.end(), whole)) return;
     std::vector<Point> normals, edges;
@@ -193,7 +220,9 @@ class Builder {
       edges.push_back(unit(corner(p, k + 1) - corner(p, k)));
     }
     out_.corners[vertex] = corner_cap(normals, edges);
-    if (out_.corners[vertex].w < 0) return;
+  }
+
+  void link_corner(uint vertex, std::span<const uint> fan) {
     const Triangle& owner = triangle(fan.front());  // the earliest
     const uint k = owner[0] == vertex ? 0 : owner[1] == vertex ? 1 : 2;
     out_.links[fan.front()].flags |= gpu::kLinkCorner << k;

@@ -14,12 +14,15 @@ namespace {
 
 static_assert(gpu::kStackSize == Bvh::kMaxDepth);
 
-Result<Buffer> create_filled(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes,
-                             const char* purpose) {
-  Result<Buffer> buffer = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);
-  if (!buffer.ok()) return buffer;
-  if (Status status = upload(context, buffer.value(), bytes); !status.ok()) return status.error();
-  return buffer;
+/// Uploads to `buffer`, which is created if there is none yet.
+Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes, const char* purpose,
+            Buffer& buffer) {
+  if (buffer.handle == VK_NULL_HANDLE) {
+    Result<Buffer> created = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);
+    if (!created.ok()) return created.error();
+    buffer = created.value();
+  }
+  return upload(context, buffer, bytes);
 }
 
 FloatBox join(const FloatBox& a, const FloatBox& b) {
@@ -42,41 +45,57 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
   if (!bvh.ok()) return bvh.error();
   DeviceMesh device(context);
-  device.lower = bvh.value().nodes()[0].box.lower;
-  device.upper = bvh.value().nodes()[0].box.upper;
-  const Point sides = device.upper - device.lower;
-  device.longest = std::max({sides[0], sides[1], sides[2]});
-  if (!(device.longest > 0) || !std::isfinite(device.longest)) {
-    return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
-  }
-  device.closed = mesh.closed;
-  device.has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(),
-                                                            [](std::uint8_t f) { return (f & kTrustedNormal) != 0; });
+  device.bvh = std::move(bvh).value();
+  device.order = device.bvh.order();
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-  if (Status status = device.upload_mesh(context, mesh, bvh.value()); !status.ok()) return status.error();
-  device.order = bvh.value().order();
-  device.nodes = bvh.value().nodes();
+  if (Status status = device.measure(mesh); !status.ok()) return status.error();
+  if (Status status = device.upload_mesh(context, mesh); !status.ok()) return status.error();
+  if (Status status = device.create_views(); !status.ok()) return status.error();
   return device;
 }
 
-Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh, const Bvh& bvh) {
+Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
+  if (linked_vertices != 0 && mesh.vertices.size() != linked_vertices) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
+                                              " vertices, the one on the device " + std::to_string(linked_vertices)};
+  }
+  if (Status status = bvh.refit(mesh); !status.ok()) return status;
+  if (Status status = measure(mesh); !status.ok()) return status;
+  if (Status status = upload_mesh(context, mesh); !status.ok()) return status;
+  return linked_vertices != 0 ? upload_links(context, mesh) : Status();
+}
+
+/// What is known of the mesh as a whole. Error: it has no extent.
+Status DeviceMesh::measure(const MeshView& mesh) {
+  const BvhBox& box = bvh.nodes()[0].box;
+  const Point sides = box.upper - box.lower;
+  const double side = std::max({sides[0], sides[1], sides[2]});
+  if (!(side > 0) || !std::isfinite(side)) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
+  }
+  lower = box.lower;
+  upper = box.upper;
+  longest = side;
+  closed = mesh.closed;
+  has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(),
+                                                     [](std::uint8_t f) { return (f & kTrustedNormal) != 0; });
+  return {};
+}
+
+Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh) {
   const UnitTransform to_unit_box = {lower, longest};
   const std::vector<Texel> triangle_data = make_triangle_texels(bvh, to_unit_box, mesh.flags);
   const std::vector<Texel> tree_data = make_tree_texels(bvh, to_unit_box);
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
-  struct Part {
-    Buffer* buffer;
-    std::span<const std::byte> bytes;
-    const char* purpose;
-  };
-  for (const Part& part : {Part{&triangles, std::as_bytes(std::span(triangle_data)), "triangles"},
-                           Part{&tree, std::as_bytes(std::span(tree_data)), "the tree over the triangles"},
-                           Part{&triangle_info, std::as_bytes(std::span(bvh.order())), "triangle indices"}}) {
-    Result<Buffer> buffer = create_filled(context, arena, part.bytes, part.purpose);
-    if (!buffer.ok()) return buffer.error();
-    *part.buffer = buffer.value();
-  }
   use_texels = std::max(triangle_data.size(), tree_data.size()) <= context.limits.maxTexelBufferElements;
+  Status status = fill(context, arena, std::as_bytes(std::span(triangle_data)), "triangles", triangles);
+  if (!status.ok()) return status;
+  status = fill(context, arena, std::as_bytes(std::span(tree_data)), "the tree over the triangles", tree);
+  if (!status.ok()) return status;
+  return fill(context, arena, std::as_bytes(std::span(order)), "triangle indices", triangle_info);
+}
+
+Status DeviceMesh::create_views() {
   Buffer unread;
   if (!use_texels) {
     Result<Buffer> buffer = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
@@ -93,20 +112,23 @@ Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh, con
 }
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
-  const MeshLinks cones = make_mesh_links(mesh, order);
-  Result<Buffer> links =
-      create_filled(context, arena, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours");
-  if (!links.ok()) return links.error();
-  Result<Buffer> corners = create_filled(context, arena, std::as_bytes(std::span(cones.corners)), "spokes to vertices");
-  if (!corners.ok()) return corners.error();
-  triangle_links = links.value();
-  corner_cones = corners.value();
+  if (Status status = upload_links(context, mesh); !status.ok()) return status;
+  linked_vertices = mesh.vertices.size();
   return {};
+}
+
+Status DeviceMesh::upload_links(Context::Impl& context, const MeshView& mesh) {
+  const MeshLinks cones = make_mesh_links(mesh, order);
+  Status status = fill(context, arena, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours",
+                       triangle_links);
+  if (!status.ok()) return status;
+  return fill(context, arena, std::as_bytes(std::span(cones.corners)), "spokes to vertices", corner_cones);
 }
 
 // Subtrees of at most `least` triangles, in leaf order, joined until there are enough.
 std::vector<LeafRange> DeviceMesh::leaf_ranges(std::uint32_t least) const {
   const UnitTransform to_unit_box = {lower, longest};
+  const std::vector<BvhNode>& nodes = bvh.nodes();
   std::vector<std::uint32_t> sizes(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
     sizes[i] = nodes[i].count != 0 ? nodes[i].count : sizes[nodes[i].first] + sizes[nodes[i].first + 1];

@@ -37,6 +37,14 @@ struct DeviceMesh {
   /// kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
 
+  /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
+  /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
+  /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with lower, upper,
+  /// longest, closed or has_untrusted must be recorded anew. Errors: kInvalidMesh (another number of triangles or
+  /// vertices, an index out of range, a coordinate that is not finite: all stays as it was; no extent: the mesh is of
+  /// no use until an update succeeds), kOutOfMemory, kInternal (device lost).
+  Status update(Context::Impl& context, const MeshView& mesh);
+
   /// Adds what the dismissal by pairs asks about edges and vertices; `mesh` as given to create(). Error: kOutOfMemory.
   Status add_links(Context::Impl& context, const MeshView& mesh);
 
@@ -72,10 +80,14 @@ struct DeviceMesh {
 
  private:
   explicit DeviceMesh(Context::Impl& context) : arena(context) {}
-  Status upload_mesh(Context::Impl& context, const MeshView& mesh, const Bvh& bvh);
+  Status measure(const MeshView& mesh);
+  Status upload_mesh(Context::Impl& context, const MeshView& mesh);
+  Status create_views();
+  Status upload_links(Context::Impl& context, const MeshView& mesh);
 
   Arena arena;
-  std::vector<BvhNode> nodes;  // input units
+  Bvh bvh;                          // input units
+  std::size_t linked_vertices = 0;  // vertices of the mesh in add_links()
 };
 
 }  // namespace medial_vk

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <future>
 #include <new>
 #include <optional>
 #include <utility>
@@ -60,8 +61,9 @@ class ExtractionRun {
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
+    open_device();
     if (Status status = load(); !status) return status;
-    if (Status status = open_device(); !status) return status;
+    if (Status status = take_device(); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
     simplify();
@@ -103,12 +105,19 @@ class ExtractionRun {
     return {};
   }
 
-  Status open_device() {
-    if (options_.backend == Backend::kCpu) return {};
-    Stopwatch stopwatch;
+  /// On a thread of its own, while the mesh is read.
+  void open_device() {
+    if (options_.backend == Backend::kCpu) return;
     ContextOptions wanted;
     wanted.device = options_.device;
-    Result<Context> context = Context::create(wanted);
+    // Without a thread to be had: when it is asked for.
+    opening_ = std::async(std::launch::async | std::launch::deferred, [wanted] { return Context::create(wanted); });
+  }
+
+  Status take_device() {
+    if (options_.backend == Backend::kCpu) return {};
+    Stopwatch stopwatch;
+    Result<Context> context = opening_.get();
     if (!context) return with_hint(context.error(), options_.device);
     context_.emplace(std::move(context).value());
     record_.device = context_->device();
@@ -210,6 +219,7 @@ class ExtractionRun {
   const Options& options_;
   Progress progress_;
   PreparedMesh mesh_;
+  std::future<Result<Context>> opening_;
   std::optional<Context> context_;
   std::vector<MedialSphere> spheres_;
   MedialHeader header_;

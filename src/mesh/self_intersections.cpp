@@ -1,55 +1,72 @@
 #include "mesh/self_intersections.h"
 
+#include <atomic>
 #include <utility>
+
+#include "mesh/parallel_for.h"
 
 namespace medial_vk {
 namespace {
 
+using NodePair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// A full test costs about this many comparisons of boxes.
+constexpr std::int64_t kPairCost = 16;
+
+/// Replaces a pair of nodes, or a node with itself, by pairs of their children. False: both are leaves.
+bool expand(const TriangleTree& tree, const NodePair& pair, std::vector<NodePair>& out) {
+  const auto [i, j] = pair;
+  const TriangleTree::Node &a = tree.nodes[i], &b = tree.nodes[j];
+  if (a.left == 0 && b.left == 0) return false;
+  if (i == j) {
+    out.insert(out.end(), {{a.left, a.left}, {a.right, a.right}, {a.left, a.right}});
+  } else if (b.left == 0 || (a.left != 0 && a.count >= b.count)) {
+    out.insert(out.end(), {{a.left, j}, {a.right, j}});
+  } else {
+    out.insert(out.end(), {{i, b.left}, {i, b.right}});
+  }
+  return true;
+}
+
+/// Looks at all pairs of triangles below some pairs of nodes. Several searches may share one budget.
 class Search {
  public:
-  Search(const Mesh& mesh, const TriangleTree& tree) : mesh_(mesh), tree_(tree) {
-    result_.crossed.assign(mesh.triangles.size(), false);
-    // Six pairs of neighbours per triangle and a few near misses are normal; far beyond that a mesh is a tangle, and
-    // the time is better spent elsewhere. A pair takes about 0.1 microseconds.
-    budget_ = kPairCost * (2'000'000 + 24 * static_cast<std::int64_t>(mesh.triangles.size()));
-  }
+  Search(const Mesh& mesh, const TriangleTree& tree, std::atomic<std::int64_t>& budget)
+      : mesh_(mesh), tree_(tree), budget_(budget) {}
 
-  SelfIntersections run() {
-    // Pairs of nodes instead of a query per triangle: boxes that are apart are told apart once for all below them.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;
-    if (!tree_.nodes.empty()) stack.push_back({0, 0});
-    while (!stack.empty() && budget_ > 0) {
+  /// Pairs of nodes instead of a query per triangle: boxes that are apart are told apart once for all below them.
+  void run(const NodePair& start) {
+    std::vector<NodePair> stack = {start};
+    while (!stack.empty()) {
+      if (cost_ >= kSettle && !settle()) return;
       const auto [i, j] = stack.back();
       stack.pop_back();
-      --budget_;
+      ++cost_;
       const TriangleTree::Node &a = tree_.nodes[i], &b = tree_.nodes[j];
+      if (i != j && !overlap(a.box, b.box)) continue;
+      if (expand(tree_, {i, j}, stack)) continue;
       if (i == j) {
-        if (a.left == 0) {
-          test_within(a);
-        } else {
-          stack.push_back({a.left, a.left});
-          stack.push_back({a.right, a.right});
-          stack.push_back({a.left, a.right});
-        }
-        continue;
-      }
-      if (!overlap(a.box, b.box)) continue;
-      if (a.left == 0 && b.left == 0) {
-        test_between(a, b);
-      } else if (b.left == 0 || (a.left != 0 && a.count >= b.count)) {
-        stack.push_back({a.left, j});
-        stack.push_back({a.right, j});
+        test_within(a);
       } else {
-        stack.push_back({i, b.left});
-        stack.push_back({i, b.right});
+        test_between(a, b);
       }
     }
-    result_.known = budget_ > 0;
-    for (const bool crossed : result_.crossed) result_.count += crossed;
-    return std::move(result_);
+    settle();
+  }
+
+  void add_to(SelfIntersections& result) const {
+    for (std::size_t t = 0; t < crossed_.size(); ++t) {
+      if (crossed_[t]) result.crossed[t] = true;
+    }
   }
 
  private:
+  /// Takes what was done from the budget; false if that is used up.
+  bool settle() {
+    const std::int64_t cost = std::exchange(cost_, 0);
+    return budget_.fetch_sub(cost) > cost;
+  }
+
   void test_within(const TriangleTree::Node& node) {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       for (std::uint32_t j = i + 1; j < node.first + node.count; ++j) test(i, j);
@@ -64,12 +81,14 @@ class Search {
   }
 
   void test(std::uint32_t i, std::uint32_t j) {
-    --budget_;
+    ++cost_;
     if (!overlap(tree_.boxes[i], tree_.boxes[j])) return;
     const std::uint32_t t = tree_.order[i], u = tree_.order[j];
-    if (result_.crossed[t] && result_.crossed[u]) return;
-    budget_ -= kPairCost;
-    if (!certainly_apart(i, j)) result_.crossed[t] = result_.crossed[u] = true;
+    if (!crossed_.empty() && crossed_[t] && crossed_[u]) return;
+    cost_ += kPairCost;
+    if (certainly_apart(i, j)) return;
+    crossed_.resize(mesh_.triangles.size(), false);
+    crossed_[t] = crossed_[u] = true;
   }
 
   /// But for what they share by index.
@@ -99,19 +118,55 @@ class Search {
     return false;  // duplicates are gone by now
   }
 
-  /// A full test costs about this many comparisons of boxes.
-  static constexpr std::int64_t kPairCost = 16;
+  static constexpr std::int64_t kSettle = 4096;
 
   const Mesh& mesh_;
   const TriangleTree& tree_;
-  std::int64_t budget_;
-  SelfIntersections result_;
+  std::atomic<std::int64_t>& budget_;
+  std::int64_t cost_ = 0;      // not yet taken from the budget
+  std::vector<bool> crossed_;  // empty: none
 };
+
+/// Pairs that together stand for the whole search, enough for several threads. The same on every machine.
+std::vector<NodePair> first_pairs(const TriangleTree& tree) {
+  constexpr std::size_t kWanted = 200;
+  std::vector<NodePair> pairs = {{0, 0}};
+  for (std::size_t rounds = 0; pairs.size() < kWanted && rounds < 16; ++rounds) {
+    std::vector<NodePair> next;
+    for (const NodePair& pair : pairs) {
+      if (pair.first != pair.second && !overlap(tree.nodes[pair.first].box, tree.nodes[pair.second].box)) continue;
+      if (!expand(tree, pair, next)) next.push_back(pair);
+    }
+    pairs = std::move(next);
+  }
+  return pairs;
+}
 
 }  // namespace
 
 SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree) {
-  return Search(mesh, tree).run();
+  SelfIntersections result;
+  result.crossed.assign(mesh.triangles.size(), false);
+  if (tree.nodes.empty()) return result;
+  // Six pairs of neighbours per triangle and a few near misses are normal; far beyond that a mesh is a tangle, and
+  // the time is better spent elsewhere. A pair takes about 0.1 microseconds.
+  const std::int64_t budget = kPairCost * (2'000'000 + 24 * static_cast<std::int64_t>(mesh.triangles.size()));
+  std::atomic<std::int64_t> left = budget;
+  const std::vector<NodePair> pairs = first_pairs(tree);
+  std::vector<Search> searches(pairs.size(), Search(mesh, tree, left));
+  parallel_for(pairs.size(), 1, [&](std::size_t i) { searches[i].run(pairs[i]); });
+  result.known = left > 0;
+  if (!result.known) {
+    // How far each search came depends on the others: what is found in a tangle is what one thread finds.
+    left = budget;
+    Search alone(mesh, tree, left);
+    alone.run({0, 0});
+    alone.add_to(result);
+  } else {
+    for (const Search& search : searches) search.add_to(result);
+  }
+  for (const bool crossed : result.crossed) result.count += crossed;
+  return result;
 }
 
 }  // namespace medial_vk

@@ -43,8 +43,15 @@ SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology) {
   SurfaceParts parts;
   parts.components = number_pieces(
       mesh, topology, [](std::uint32_t) { return true; }, parts.component_of);
-  parts.patches = number_pieces(
-      mesh, topology, [&](std::uint32_t edge) { return topology.triangles_of(edge).size() == 2; }, parts.patch_of);
+  const auto is_plain = [&](std::uint32_t edge) { return topology.triangles_of(edge).size() <= 2; };
+  bool all_plain = true;
+  for (std::uint32_t edge = 0; all_plain && edge < topology.edge_count(); ++edge) all_plain = is_plain(edge);
+  if (all_plain) {  // as a rule; then these are the same pieces
+    parts.patches = parts.components;
+    parts.patch_of = parts.component_of;
+  } else {
+    parts.patches = number_pieces(mesh, topology, is_plain, parts.patch_of);
+  }
   return parts;
 }
 

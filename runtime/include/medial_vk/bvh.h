@@ -1,5 +1,5 @@
-// A bounding volume hierarchy over triangles, built on the CPU by binned SAH (Wald 2007), in double precision.
-// It is what is uploaded to the device, and it answers exact queries on the host.
+// A bounding volume hierarchy over triangles, built on the CPU by binned SAH (Wald 2007), in double precision, and
+// refitted when they move. It is what is uploaded to the device, and it answers exact queries on the host.
 #pragma once
 
 #include <array>
@@ -40,6 +40,14 @@ class Bvh {
   /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite).
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
+  /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
+  /// triangles below it; which triangles that are, and the order of the leaves, stays. Triangle t of `mesh` takes the
+  /// place of triangle t. All answers are as right as those of a new tree, and nearly as quick while triangles that
+  /// were neighbours stay neighbours. Time linear in the triangles, `threads` as in build(), which does not show in
+  /// the result. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite); the
+  /// tree is then as it was.
+  Status refit(const MeshView& mesh, unsigned threads = 0);
+
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }             ///< Triangle index by leaf position.
   const std::vector<std::array<Point, 3>>& corners() const { return corners_; }  ///< By leaf position.
@@ -50,6 +58,8 @@ class Bvh {
   bool any_within(const Point& centre, double radius) const;
 
  private:
+  void take_corners(const MeshView& mesh, unsigned threads);
+
   std::vector<BvhNode> nodes_;
   std::vector<std::uint32_t> order_;
   std::vector<std::array<Point, 3>> corners_;

@@ -1,0 +1,102 @@
+"""Timed runs of the command line, and the fits through them."""
+
+import json
+import math
+import os
+import platform
+import subprocess
+import time
+from pathlib import Path
+
+
+class RunFailed(Exception):
+    """A run that ended with an error or took longer than its limit."""
+
+
+def wait(process, limit):
+    """Waits for the process; its exit status and resource usage, or RunFailed after `limit` seconds."""
+    end = time.monotonic() + limit
+    pause = 0.0005  # seconds; the time between two looks adds to what is measured, a little
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid != 0:
+            process.returncode = os.waitstatus_to_exitcode(status)
+            return usage
+        if time.monotonic() > end:
+            process.kill()
+            process.wait()
+            raise RunFailed(f"more than {limit:.0f} s")
+        time.sleep(pause)
+
+
+def run_once(binary, mesh, folder, options=(), limit=600):
+    """One whole run. Seconds of wall and CPU time, of the device by its timestamps and of each stage; MiB at most."""
+    report, output = Path(folder) / "report.json", Path(folder) / "points.ply"
+    command = [str(binary), str(mesh), "-q", "-o", str(output), "--report", str(report), *options]
+    start = time.perf_counter()
+    with open(Path(folder) / "errors.txt", "w+", encoding="utf-8") as errors:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors)
+        usage = wait(process, limit)
+        wall = time.perf_counter() - start
+        errors.seek(0)
+        if process.returncode != 0:
+            raise RunFailed(errors.read().strip() or f"exit code {process.returncode}")
+    facts = json.loads(report.read_text(encoding="utf-8"))
+    device = sum(stage["seconds"] for stage in facts["seconds"]["device"])
+    return {
+        "wall": wall,
+        "cpu": usage.ru_utime + usage.ru_stime,
+        "device": device,
+        "host": wall - device,
+        "peak_mib": usage.ru_maxrss / 1024,
+        "triangles": facts["mesh"]["triangles"],
+        "points": facts["points"]["written"],
+        "undecided": facts["voxels"]["undecided"],
+        "host_stages": {stage["stage"]: stage["seconds"] for stage in facts["seconds"]["host"]},
+        "device_stages": {stage["stage"]: stage["seconds"] for stage in facts["seconds"]["device"]},
+        "device_name": facts["device"]["name"] if facts["device"] else None,
+        "driver": facts["device"]["driver"] if facts["device"] else None,
+    }
+
+
+def median_run(binary, mesh, folder, options=(), repeats=3, limit=600, warm_up=True):
+    """The run with the median wall time of `repeats`, after one that is not counted."""
+    if warm_up:
+        run_once(binary, mesh, folder, options, limit)
+    runs = sorted((run_once(binary, mesh, folder, options, limit) for _ in range(repeats)), key=lambda r: r["wall"])
+    return {**runs[(len(runs) - 1) // 2], "least_wall": runs[0]["wall"], "repeats": repeats}
+
+
+def exponent(xs, ys):
+    """The slope of the least-squares line through log y against log x; None for fewer than two places."""
+    if len(set(xs)) < 2:
+        return None
+    u, v = [math.log(x) for x in xs], [math.log(y) for y in ys]
+    mean_u, mean_v = sum(u) / len(u), sum(v) / len(v)
+    return sum((a - mean_u) * (b - mean_v) for a, b in zip(u, v)) / sum((a - mean_u) ** 2 for a in u)
+
+
+def processor():
+    """The name of the processor, as the system gives it."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def build_of(binary, root):
+    """Version, revision, compiler and kind of the build that `binary` lies in."""
+    version = subprocess.run([binary, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    revision = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty"], capture_output=True, text=True,
+                              check=False).stdout.strip()
+    cache = Path(binary).parent.parent / "CMakeCache.txt"
+    known = {}
+    if cache.exists():
+        for line in cache.read_text(encoding="utf-8", errors="replace").splitlines():
+            name, _, value = line.partition("=")
+            known[name.partition(":")[0]] = value
+    return {"version": version, "revision": revision, "compiler": Path(known.get("CMAKE_CXX_COMPILER", "?")).name,
+            "type": known.get("CMAKE_BUILD_TYPE", "?")}

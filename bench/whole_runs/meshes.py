@@ -1,0 +1,53 @@
+"""Meshes to measure with: made in place, or found."""
+
+import math
+import os
+import subprocess
+from pathlib import Path
+
+# Cells along the turtle's longest side, by about how many triangles that gives: an animal-like smooth union of
+# ellipsoids (examples/make_model.cpp), the same solid each time.
+TURTLES = {"turtle-6k": 52, "turtle-24k": 104, "turtle-96k": 208, "turtle-1m": 672}
+GENERATED = ["torus-16k", *TURTLES]
+EXTENSIONS = (".obj", ".ply", ".stl", ".off")
+
+
+def write_torus(path, around=64, along=125, major=1.0, minor=0.4, flatten=0.5):
+    """A flattened torus of 2 * around * along triangles, turned so that no edge is along an axis."""
+    c, s = math.cos(0.7), math.sin(0.7)
+    with open(path, "w", encoding="ascii") as out:
+        for i in range(along):
+            for j in range(around):
+                phi, psi = 2 * math.pi * i / along, 2 * math.pi * j / around
+                ring = major + minor * math.cos(psi)
+                x, y, z = ring * math.cos(phi), ring * math.sin(phi), flatten * minor * math.sin(psi)
+                x, y = c * x - s * y, s * x + c * y
+                y, z = c * y - s * z, s * y + c * z
+                out.write(f"v {x:.9f} {y:.9f} {z:.9f}\n")
+        for i in range(along):
+            for j in range(around):
+                a, b = i * around + j, (i + 1) % along * around + j
+                d, e = i * around + (j + 1) % around, (i + 1) % along * around + (j + 1) % around
+                out.write(f"f {a + 1} {b + 1} {e + 1}\nf {a + 1} {e + 1} {d + 1}\n")
+
+
+def make(name, folder, make_model):
+    """The path of a generated mesh, made in `folder` if it is not there yet."""
+    path = Path(folder) / f"{name}.obj"
+    if path.exists():
+        return path
+    if name == "torus-16k":
+        write_torus(path)
+    elif name in TURTLES:
+        subprocess.run([make_model, path, str(TURTLES[name])], check=True, stdout=subprocess.DEVNULL)
+    else:
+        raise SystemExit(f"there is no mesh named {name}; there are {', '.join(GENERATED)}")
+    return path
+
+
+def found_models():
+    """The mesh files in the folder that MEDIAL_VK_MODELS names, if it does."""
+    folder = os.environ.get("MEDIAL_VK_MODELS")
+    if not folder:
+        return []
+    return sorted(path for path in Path(folder).iterdir() if path.suffix.lower() in EXTENSIONS)

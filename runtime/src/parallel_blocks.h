@@ -1,0 +1,39 @@
+// A loop over blocks of independent items on several threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace medial_vk {
+
+/// Calls body(begin, end) for the blocks of `block` items that cover [0, count), on up to `threads` threads, the
+/// caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either.
+template <class Body>
+void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
+      body(begin, std::min(begin + block, count));
+    }
+  };
+  const std::size_t useful = std::min<std::size_t>(threads, (count + block - 1) / block);
+  std::vector<std::thread> others;
+  try {
+    for (std::size_t i = 1; i < useful; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // No more threads to be had: those there are do it all.
+  }
+  work();
+  for (std::thread& other : others) other.join();
+}
+
+/// The number of threads that 0 stands for.
+inline unsigned thread_count(unsigned threads) {
+  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+}  // namespace medial_vk
