@@ -1,0 +1,64 @@
+// Recording of the kernels that answer closest-point queries by packets: groups of points near each other, one walk of
+// the tree for up to some fifty of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "packet_tree.h"
+#include "tree_queries.h"
+
+namespace medial_vk {
+
+/// Groups of a dispatch: a number the host knows, or a counter on the device.
+struct GroupCount {
+  std::uint32_t groups = 0;
+  std::uint32_t group_size = 1;       // queries of a group; groups follow each other
+  const Buffer* counters = nullptr;   // if given: counters[counter] groups,
+  std::uint32_t counter = 0;
+  const Buffer* arguments = nullptr;  // and PacketQueries::packets(group_size) workgroups for each at this place
+  VkDeviceSize arguments_offset = 0;
+};
+
+/// How many invocations walk together, and how many points each of them keeps.
+struct PacketShape {
+  std::uint32_t width = 8;      // 4 to 64, a power of two
+  std::uint32_t per_lane = 7;
+  bool through_shared_memory = false;  // else the width is that of a subgroup
+
+  std::uint32_t slots() const { return width * per_lane; }
+  /// Children of a node: a lane looks at one.
+  std::uint32_t arity() const { return width < 8 ? 4 : 8; }
+  /// At least `points` slots on teams of `width`.
+  static PacketShape of(std::uint32_t width, bool through_shared_memory, std::uint32_t points = 51);
+  /// Subgroups where they can ballot and shuffle and have 4 to 64 lanes, else shared memory.
+  static PacketShape best_for(const Context::Impl& context);
+};
+
+class PacketQueries {
+ public:
+  /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is as it was given to
+  /// DeviceMesh::create(). Errors: kOutOfMemory, kInternal.
+  static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
+                                      std::uint32_t capacity, const PacketShape& shape);
+
+  /// TreeQueries::closest() for groups: same queries and results. Ends with a barrier.
+  void closest(Recorder& r, const GroupCount& count, BufferRange queries, BufferRange nearest, BufferRange hits,
+               TreeQueries::Ties ties = TreeQueries::Ties::kLeafPosition) const;
+
+  /// Workgroups for a group of this size.
+  std::uint32_t packets(std::uint32_t group_size) const { return (group_size + shape_.slots() - 1) / shape_.slots(); }
+  std::uint32_t slots() const { return shape_.slots(); }
+  /// Queries answered by looking at all triangles since creation. Blocks.
+  Result<std::uint32_t> read_unresolved_total() { return resolver_->read_unresolved_total(); }
+
+ private:
+  PacketQueries(const DeviceMesh& device, const PacketShape& shape) : device_(&device), shape_(shape) {}
+
+  const DeviceMesh* device_;
+  PacketShape shape_;
+  std::unique_ptr<PacketTree> tree_;
+  std::unique_ptr<TreeQueries> resolver_;  // its list of queries that gave up
+};
+
+}  // namespace medial_vk
