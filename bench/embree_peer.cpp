@@ -98,8 +98,7 @@ EmbreePeer::EmbreePeer(const Mesh& mesh, unsigned threads) : impl_(std::make_uni
   void* vertices =
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, g.vertices.size());
   std::copy_n(g.vertices.data(), g.vertices.size(), static_cast<Vector*>(vertices));
-  void* indices =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, g.triangles.size());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, g.triangles.size());
   std::copy_n(g.triangles.data(), g.triangles.size(), static_cast<std::array<std::uint32_t, 3>*>(indices));
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);

@@ -61,7 +61,8 @@ Mesh make_blob(std::uint32_t triangles) {
   for (Point& p : mesh.vertices) {
     double height = 1;
     for (const double f : kFrequencies) {
-      height += 0.3 / f * (std::sin(f * p[0] + 1.3 * f) * std::sin(f * p[1] + 0.7) + std::sin(f * p[2] + 2.1 * f * p[0]));
+      height +=
+          0.3 / f * (std::sin(f * p[0] + 1.3 * f) * std::sin(f * p[1] + 0.7) + std::sin(f * p[2] + 2.1 * f * p[0]));
     }
     p = {height * p[0], height * p[1], height * p[2]};
   }

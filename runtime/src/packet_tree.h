@@ -13,8 +13,8 @@ namespace medial_vk {
 constexpr std::uint32_t kTexelsPerWideChild = 2;
 constexpr std::uint32_t kTexelsPerFrame = 5;
 
-/// Nodes of `arity` children (at least 2), root first: a binary tree with levels left out, the largest box opened first.
-/// Subtrees of at most gpu::kMostLeafTriangles triangles become leaves.
+/// Nodes of `arity` children (at least 2), root first: a binary tree with levels left out, the largest box opened
+/// first. Subtrees of at most gpu::kMostLeafTriangles triangles become leaves.
 std::vector<Texel> make_wide_tree_texels(std::span<const BvhNode> nodes, const UnitTransform& to_unit,
                                          std::uint32_t arity);
 

@@ -41,7 +41,8 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
   if (!mesh.ok()) return mesh.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  Result<ThesisPipeline> created = ThesisPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
+  Result<ThesisPipeline> created =
+      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size);
   if (!created.ok()) return created.error();
   ThesisPipeline pipeline = std::move(created).value();
   extraction.counters.levels.resize(pipeline.level_count());

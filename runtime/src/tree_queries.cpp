@@ -70,8 +70,8 @@ void TreeQueries::resolve(Recorder& r, ProgramKey key, std::span<const BufferRan
 void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits,
                                   Ties ties) const {
   const BufferRange info = mesh_->triangle_info.range();  // also in place of counters, which it does not read
-  const std::array<BufferRange, 8> buffers = {mesh_->triangles.range(), mesh_->tree.range(), info, unresolved_.range(),
-                                              queries, info, nearest, hits};
+  const std::array<BufferRange, 8> buffers = {
+      mesh_->triangles.range(), mesh_->tree.range(), info, unresolved_.range(), queries, info, nearest, hits};
   const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0};
   const ProgramKey key{"resolve_closest_points",
                        static_cast<std::uint32_t>(buffers.size()),

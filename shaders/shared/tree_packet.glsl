@@ -45,6 +45,13 @@ float squared_distance_to_box_fast(vec3 p, vec3 lower, vec3 upper) {
   return dot(d, d);
 }
 
+// May a point of this lane be nearest to something in a box?
+bool box_is_near(vec3 lower, vec3 upper) {
+  bool near = false;
+  FOR_EACH_POINT near = near || squared_distance_to_box_fast(points[k], lower, upper) <= best[k];
+  return near;
+}
+
 // Takes the next place from the stack that any point is interested in.
 uint pop_place() {
   uint place = kFinished;
@@ -59,8 +66,7 @@ uint pop_place() {
       if (finished || uintBitsToFloat(entry.y) <= bound) break;
     }
     vec4 lower = tree_texel(2u * entry.x), upper = tree_texel(2u * entry.x + 1u);
-    bool near = false;
-    FOR_EACH_POINT near = near || squared_distance_to_box_fast(points[k], lower.xyz, upper.xyz) <= best[k];
+    bool near = box_is_near(lower.xyz, upper.xyz);
     place = finished ? kFinished : tree_place(lower, upper);
     ++iterations;
     if (finished || team_any(near)) break;

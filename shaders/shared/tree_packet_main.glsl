@@ -1,5 +1,5 @@
 // The kernel of find_closest_in_packets*.comp.
-#define QUERY_STORAGE_BUFFERS 9
+#define QUERY_STORAGE_BUFFERS 10
 #include "tree_query.glsl"
 #include "closest_result.glsl"
 #define FRAME_STORAGE_BINDING 8
@@ -7,20 +7,24 @@
 #include "triangle_frame.glsl"
 #include "tree_packet.glsl"
 
+layout(set = 0, binding = 9) readonly buffer Slots { uint slots[]; };
+
 uint group_count() { return push.items_counter == kNoCounter ? push.items : counters[push.items_counter]; }
 
 void main() {
-  uint group_size = push.items_multiplier, slots = kPerLane * gl_WorkGroupSize.x;
-  uint packets = (group_size + slots - 1u) / slots;  // of a group, all of about the same size
-  uint size = (group_size + packets - 1u) / packets;
-  uint group = group_index() / packets, start = group_index() % packets * size;
-  if (group >= group_count() || start >= group_size) return;
-  uint first = group * group_size + start, count = min(size, group_size - start);
+  uint group_size = push.items_multiplier, packet_slots = kPerLane * gl_WorkGroupSize.x;
+  uint packets = uint(slots.length()) / packet_slots;  // of a group
+  uint group = group_index() / packets;
+  if (group >= group_count()) return;
+  uint first_slot = group_index() % packets * packet_slots + kPerLane * team_lane();
+  uint asked[kPerLane];  // query + 1, 0: none
   FOR_EACH_POINT {
-    uint i = k * gl_WorkGroupSize.x + team_lane();
-    vec4 q = queries[first + min(i, count - 1u)];
+    uint place = slots[first_slot + k];
+    uint query = group * group_size + min(place, group_size - 1u);
+    vec4 q = queries[query];
     points[k] = q.xyz;
-    best[k] = i < count ? q.w : -1.0;
+    best[k] = place < group_size ? q.w : -1.0;
+    asked[k] = best[k] >= 0.0 ? query + 1u : 0u;
     found[k] = 0u;
     found_index[k] = 0u;
   }
@@ -28,9 +32,7 @@ void main() {
   update_bound();
   bool complete = team_is_whole() && walk_packet();
   FOR_EACH_POINT {
-    uint i = k * gl_WorkGroupSize.x + team_lane();
-    bool asked = i < count && queries[first + min(i, count - 1u)].w >= 0.0;
-    if (asked && complete) write_hit(first + i, points[k], found[k] - 1u);
-    if (asked && !complete) leave_unresolved(first + i);
+    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found[k] - 1u);
+    if (asked[k] != 0u && !complete) leave_unresolved(asked[k] - 1u);
   }
 }
