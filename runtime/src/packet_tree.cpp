@@ -73,13 +73,16 @@ Point any_perpendicular(const Point& t) {
   return unit_or(cross(t, axis), {0, 0, 1});
 }
 
+/// The normal is that of the exact triangle, as in make_triangle_texels(): rounded corners may turn a thin one visibly.
 /// Edges without length get the direction t, so that no point seems to lie inside.
-void put_frame(Texel* out, const Point& a, const Point& b, const Point& c, std::uint32_t index) {
-  const Point ab = b - a, ac = c - a;
-  const Point t = unit_or(ab, unit_or(ac, {1, 0, 0}));
-  const Point n = unit_or(cross(t, ac), any_perpendicular(t));
+void put_frame(Texel* out, const std::array<Point, 3>& exact, std::uint32_t index) {
+  const Point a = rounded(exact[0]), ab = rounded(exact[1]) - a, ac = rounded(exact[2]) - a;
+  const Point longer = dot(ab, ab) > 0 ? ab : (dot(ac, ac) > 0 ? ac : Point{1, 0, 0});
+  const Point n =
+      unit_or(cross(exact[1] - exact[0], exact[2] - exact[0]), any_perpendicular(unit_or(longer, {1, 0, 0})));
+  const Point t = unit_or(longer - dot(longer, n) * n, any_perpendicular(n));
   const Point s = cross(n, t);
-  const double ab_size = length(ab);
+  const double ab_size = dot(ab, t);
   const Point flat_ac = {dot(ac, t), dot(ac, s), 0};
   const Point flat_bc = {flat_ac[0] - ab_size, flat_ac[1], 0};
   const Point along_ac = unit_or(flat_ac, {1, 0, 0}), along_bc = unit_or(flat_bc, {1, 0, 0});
@@ -119,8 +122,8 @@ std::vector<Texel> make_frame_texels(const MeshView& mesh, std::span<const std::
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Triangle& triangle = mesh.triangles[order[i]];
     std::array<Point, 3> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = rounded(to_unit(mesh.vertices[triangle[k]]));
-    put_frame(&texels[kTexelsPerFrame * i], corners[0], corners[1], corners[2], order[i]);
+    for (int k = 0; k < 3; ++k) corners[k] = to_unit(mesh.vertices[triangle[k]]);
+    put_frame(&texels[kTexelsPerFrame * i], corners, order[i]);
   }
   return texels;
 }

@@ -27,12 +27,13 @@ void main() {
     asked[k] = best[k] >= 0.0 ? query + 1u : 0u;
     found[k] = 0u;
     found_index[k] = 0u;
+    on_face[k] = false;
   }
   enclose_packet();
   update_bound();
   bool complete = team_is_whole() && walk_packet();
   FOR_EACH_POINT {
-    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found[k] - 1u);
+    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found[k] - 1u, on_face[k]);
     if (asked[k] != 0u && !complete) leave_unresolved(asked[k] - 1u);
   }
 }
