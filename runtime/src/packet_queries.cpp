@@ -89,7 +89,7 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                                          device_->triangle_count, 0};
   const BufferRange order = device_->triangle_info.range();
   // A kernel that does not count on the device is given some buffer in place of the counters.
-  const std::array<BufferRange, 10> buffers = {device_->triangles.range(),
+  const std::array<BufferRange, 11> buffers = {device_->triangles.range(),
                                                tree_->nodes.range(),
                                                counted ? count.counters->range() : order,
                                                resolver_->unresolved(),
@@ -98,7 +98,8 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                                                nearest,
                                                hits,
                                                tree_->frames.range(),
-                                               slots};
+                                               slots,
+                                               tree_->positions.range()};
   const std::array<VkBufferView, 3> texels = {device_->triangle_texels, tree_->node_texels, tree_->frame_texels};
   const ProgramKey key{
       shape_.through_shared_memory ? "find_closest_in_packets_shared" : "find_closest_in_packets",

@@ -133,7 +133,14 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
   const UnitTransform to_unit = {device.lower, device.longest};
   const std::vector<Texel> node_data = make_wide_tree_texels(device.tree_nodes(), to_unit, arity);
   const std::vector<Texel> frame_data = make_frame_texels(mesh, device.order, to_unit);
+  std::vector<std::uint32_t> positions(device.order.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[device.order[i]] = static_cast<std::uint32_t>(i);
   PacketTree tree(context);
+  const auto position_bytes = std::as_bytes(std::span(positions));
+  Result<Buffer> table = tree.arena_.create_buffer(position_bytes.size(), MemoryKind::kDevice, "leaf positions");
+  if (!table.ok()) return table.error();
+  tree.positions = table.value();
+  if (Status status = upload(context, tree.positions, position_bytes); !status.ok()) return status.error();
   tree.use_texels =
       device.use_texels && std::max(node_data.size(), frame_data.size()) <= context.limits.maxTexelBufferElements;
   struct Part {

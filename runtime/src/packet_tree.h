@@ -29,6 +29,7 @@ class PacketTree {
                                    std::uint32_t arity);
 
   Buffer nodes, frames;
+  Buffer positions;  // leaf position by index of the input
   VkBufferView node_texels = VK_NULL_HANDLE, frame_texels = VK_NULL_HANDLE;
   bool use_texels = true;  // false: too large for a view; the views are of a buffer that is never read
 

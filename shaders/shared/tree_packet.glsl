@@ -21,10 +21,8 @@ shared uvec2 stack[kPacketStack];  // child (kArity * node + place in it), squar
 #define FOR_EACH_POINT [[unroll]] for (uint k = 0u; k < kPerLane; ++k)
 
 vec3 points[kPerLane];
-float best[kPerLane];        // squared distances; negative: no point here, nothing is nearer
-uint found[kPerLane];        // leaf position + 1; 0: none yet
-uint found_index[kPerLane];  // index in the input + 1, if ties go by it
-bool on_face[kPerLane];      // the foot of the perpendicular lies inside the triangle
+float best[kPerLane];  // squared distances; negative: no point here, nothing is nearer
+uint found[kPerLane];  // rank + 1; 0: none yet. Ranks are leaf positions, or indices of the input if ties go by them
 vec3 centre;
 float radius;
 float bound;  // squared: nothing further from the centre is of interest to any point
@@ -95,16 +93,12 @@ void push_children(uint node) {
 }
 
 void test_triangle(TriangleFrame frame, uint position) {
-  uint index = kSmallestIndex ? uint(frame.n.w) + 1u : position + 1u;
+  uint rank = (kSmallestIndex ? uint(frame.n.w) : position) + 1u;
   FOR_EACH_POINT {
-    bool inside;
-    float d = squared_distance_to_frame(points[k], frame, kPreferFaces, inside);
-    uint other = kSmallestIndex ? found_index[k] : found[k];
-    bool nearer = d < best[k] || (d == best[k] && index < other);
+    float d = squared_distance_to_frame(points[k], frame, kPreferFaces);
+    bool nearer = d < best[k] || (d == best[k] && rank < found[k]);
     best[k] = nearer ? d : best[k];
-    found[k] = nearer ? position + 1u : found[k];
-    on_face[k] = nearer ? inside : on_face[k];
-    if (kSmallestIndex) found_index[k] = nearer ? index : found_index[k];
+    found[k] = nearer ? rank : found[k];
   }
 }
 
@@ -113,8 +107,7 @@ void test_leaf(uint place) {
   for (uint start = 0u;;) {
     uint last = min(count - start, kArity) - 1u;
     TriangleFrame own = load_frame(first + start + min(lane % kArity, last));
-    bool inside;
-    float d = squared_distance_to_frame(centre, own, 1.0, inside);
+    float d = squared_distance_to_frame(centre, own, 1.0);
     uint waiting = team_ballot(lane <= last && lane < kArity && d <= bound);
     for (;;) {
       uint i = min(uint(findLSB(waiting)), last);  // none: one test for nothing

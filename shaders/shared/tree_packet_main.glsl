@@ -1,5 +1,5 @@
 // The kernel of find_closest_in_packets*.comp.
-#define QUERY_STORAGE_BUFFERS 10
+#define QUERY_STORAGE_BUFFERS 11
 #include "tree_query.glsl"
 #include "closest_result.glsl"
 #define FRAME_STORAGE_BINDING 8
@@ -8,6 +8,13 @@
 #include "tree_packet.glsl"
 
 layout(set = 0, binding = 9) readonly buffer Slots { uint slots[]; };
+
+layout(set = 0, binding = 10) readonly buffer LeafPositions { uint leaf_positions[]; };  // by index of the input
+
+uint found_position(uint rank) {
+  if (rank == 0u) return kNoHit;
+  return kSmallestIndex ? leaf_positions[rank - 1u] : rank - 1u;
+}
 
 uint group_count() { return push.items_counter == kNoCounter ? push.items : counters[push.items_counter]; }
 
@@ -26,14 +33,12 @@ void main() {
     best[k] = place < group_size ? q.w : -1.0;
     asked[k] = best[k] >= 0.0 ? query + 1u : 0u;
     found[k] = 0u;
-    found_index[k] = 0u;
-    on_face[k] = false;
   }
   enclose_packet();
   update_bound();
   bool complete = team_is_whole() && walk_packet();
   FOR_EACH_POINT {
-    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found[k] - 1u, on_face[k]);
+    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found_position(found[k]));
     if (asked[k] != 0u && !complete) leave_unresolved(asked[k] - 1u);
   }
 }

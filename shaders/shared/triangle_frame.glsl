@@ -29,14 +29,20 @@ TriangleFrame load_frame(uint t) {
 }
 
 // The built-in functions look for NaNs, which costs lavapipe three instructions in place of one.
-float lesser(float a, float b) { return a < b ? a : b; }
-float greater(float a, float b) { return a > b ? a : b; }
+float lesser(float a, float b) {
+  precise float result = a < b ? a : b;
+  return result;
+}
+float greater(float a, float b) {
+  precise float result = a > b ? a : b;
+  return result;
+}
 
 // How far beyond the ends of [0, size]; the sign is of no interest.
 float beyond(float x, float size) { return x - lesser(greater(x, 0.0), size); }
 
 // Squared; times `prefer` where the foot of the perpendicular lies inside.
-float squared_distance_to_frame(vec3 p, TriangleFrame f, float prefer, out bool inside) {
+float squared_distance_to_frame(vec3 p, TriangleFrame f, float prefer) {
   vec3 e = p - f.a.xyz;
   float x = dot(e, f.t.xyz), y = dot(e, f.s.xyz), h = dot(e, f.n.xyz);
   float x_b = x - f.a.w;
@@ -47,7 +53,7 @@ float squared_distance_to_frame(vec3 p, TriangleFrame f, float prefer, out bool 
   float d_ab = y * y + beyond_ab * beyond_ab;
   float d_ac = across_ac * across_ac + beyond_ac * beyond_ac;
   float d_bc = across_bc * across_bc + beyond_bc * beyond_bc;
-  inside = lesser(y, lesser(across_ac, across_bc)) > 0.0;
+  bool inside = lesser(y, lesser(across_ac, across_bc)) > 0.0;
   float height = h * h;
   return inside ? height * prefer : height + lesser(d_ab, lesser(d_ac, d_bc));
 }
