@@ -12,61 +12,95 @@ namespace {
 // (docs/performance.md).
 constexpr std::size_t kLeastSorted = 4096;
 
-Error no_hit() { return {ErrorCode::kInternal, "the device found no nearest triangle"}; }
-
 }  // namespace
 
-Status Scene::Impl::closest(const ClosestBatch& batch, std::span<ClosestPoint> out) {
-  const auto index = [&](std::size_t i) { return batch.asked.empty() ? i : std::size_t{batch.asked[i]}; };
-  const std::uint32_t group_size = std::max(1u, batch.group_size);
-  const auto groups = static_cast<std::uint32_t>((batch.count + group_size - 1) / group_size);
-  const std::size_t room = std::size_t{groups} * group_size;
-  std::vector<Texel> asked_texels(room, Texel{0, 0, 0, -1});  // passed over
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const Point unit = mesh.to_unit(batch.points[index(batch.first + i)]);
-    if (Status status = check_point(unit, index(batch.first + i)); !status.ok()) return status;
-    asked_texels[i] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]),
-                       kAnyDistance};
-  }
-  Transfer transfer(*context);
-  Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(asked_texels), "query points");
-  if (!asked.ok()) return asked.error();
-  Result<Buffer> table = transfer.create(16, "an unused table of slots");
-  if (batch.group_size != 0) table = transfer.create_filled(batch.slots, "slots of packets");
-  if (!table.ok()) return table.error();
-  // Nearest points and triangles in one buffer, so that one copy brings both.
-  Result<Buffer> answers = transfer.create(room * 20, "nearest points");
-  if (!answers.ok()) return answers.error();
-  Result<Buffer> hits = transfer.create(room * 4, "nearest triangles");
-  if (!hits.ok()) return hits.error();
-  std::vector<std::byte> bytes(room * 20);
-  const auto record = [&](Recorder& r) {
-    const BufferRange nearest = answers.value().range(0, room * 16);
-    if (batch.group_size == 0) {
-      queries->closest(r, QueryCount::of(groups), asked.value().range(), nearest, hits.value().range(),
-                       TreeQueries::Ties::kIndex);
-    } else {
-      packets->closest(r, {.groups = groups, .group_size = group_size}, table.value().range(), asked.value().range(),
-                       nearest, hits.value().range(), TreeQueries::Ties::kIndex);
-    }
-    r.copy(hits.value(), 0, answers.value(), room * 16, room * 4);
-    r.barrier();
+// Buffers for kBatch queries, made at the first call: fresh memory would cost as much as the queries.
+Status Scene::Impl::make_room() {
+  if (room) return {};
+  auto made = std::make_unique<ClosestRoom>(*context);
+  struct Request {
+    Buffer* buffer;
+    VkDeviceSize bytes;
+    MemoryKind kind;
+    const char* purpose;
   };
-  Status status = transfer.run_and_read(record, answers.value(), std::span<std::byte>(bytes));
-  if (!status.ok()) return status;
+  const VkDeviceSize most = kBatch;
+  for (const Request& request : {Request{&made->upload, most * 16, MemoryKind::kUpload, "query points"},
+                                 Request{&made->asked, most * 16, MemoryKind::kDevice, "query points"},
+                                 Request{&made->nearest, most * 16, MemoryKind::kDevice, "nearest points"},
+                                 Request{&made->hits, most * 4, MemoryKind::kDevice, "nearest triangles"},
+                                 Request{&made->readback, most * 20, MemoryKind::kReadback, "results"}}) {
+    Result<Buffer> buffer = made->arena.create_buffer(request.bytes, request.kind, request.purpose);
+    if (!buffer.ok()) return buffer.error();
+    *request.buffer = buffer.value();
+  }
+  room = std::move(made);
+  return {};
+}
+
+Status Scene::Impl::write_queries(const ClosestBatch& batch, std::size_t padded) const {
+  auto* out = static_cast<Texel*>(room->upload.mapped);
   for (std::size_t i = 0; i < batch.count; ++i) {
-    Texel nearest;
-    std::uint32_t hit = 0;
-    std::memcpy(&nearest, &bytes[16 * i], 16);
-    std::memcpy(&hit, &bytes[room * 16 + 4 * i], 4);
-    if (hit == kNoHit) return no_hit();
-    ClosestPoint& result = out[index(batch.first + i)];
-    result.point = mesh.to_input({nearest[0], nearest[1], nearest[2]});
-    result.distance = length(result.point - batch.points[index(batch.first + i)]);
-    result.triangle = mesh.order[hit & 0xffffffu];
-    result.feature = static_cast<Feature>(hit >> 24);
+    const std::size_t index = batch.index(i);
+    const Point unit = mesh.to_unit(batch.points[index]);
+    if (Status status = check_point(unit, index); !status.ok()) return status;
+    out[i] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), kAnyDistance};
+  }
+  std::fill(out + batch.count, out + padded, Texel{0, 0, 0, -1});  // passed over
+  return {};
+}
+
+void Scene::Impl::record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups,
+                                 const Buffer& table) const {
+  const VkDeviceSize padded = VkDeviceSize{groups} * std::max(1u, batch.group_size);
+  r.copy(room->upload, 0, room->asked, 0, padded * 16);
+  r.barrier();
+  if (batch.group_size == 0) {
+    queries->closest(r, QueryCount::of(groups), room->asked.range(), room->nearest.range(), room->hits.range(),
+                     TreeQueries::Ties::kIndex);
+  } else {
+    packets->closest(r, {.groups = groups, .group_size = batch.group_size}, table.range(), room->asked.range(),
+                     room->nearest.range(), room->hits.range(), TreeQueries::Ties::kIndex);
+  }
+  r.copy(room->nearest, 0, room->readback, 0, padded * 16);
+  r.copy(room->hits, 0, room->readback, padded * 16, padded * 4);
+  r.barrier_to_host();
+}
+
+Status Scene::Impl::read_closest(const ClosestBatch& batch, std::size_t padded, std::span<ClosestPoint> out) const {
+  const auto* nearest = static_cast<const Texel*>(room->readback.mapped);
+  const auto* hits = reinterpret_cast<const std::uint32_t*>(nearest + padded);
+  for (std::size_t i = 0; i < batch.count; ++i) {
+    if (hits[i] == kNoHit) return Error{ErrorCode::kInternal, "the device found no nearest triangle"};
+    const std::size_t index = batch.index(i);
+    ClosestPoint& result = out[index];
+    result.point = mesh.to_input({nearest[i][0], nearest[i][1], nearest[i][2]});
+    result.distance = length(result.point - batch.points[index]);
+    result.triangle = mesh.order[hits[i] & 0xffffffu];
+    result.feature = static_cast<Feature>(hits[i] >> 24);
   }
   return {};
+}
+
+Status Scene::Impl::closest(const ClosestBatch& batch, std::span<ClosestPoint> out) {
+  if (Status status = make_room(); !status.ok()) return status;
+  const std::uint32_t group_size = std::max(1u, batch.group_size);
+  const auto groups = static_cast<std::uint32_t>((batch.count + group_size - 1) / group_size);
+  const std::size_t padded = std::size_t{groups} * group_size;
+  if (Status status = write_queries(batch, padded); !status.ok()) return status;
+  Transfer transfer(*context);
+  Buffer table;
+  if (batch.group_size != 0) {
+    Result<Buffer> filled = transfer.create_filled(batch.slots, "slots of packets");
+    if (!filled.ok()) return filled.error();
+    table = filled.value();
+  }
+  auto done = run_commands(*context, [&](Recorder& r) {
+    record_closest(r, batch, groups, table);
+    return r.status();
+  });
+  if (!done.ok()) return done.error();
+  return read_closest(batch, padded, out);
 }
 
 Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {

@@ -91,7 +91,19 @@ class Scene::Impl {
     std::size_t count = 0;
     std::uint32_t group_size = 0;  // 0: one by one
     std::span<const std::uint32_t> slots;
+
+    std::size_t index(std::size_t i) const { return asked.empty() ? first + i : std::size_t{asked[first + i]}; }
   };
+  /// What closest() keeps between batches.
+  struct ClosestRoom {
+    explicit ClosestRoom(Context::Impl& context) : arena(context) {}
+    Arena arena;
+    Buffer upload, asked, nearest, hits, readback;
+  };
+  Status make_room();
+  Status write_queries(const ClosestBatch& batch, std::size_t padded) const;
+  void record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups, const Buffer& table) const;
+  Status read_closest(const ClosestBatch& batch, std::size_t padded, std::span<ClosestPoint> out) const;
   Status closest(const ClosestBatch& batch, std::span<ClosestPoint> out);
   Status fluxes(std::span<const Ball> spheres, std::size_t first, std::span<const Texel> directions,
                 std::span<FluxSample> out);
@@ -100,6 +112,7 @@ class Scene::Impl {
   DeviceMesh mesh;
   std::unique_ptr<TreeQueries> queries;
   std::unique_ptr<PacketQueries> packets;
+  std::unique_ptr<ClosestRoom> room;
 };
 
 }  // namespace medial_vk
