@@ -1,9 +1,11 @@
 // Closest points: the centre and 50 samples of each voxel sphere, l = 1/160, and the same points shuffled; by the
 // public calls (host to host), by the kernels alone (queries and results stay on the device), and by Embree with as
-// many threads. Time is process CPU time, the driver's and Embree's threads included, and wall time.
+// many threads. Also few points scattered over the mesh's box, where the choice of the kernel turns. Time is process
+// CPU time, the driver's and Embree's threads included, and wall time.
 //   bench_queries [--queries N] [--meshes torus16k,blob100k,blob1m,FILE,...] [--benchmark_* ...]
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -24,6 +26,9 @@
 namespace medial_vk::bench {
 namespace {
 
+constexpr std::array<std::size_t, 4> kFew = {256, 1024, 4096, 16384};
+constexpr std::size_t kFewInAll = 65536;  // queries of a pass
+
 /// Everything that the benchmarks of one mesh use.
 struct Subject {
   explicit Subject(Workload w) : workload(std::move(w)) {}
@@ -31,6 +36,7 @@ struct Subject {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<DeviceRun> device;
   std::unique_ptr<EmbreePeer> peer;
+  std::vector<std::unique_ptr<DeviceRun>> few;  // kFew points each
   std::vector<std::array<float, 3>> float_spheres, float_shuffled;
   std::vector<float> distances;
 };
@@ -69,6 +75,10 @@ std::unique_ptr<Subject> make_subject(Context& context, const std::string& name,
   const MeshView view{w.mesh.vertices, w.mesh.triangles, {}, true};
   s->scene = std::make_unique<Scene>(value_or_exit(Scene::create(context, view)));
   s->device = value_or_exit(DeviceRun::create(context.impl(), view, w.spheres, kGroup, w.shuffled));
+  for (const std::size_t count : kFew) {
+    const std::vector<Point> points = scattered_points(w, count);
+    s->few.push_back(value_or_exit(DeviceRun::create(context.impl(), view, points, 1, points)));
+  }
   if (!EmbreePeer::version().empty()) s->peer = std::make_unique<EmbreePeer>(w.mesh, threads);
   s->float_spheres = to_float(w.spheres);
   s->float_shuffled = to_float(w.shuffled);
@@ -77,8 +87,9 @@ std::unique_ptr<Subject> make_subject(Context& context, const std::string& name,
 }
 
 /// `pass` answers all queries once and returns the device's seconds, or 0 if it does not know them.
-void add_benchmark(const Subject& subject, const std::string& name, const std::function<double()>& pass) {
-  const double queries = static_cast<double>(subject.workload.spheres.size());
+void add_benchmark(const Subject& subject, const std::string& name, std::size_t count,
+                   const std::function<double()>& pass) {
+  const auto queries = static_cast<double>(count);
   pass();  // pipelines are made, pages are touched
   benchmark::RegisterBenchmark((subject.workload.name + "/" + name).c_str(),
                                [=](benchmark::State& state) {
@@ -102,19 +113,30 @@ double require(const Result<T>& result) {
 
 void add_benchmarks(Subject& s) {
   const Workload& w = s.workload;
-  add_benchmark(s, "spheres/call", [&] { return require(s.scene->closest_points_of_groups(w.spheres, kGroup)); });
-  add_benchmark(s, "spheres/packets", [&] { return s.device->spheres_by_packets(); });
-  add_benchmark(s, "shuffled/call", [&] { return require(s.scene->closest_points(w.shuffled)); });
-  add_benchmark(s, "shuffled/packets_sorted", [&] { return s.device->scattered_by_packets(); });
-  add_benchmark(s, "shuffled/one_by_one_sorted", [&] { return s.device->sorted_one_by_one(); });
-  add_benchmark(s, "shuffled/one_by_one", [&] { return s.device->scattered_one_by_one(); });
+  const std::size_t n = w.spheres.size();
+  add_benchmark(s, "spheres/call", n, [&] { return require(s.scene->closest_points_of_groups(w.spheres, kGroup)); });
+  add_benchmark(s, "spheres/packets", n, [&] { return s.device->spheres_by_packets(); });
+  add_benchmark(s, "shuffled/call", n, [&] { return require(s.scene->closest_points(w.shuffled)); });
+  add_benchmark(s, "shuffled/packets_sorted", n, [&] { return s.device->scattered_by_packets(); });
+  add_benchmark(s, "shuffled/one_by_one_sorted", n, [&] { return s.device->sorted_one_by_one(); });
+  add_benchmark(s, "shuffled/one_by_one", n, [&] { return s.device->scattered_one_by_one(); });
+  for (std::size_t i = 0; i < kFew.size(); ++i) {
+    const std::string name = "few" + std::to_string(kFew[i]);
+    const auto repeated = [&run = *s.few[i], times = kFewInAll / kFew[i]](double (DeviceRun::*pass)()) {
+      double seconds = 0;
+      for (std::size_t k = 0; k < times; ++k) seconds += (run.*pass)();
+      return seconds;
+    };
+    add_benchmark(s, name + "/packets_sorted", kFewInAll, [=] { return repeated(&DeviceRun::scattered_by_packets); });
+    add_benchmark(s, name + "/one_by_one", kFewInAll, [=] { return repeated(&DeviceRun::scattered_one_by_one); });
+  }
   if (!s.peer) return;
   const auto embree = [&s](const std::vector<std::array<float, 3>>& queries) {
     s.peer->distances(queries, s.distances);
     return 0.0;
   };
-  add_benchmark(s, "spheres/embree", [&s, embree] { return embree(s.float_spheres); });
-  add_benchmark(s, "shuffled/embree", [&s, embree] { return embree(s.float_shuffled); });
+  add_benchmark(s, "spheres/embree", n, [&s, embree] { return embree(s.float_spheres); });
+  add_benchmark(s, "shuffled/embree", n, [&s, embree] { return embree(s.float_shuffled); });
 }
 
 unsigned driver_threads() {

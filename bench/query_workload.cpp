@@ -97,4 +97,18 @@ Result<Workload> make_workload(Context& context, std::string name, Mesh mesh, st
   return w;
 }
 
+std::vector<Point> scattered_points(const Workload& workload, std::size_t count) {
+  Point upper = {0, 0, 0};
+  for (const Point& p : workload.mesh.vertices) {
+    for (int k = 0; k < 3; ++k) upper[k] = std::max(upper[k], p[k]);
+  }
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::vector<Point> points(count);
+  for (Point& p : points) {
+    for (int k = 0; k < 3; ++k) p[k] = upper[k] * share(random);
+  }
+  return points;
+}
+
 }  // namespace medial_vk::bench

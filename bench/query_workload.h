@@ -30,4 +30,7 @@ Mesh make_blob(std::uint32_t triangles);
 /// every time.
 Result<Workload> make_workload(Context& context, std::string name, Mesh mesh, std::uint64_t queries);
 
+/// Points anywhere in the mesh's box, the same every time.
+std::vector<Point> scattered_points(const Workload& workload, std::size_t count);
+
 }  // namespace medial_vk::bench
