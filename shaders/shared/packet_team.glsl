@@ -1,5 +1,5 @@
 // A team is a workgroup of 4 to 64 invocations that walk the tree together (tree_packet.glsl): one subgroup, or, where
-// PACKET_THROUGH_SHARED_MEMORY is defined, any invocations with barriers between them. Calls are made by the whole team.
+// PACKET_THROUGH_SHARED_MEMORY is defined, any invocations with barriers between them. The whole team makes each call.
 // Shuffles stand for broadcasts, ballots for votes: on lavapipe they take half the time.
 #ifndef MEDIAL_VK_PACKET_TEAM_GLSL
 #define MEDIAL_VK_PACKET_TEAM_GLSL

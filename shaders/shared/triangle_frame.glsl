@@ -1,12 +1,12 @@
-// Distance to a triangle in its own frame: the origin is the rounded corner a, n the unit normal of the exact triangle, t
-// the direction of ab in its plane, and s = n x t, on the side of c. Five texels: (a, |ab|) (t, |ac|) (s, |bc|)
+// Distance to a triangle in its own frame: the origin is the rounded corner a, n the unit normal of the exact triangle,
+// t the direction of ab in its plane, and s = n x t, on the side of c. Five texels: (a, |ab|) (t, |ac|) (s, |bc|)
 // (n, index in the input) (unit vectors of ac and bc in t and s). 40 % less arithmetic than closest_point.glsl for
 // whoever asks one triangle many times.
 //
-// With u = 2^-24: e = p - a is off by u/2 a coordinate, the unit vectors by as much, a dot product by 3 u |e|; so x, y, h
-// by 5 u |e|. Products of them with unit vectors of the plane add 3 u |e|. Nothing cancels, however thin the triangle
-// is. The distance is off by less than 15 u (|p - a| + |edge|), and by 1.2e-7 for rounded corners that are not in the
-// plane: 3e-6 for a query in the unit box.
+// With u = 2^-24: e = p - a is off by u/2 a coordinate, the unit vectors by as much, a dot product by 3 u |e|; so x, y
+// and h by 5 u |e|. Products of them with unit vectors of the plane add 3 u |e|. Nothing cancels, however thin the
+// triangle is. The distance is off by less than 15 u (|p - a| + |edge|), and by 1.2e-7 for rounded corners that are not
+// in the plane: 3e-6 for a query in the unit box.
 #ifndef MEDIAL_VK_TRIANGLE_FRAME_GLSL
 #define MEDIAL_VK_TRIANGLE_FRAME_GLSL
 

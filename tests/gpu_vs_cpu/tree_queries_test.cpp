@@ -1,90 +1,10 @@
-// Every kernel that walks the tree against the reference in double precision.
-//
-// Tolerances, for a mesh whose longest side is L and queries within its box, u = 2^-24. The device sees positions
-// scaled to the unit box and rounded to float: the query and a corner a are off by sqrt(3) u/2 each, an edge by as much
-// again; together below 3 sqrt(3) u/2 = 1.6e-7. The distance to a triangle is evaluated to 8 u (|p - a| + |edge|)
-// (shaders/shared/closest_point.glsl); with |p - a| <= sqrt(3) and edges up to sqrt(2) that is 1.5e-6.
-// Faces are preferred to edges by 2^-21 of the distance (tree_closest.glsl), 5e-7. Sum: 2.2e-6 L.
-#include <gtest/gtest.h>
+// Every kernel that walks the tree against the reference in double precision; tolerances: tree_test.h.
+#include "tree_test.h"
 
 #include <cmath>
-#include <optional>
-#include <random>
-#include <string>
-
-#include "cpu_reference/queries.h"
-#include "medial_vk/queries.h"
-#include "support/device.h"
-#include "support/reference_mesh.h"
-#include "support/solids.h"
 
 namespace medial_vk {
 namespace {
-
-constexpr double kDistanceTolerance = 2.2e-6;
-
-Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
-
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-struct NamedSolid {
-  std::string name;
-  Mesh mesh;
-};
-
-/// Convex, concave, with a hole, thin, needles, far from the origin; all in generic position.
-std::vector<NamedSolid> solids() {
-  std::vector<NamedSolid> all = {{"box", test::make_box({1, 2, 3})},
-                                 {"ellipsoid", test::make_ellipsoid({1, 0.9, 0.4}, 40)},
-                                 {"needles", test::make_capsule(1, 1, 60)},
-                                 {"cup", test::make_cup(1, 0.1, 1.5, 60)},
-                                 {"L", test::make_l_shape(2, 0.5, 1)},
-                                 {"torus", test::make_torus(1, 0.3, 60, 30)},
-                                 {"plate", test::make_plate_with_hole(2, 0.05, 0.7)}};
-  for (Point& p : all[2].mesh.vertices) p[2] *= 100;  // triangles a hundred times longer than wide
-  double angle = 0.3;
-  for (NamedSolid& solid : all) {
-    test::rotate(solid.mesh, {1, -2, 0.5}, angle);
-    angle += 0.4;
-  }
-  test::scale(all[5].mesh, 1e-3);
-  test::translate(all[5].mesh, {5, -3, 4});
-  return all;
-}
-
-/// One context for all tests, with validation where the layer is installed; no message may come.
-class TreeQueriesTest : public testing::Test {
- protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-  Scene scene_of(const Mesh& mesh) {
-    Result<Scene> scene = Scene::create(*context_, view_of(mesh));
-    EXPECT_TRUE(scene.ok());
-    return std::move(scene).value();
-  }
-  std::optional<Context> context_;
-};
-
-/// Points spread over the mesh's box, the same every time.
-std::vector<Point> points_in_box(const reference::Tree& tree, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> share(0, 1);
-  std::vector<Point> points(count);
-  for (Point& p : points) {
-    for (int k = 0; k < 3; ++k) p[k] = tree.lower()[k] + share(random) * (tree.upper()[k] - tree.lower()[k]);
-  }
-  return points;
-}
 
 TEST_F(TreeQueriesTest, ClosestPoints) {
   for (const NamedSolid& solid : solids()) {
@@ -114,62 +34,6 @@ TEST_F(TreeQueriesTest, ClosestPoints) {
     EXPECT_LE(std::sqrt(squares / static_cast<double>(points.size())), 2e-7);
     // Features differ only where the nearest point is within rounding of a feature's end.
     EXPECT_LE(other_features, static_cast<int>(points.size()) / 200);
-  }
-}
-
-// Packets choose the triangle by another arithmetic, good to 15 u (|p - a| + |edge|) (triangle_frame.glsl), 3e-6: one
-// that is further by twice that may win. Root mean squares stay as small as one by one.
-constexpr double kPacketTolerance = kDistanceTolerance + 6e-6;
-
-/// Groups of `size` points on spheres around the points.
-std::vector<Point> groups_around(const std::vector<Point>& centres, double radius, std::uint32_t size) {
-  const std::vector<Eigen::Vector3d> directions = reference::spiral_points(static_cast<int>(size));
-  std::vector<Point> points;
-  for (const Point& c : centres) {
-    for (const Eigen::Vector3d& d : directions) {
-      points.push_back({c[0] + radius * d[0], c[1] + radius * d[1], c[2] + radius * d[2]});
-    }
-  }
-  return points;
-}
-
-void expect_closest(const reference::Tree& tree, const std::vector<Point>& points,
-                    const std::vector<ClosestPoint>& found) {
-  const double longest = tree.longest_side();
-  ASSERT_EQ(found.size(), points.size());
-  double squares = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d p = vector(points[i]);
-    const double truth = tree.closest(p).distance;
-    ASSERT_NEAR(found[i].distance, truth, kPacketTolerance * longest) << "query " << i;
-    ASSERT_NEAR((vector(found[i].point) - p).norm(), found[i].distance, 1e-12 * longest);
-    const reference::TrianglePoint on = tree.closest_on(static_cast<int>(found[i].triangle), p);
-    ASSERT_NEAR(std::sqrt(on.squared_distance), truth, kPacketTolerance * longest) << "query " << i;
-    squares += std::pow((found[i].distance - truth) / longest, 2);
-  }
-  EXPECT_LE(std::sqrt(squares / static_cast<double>(points.size())), 2e-7);
-}
-
-TEST_F(TreeQueriesTest, GroupsOfPoints) {
-  for (const NamedSolid& solid : solids()) {
-    const reference::Tree tree(test::to_reference(solid.mesh));
-    Scene scene = scene_of(solid.mesh);
-    for (const std::uint32_t size : {1u, 50u, 51u, 120u}) {
-      SCOPED_TRACE(solid.name + ", groups of " + std::to_string(size));
-      const std::vector<Point> points =
-          groups_around(points_in_box(tree, 1500 / static_cast<int>(size) + 1, 7), 0.02 * tree.longest_side(), size);
-      expect_closest(tree, points, scene.closest_points_of_groups(points, size).value());
-    }
-  }
-}
-
-// So many points are sorted and answered by packets.
-TEST_F(TreeQueriesTest, ManyScatteredPoints) {
-  for (const NamedSolid& solid : solids()) {
-    SCOPED_TRACE(solid.name);
-    const reference::Tree tree(test::to_reference(solid.mesh));
-    const std::vector<Point> points = points_in_box(tree, 6001, 8);
-    expect_closest(tree, points, scene_of(solid.mesh).closest_points(points).value());
   }
 }
 

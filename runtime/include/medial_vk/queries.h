@@ -52,8 +52,8 @@ class Scene {
   Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
   /// The same for groups of `group_size` points that follow each other and lie near each other compared with the
   /// distance between groups: samples of spheres, for example, with the centre among them. A group shares one walk.
-  /// Fastest up to 51 points a group, and if points of the same place in their groups lie alike. Also kUsage: the points
-  /// are no whole number of groups, or a group has no point or more than 262,144.
+  /// Fastest up to 51 points a group, and if points of the same place in their groups lie alike. Also kUsage: the
+  /// points are no whole number of groups, or a group has no point or more than 262,144.
   Result<std::vector<ClosestPoint>> closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size);
   /// 1 where the open ball holds no point of the mesh, else 0. Stops at the first point found inside.
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
