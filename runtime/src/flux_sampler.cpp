@@ -17,7 +17,7 @@ constexpr float kSameDirection = 1e-3f;
 
 }  // namespace
 
-Result<FluxSampler> FluxSampler::create(Context::Impl& context, const TreeQueries& queries, std::uint32_t capacity) {
+Result<FluxSampler> FluxSampler::create(Context::Impl& context, const PacketQueries& queries, std::uint32_t capacity) {
   FluxSampler sampler(context, queries);
   struct Request {
     Buffer* buffer;
@@ -39,7 +39,7 @@ Result<FluxSampler> FluxSampler::create(Context::Impl& context, const TreeQuerie
 }
 
 void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres,
-                         BufferRange directions, BufferRange fluxes) const {
+                         BufferRange directions, BufferRange slots, BufferRange fluxes) const {
   const bool counted = count.counters != nullptr;
   const gpu::SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSameDirection};
   // A kernel that does not count on the device is given some buffer in place of the counters.
@@ -55,16 +55,16 @@ void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t sa
     }
     r.barrier();
   };
-  QueryCount queries = QueryCount::of(count.spheres * samples);
-  if (counted) queries = {0, count.counters, count.counter, samples, count.arguments, count.sample_arguments};
+  const GroupCount groups = {count.spheres, samples,         count.counters,
+                             count.counter, count.arguments, count.packet_arguments};
 
   const std::array<BufferRange, 4> place = {counters, spheres, directions, samples_.range()};
   run("place_sphere_samples", place, true);
-  queries_->closest(r, queries, samples_.range(), nearest_.range(), hits_.range());
+  queries_->closest(r, groups, slots, samples_.range(), nearest_.range(), hits_.range());
   const std::array<BufferRange, 6> reflect = {counters,         spheres,       samples_.range(),
                                               nearest_.range(), hits_.range(), opposites_.range()};
   run("reflect_sphere_samples", reflect, true);
-  queries_->closest(r, queries, opposites_.range(), opposite_nearest_.range(), opposite_hits_.range());
+  queries_->closest(r, groups, slots, opposites_.range(), opposite_nearest_.range(), opposite_hits_.range());
   const std::array<BufferRange, 7> sum = {
       counters, spheres, samples_.range(), nearest_.range(), opposites_.range(), opposite_nearest_.range(), fluxes};
   run("sum_flux", sum, false);

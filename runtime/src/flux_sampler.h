@@ -3,12 +3,13 @@
 
 #include <cstdint>
 
-#include "tree_queries.h"
+#include "packet_queries.h"
 
 namespace medial_vk {
 
 /// Spheres of a dispatch: a number the host knows, or counters[counter] with dispatch arguments for that many spheres
-/// and for that many times `samples` sample points (groups of TreeQueries::kWorkgroupSize).
+/// and for that many times `samples` sample points (groups of TreeQueries::kWorkgroupSize), and
+/// PacketShape::packets(samples) groups for each sphere.
 struct SphereCount {
   std::uint32_t spheres = 0;
   const Buffer* counters = nullptr;
@@ -16,18 +17,20 @@ struct SphereCount {
   const Buffer* arguments = nullptr;
   VkDeviceSize sphere_arguments = 0;
   VkDeviceSize sample_arguments = 0;
+  VkDeviceSize packet_arguments = 0;
 };
 
 /// Buffers for the samples of as many spheres as a dispatch takes.
 class FluxSampler {
  public:
   /// `capacity` sample points. The queries must outlive the object. Errors: kOutOfMemory.
-  static Result<FluxSampler> create(Context::Impl& context, const TreeQueries& queries, std::uint32_t capacity);
+  static Result<FluxSampler> create(Context::Impl& context, const PacketQueries& queries, std::uint32_t capacity);
 
-  /// spheres: vec4, centre and radius (negative: passed over). directions: vec4, `samples` unit vectors.
+  /// spheres: vec4, centre and radius (negative: passed over). directions: vec4, `samples` unit vectors. slots: of
+  /// make_slots() for the directions.
   /// fluxes: vec4, average outward flux, greatest distance of a sample, number of two-sided fans. Ends with a barrier.
   void record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres, BufferRange directions,
-              BufferRange fluxes) const;
+              BufferRange slots, BufferRange fluxes) const;
 
   /// After record(): the sample points of all spheres, `samples` each, and their nearest points with squared distances.
   BufferRange samples() const { return samples_.range(); }
@@ -36,9 +39,9 @@ class FluxSampler {
   static constexpr VkDeviceSize kBytesPerSample = 4 * 16 + 2 * 4;
 
  private:
-  explicit FluxSampler(Context::Impl& context, const TreeQueries& queries) : queries_(&queries), arena_(context) {}
+  explicit FluxSampler(Context::Impl& context, const PacketQueries& queries) : queries_(&queries), arena_(context) {}
 
-  const TreeQueries* queries_;
+  const PacketQueries* queries_;
   Arena arena_;
   Buffer samples_, nearest_, hits_, opposites_, opposite_nearest_, opposite_hits_;
 };

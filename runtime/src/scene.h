@@ -51,6 +51,9 @@ struct DeviceMesh {
   /// Cuts the leaf order into runs of at least `least` triangles (if there are as many) and fewer than twice that.
   std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
 
+  /// Of the Bvh whose leaf order `order` is.
+  const std::vector<BvhNode>& tree_nodes() const { return bvh.nodes(); }
+
   Point to_unit(const Point& p) const;
   Point to_input(const std::array<float, 3>& p) const;
 

@@ -41,7 +41,8 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
   if (!mesh.ok()) return mesh.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  Result<ThesisPipeline> created = ThesisPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
+  Result<ThesisPipeline> created =
+      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size);
   if (!created.ok()) return created.error();
   const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };
   if (Status s = make_programs(context, record_one); !s.ok()) return s.error();

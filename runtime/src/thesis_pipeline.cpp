@@ -33,7 +33,7 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) /
 ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters)
     : context_(&context), mesh_(&mesh), parameters_(parameters), arena_(context) {}
 
-Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
+Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
                                               const ExtractionParameters& parameters,
                                               const std::array<std::uint32_t, 3>& grid) {
   for (const std::uint32_t samples : parameters.samples) {
@@ -45,7 +45,7 @@ Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const Devi
   // Four levels as in the source; fewer while a top cell would be more than half of the longest side.
   while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > parameters.resolution) --p.levels_;
   for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << (p.levels_ - 1));
-  if (Status status = p.allocate(); !status.ok()) return status.error();
+  if (Status status = p.allocate(view); !status.ok()) return status.error();
   if (Status status = p.upload_directions(); !status.ok()) return status.error();
   return p;
 }
@@ -54,7 +54,7 @@ double ThesisPipeline::cell_size(std::uint32_t level) const {
   return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(levels_ - 1 - level));
 }
 
-Status ThesisPipeline::allocate() {
+Status ThesisPipeline::allocate(const MeshView& view) {
   std::uint64_t cells_per_top = 1;    // at the finest level
   std::uint64_t samples_per_top = 0;  // at any level
   for (std::uint32_t level = 0; level < levels_; ++level) {
@@ -63,7 +63,7 @@ Status ThesisPipeline::allocate() {
   }
   const std::uint64_t lines_per_top = cells_per_top * gpu::kRetractionsPerRound;
   const std::uint64_t bytes_per_top = cells_per_top * kBytesPerVoxel + lines_per_top * kBytesPerRetraction +
-                                      samples_per_top * (FluxSampler::kBytesPerSample + 4);
+                                      samples_per_top * (FluxSampler::kBytesPerSample + 8);
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t fitting = std::min(
       {parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
@@ -117,7 +117,11 @@ Status ThesisPipeline::allocate() {
       TreeQueries::create(*context_, *mesh_, std::max(capacity, static_cast<std::uint32_t>(lines)));
   if (!queries.ok()) return queries.error();
   queries_ = std::make_unique<TreeQueries>(std::move(queries).value());
-  Result<FluxSampler> flux = FluxSampler::create(*context_, *queries_, capacity);
+  Result<PacketQueries> packets =
+      PacketQueries::create(*context_, *mesh_, view, capacity, PacketShape::best_for(*context_));
+  if (!packets.ok()) return packets.error();
+  packets_ = std::make_unique<PacketQueries>(std::move(packets).value());
+  Result<FluxSampler> flux = FluxSampler::create(*context_, *packets_, capacity);
   if (!flux.ok()) return flux.error();
   flux_ = std::make_unique<FluxSampler>(std::move(flux).value());
   return {};
@@ -129,7 +133,14 @@ Status ThesisPipeline::upload_directions() {
   for (std::uint32_t level = 0; level < levels_; ++level) {
     while (directions.size() * sizeof(Texel) % alignment != 0) directions.push_back({});
     directions_at_.push_back(directions.size() * sizeof(Texel));
-    for (const Point& d : spiral_points(samples(level))) {
+    const std::vector<Point> points = spiral_points(samples(level));
+    const std::vector<std::uint32_t> table = make_slots(packets_->shape(), points);
+    const auto table_bytes = std::as_bytes(std::span(table));
+    Result<Buffer> slots = arena_.create_buffer(table_bytes.size(), MemoryKind::kDevice, "slots of samples");
+    if (!slots.ok()) return slots.error();
+    slots_.push_back(slots.value());
+    if (Status status = upload(*context_, slots_.back(), table_bytes); !status.ok()) return status;
+    for (const Point& d : points) {
       directions.push_back({static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2]), 0});
     }
   }
@@ -167,12 +178,12 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   return step;
 }
 
-VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t divisor) {
+VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t divisor, std::uint32_t group_size) {
   gpu::DispatchConstants constants{};
   constants.items_counter = items.counter;
   constants.items_multiplier = items.multiplier;
   constants.items_divisor = divisor;
-  constants.group_size = TreeQueries::kWorkgroupSize;
+  constants.group_size = group_size;
   constants.item_limit = 0xffffffffu;
   constants.list_counter = gpu::kNoCounter;
   constants.argument = next_argument_++ % kMostArguments;

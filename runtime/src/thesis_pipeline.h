@@ -23,8 +23,8 @@ namespace medial_vk {
 
 class ThesisPipeline {
  public:
-  /// The mesh must outlive the pipeline. Errors: kOutOfMemory, kInternal.
-  static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
+  /// `mesh`, made of `view`, must outlive the pipeline. Errors: kOutOfMemory, kInternal.
+  static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
                                        const ExtractionParameters& parameters,
                                        const std::array<std::uint32_t, 3>& grid);
   ThesisPipeline(ThesisPipeline&&) noexcept = default;
@@ -52,7 +52,7 @@ class ThesisPipeline {
     std::uint32_t counter;
     std::uint32_t multiplier = 1;
   };
-  Status allocate();
+  Status allocate(const MeshView& view);
   Status upload_directions();
   gpu::ThesisConstants level_constants(std::uint32_t level, std::uint32_t first_cell) const;
 
@@ -68,8 +68,9 @@ class ThesisPipeline {
            std::vector<std::uint32_t> constants = {});
   /// Exclusive sums of states_ in offsets_, their total in counters[total].
   void scan(Recorder& r, Items items, std::uint32_t total);
-  /// Group counts for the items: their place in arguments_.
-  VkDeviceSize prepare(Recorder& r, Items items, std::uint32_t divisor = 1);
+  /// Counts of groups of `group_size` for the items: their place in arguments_.
+  VkDeviceSize prepare(Recorder& r, Items items, std::uint32_t divisor = 1,
+                       std::uint32_t group_size = TreeQueries::kWorkgroupSize);
   QueryCount query_count(Recorder& r, Items items);
   void copy_counter(Recorder& r, std::uint32_t from, std::uint32_t to);
 
@@ -77,7 +78,8 @@ class ThesisPipeline {
   const DeviceMesh* mesh_;
   ExtractionParameters parameters_;
   Arena arena_;
-  std::unique_ptr<TreeQueries> queries_;  // a fixed place: the flux sampler refers to it
+  std::unique_ptr<TreeQueries> queries_;    // a fixed place: the flux sampler refers to it
+  std::unique_ptr<PacketQueries> packets_;  // likewise
   std::unique_ptr<FluxSampler> flux_;
   std::array<std::uint32_t, 3> grid_{};
   std::array<std::uint32_t, 3> top_grid_{};
@@ -87,6 +89,7 @@ class ThesisPipeline {
 
   Buffer counters_, counters_readback_, arguments_, directions_;
   std::vector<VkDeviceSize> directions_at_;  // per level: offset in directions_
+  std::vector<Buffer> slots_;                // per level: places of samples in packets
   Buffer cells_, kept_, nearest_, hits_, queries_at_, sides_at_, numbers_, empty_;
   Buffer states_, offsets_, block_sums_, spheres_, fluxes_;
   Buffer active_, still_active_, lines_, narrowed_, accepted_, points_, found_;

@@ -55,8 +55,10 @@ void ThesisPipeline::record_flux(Recorder& r, std::uint32_t level) {
   count.arguments = &arguments_;
   count.sphere_arguments = prepare(r, {kThesisSpheres});
   count.sample_arguments = prepare(r, {kThesisSpheres, samples(level)});
+  count.packet_arguments = prepare(r, {kThesisSpheres, packets_->shape().packets(samples(level))}, 1, 1);
   flux_->record(r, count, samples(level), spheres_.range(),
-                directions_.range(directions_at_[level], VkDeviceSize{samples(level)} * 16), fluxes_.range());
+                directions_.range(directions_at_[level], VkDeviceSize{samples(level)} * 16), slots_[level].range(),
+                fluxes_.range());
 }
 
 void ThesisPipeline::record_round(Recorder& r, std::uint32_t first_sample) {

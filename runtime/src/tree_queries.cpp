@@ -52,13 +52,34 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
     r.dispatch(key, buffers, texels, bytes_of(constants), count.items);
   }
   r.barrier();
+  key.shader = kernel.resolve;
+  resolve(r, std::move(key), buffers, bytes_of(constants));
+}
+
+void TreeQueries::resolve(Recorder& r, ProgramKey key, std::span<const BufferRange> buffers,
+                          std::span<const std::byte> constants) const {
   const std::array<BufferRange, 1> list = {unresolved_.range()};
   r.dispatch({"prepare_resolve", 1, 0, 0, 1, {}}, list, {}, {}, 1);
   r.barrier();
-  key.shader = kernel.resolve;
+  const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
   key.workgroup_size = kResolveGroup;
-  r.dispatch_indirect(key, buffers, texels, bytes_of(constants), unresolved_, gpu::kUnresolvedGroups * 4);
+  r.dispatch_indirect(key, buffers, texels, constants, unresolved_, gpu::kUnresolvedGroups * 4);
   r.barrier();
+}
+
+void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits,
+                                  Ties ties) const {
+  const BufferRange info = mesh_->triangle_info.range();  // also in place of counters, which it does not read
+  const std::array<BufferRange, 8> buffers = {
+      mesh_->triangles.range(), mesh_->tree.range(), info, unresolved_.range(), queries, info, nearest, hits};
+  const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0};
+  const ProgramKey key{"resolve_closest_points",
+                       static_cast<std::uint32_t>(buffers.size()),
+                       2,
+                       sizeof(constants),
+                       kResolveGroup,
+                       {mesh_->use_texels ? 1u : 0u, static_cast<std::uint32_t>(ties)}};
+  resolve(r, key, buffers, bytes_of(constants));
 }
 
 void TreeQueries::closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest,

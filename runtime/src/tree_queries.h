@@ -41,6 +41,10 @@ class TreeQueries {
   /// numbers: vec2, the winding number and a bound of its error, at most `tolerance`.
   void winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers, float tolerance) const;
 
+  /// The list of queries that gave up, and what answers those of closest(): for kernels elsewhere that share them.
+  BufferRange unresolved() const { return unresolved_.range(); }
+  void resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits, Ties ties) const;
+
   /// Queries answered by looking at all triangles since creation. Blocks.
   Result<std::uint32_t> read_unresolved_total();
 
@@ -53,6 +57,8 @@ class TreeQueries {
   TreeQueries(Context::Impl& context, const DeviceMesh& mesh) : context_(&context), mesh_(&mesh), arena_(context) {}
   void record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
               BufferRange queries, float tolerance) const;
+  void resolve(Recorder& r, ProgramKey key, std::span<const BufferRange> buffers,
+               std::span<const std::byte> constants) const;
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;

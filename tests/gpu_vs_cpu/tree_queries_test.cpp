@@ -1,90 +1,10 @@
-// Every kernel that walks the tree against the reference in double precision.
-//
-// Tolerances, for a mesh whose longest side is L and queries within its box, u = 2^-24. The device sees positions
-// scaled to the unit box and rounded to float: the query and a corner a are off by sqrt(3) u/2 each, an edge by as much
-// again; together below 3 sqrt(3) u/2 = 1.6e-7. The distance to a triangle is evaluated to 8 u (|p - a| + |edge|)
-// (shaders/shared/closest_point.glsl); with |p - a| <= sqrt(3) and edges up to sqrt(2) that is 1.5e-6.
-// Faces are preferred to edges by 2^-21 of the distance (tree_closest.glsl), 5e-7. Sum: 2.2e-6 L.
-#include <gtest/gtest.h>
+// Every kernel that walks the tree against the reference in double precision; tolerances: tree_test.h.
+#include "tree_test.h"
 
 #include <cmath>
-#include <optional>
-#include <random>
-#include <string>
-
-#include "cpu_reference/queries.h"
-#include "medial_vk/queries.h"
-#include "support/device.h"
-#include "support/reference_mesh.h"
-#include "support/solids.h"
 
 namespace medial_vk {
 namespace {
-
-constexpr double kDistanceTolerance = 2.2e-6;
-
-Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
-
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-struct NamedSolid {
-  std::string name;
-  Mesh mesh;
-};
-
-/// Convex, concave, with a hole, thin, needles, far from the origin; all in generic position.
-std::vector<NamedSolid> solids() {
-  std::vector<NamedSolid> all = {{"box", test::make_box({1, 2, 3})},
-                                 {"ellipsoid", test::make_ellipsoid({1, 0.9, 0.4}, 40)},
-                                 {"needles", test::make_capsule(1, 1, 60)},
-                                 {"cup", test::make_cup(1, 0.1, 1.5, 60)},
-                                 {"L", test::make_l_shape(2, 0.5, 1)},
-                                 {"torus", test::make_torus(1, 0.3, 60, 30)},
-                                 {"plate", test::make_plate_with_hole(2, 0.05, 0.7)}};
-  for (Point& p : all[2].mesh.vertices) p[2] *= 100;  // triangles a hundred times longer than wide
-  double angle = 0.3;
-  for (NamedSolid& solid : all) {
-    test::rotate(solid.mesh, {1, -2, 0.5}, angle);
-    angle += 0.4;
-  }
-  test::scale(all[5].mesh, 1e-3);
-  test::translate(all[5].mesh, {5, -3, 4});
-  return all;
-}
-
-/// One context for all tests, with validation where the layer is installed; no message may come.
-class TreeQueriesTest : public testing::Test {
- protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-  Scene scene_of(const Mesh& mesh) {
-    Result<Scene> scene = Scene::create(*context_, view_of(mesh));
-    EXPECT_TRUE(scene.ok());
-    return std::move(scene).value();
-  }
-  std::optional<Context> context_;
-};
-
-/// Points spread over the mesh's box, the same every time.
-std::vector<Point> points_in_box(const reference::Tree& tree, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> share(0, 1);
-  std::vector<Point> points(count);
-  for (Point& p : points) {
-    for (int k = 0; k < 3; ++k) p[k] = tree.lower()[k] + share(random) * (tree.upper()[k] - tree.lower()[k]);
-  }
-  return points;
-}
 
 TEST_F(TreeQueriesTest, ClosestPoints) {
   for (const NamedSolid& solid : solids()) {
@@ -134,6 +54,8 @@ TEST_F(TreeQueriesTest, TiesGoToTheSmallestIndex) {
   const auto found = scene_of(mesh).closest_points(std::vector<Point>{{1, 1, 1}}).value();
   EXPECT_EQ(found[0].triangle, 0u);
   EXPECT_DOUBLE_EQ(found[0].distance, 1.0);
+  const auto group = scene_of(mesh).closest_points_of_groups(std::vector<Point>(51, Point{1, 1, 1}), 51).value();
+  for (const ClosestPoint& hit : group) EXPECT_EQ(hit.triangle, 0u);
 }
 
 TEST_F(TreeQueriesTest, EmptyBalls) {
@@ -289,6 +211,10 @@ TEST_F(TreeQueriesTest, RefusesWhatCannotBeAnswered) {
   EXPECT_EQ(scene.winding_numbers(std::vector<Point>{{0, 0, 0}}, 0).error().code, ErrorCode::kUsage);
   EXPECT_EQ(scene.fluxes(std::vector<Ball>{}, 0).error().code, ErrorCode::kUsage);
   EXPECT_TRUE(scene.closest_points({}).value().empty());
+  EXPECT_TRUE(scene.closest_points_of_groups({}, 5).value().empty());
+  EXPECT_EQ(scene.closest_points_of_groups(std::vector<Point>(7), 5).error().message,
+            "7 points are no groups of 5 (1 to 262144)");
+  EXPECT_EQ(scene.closest_points_of_groups(std::vector<Point>(7), 0).error().code, ErrorCode::kUsage);
   Mesh flat;
   flat.vertices = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   flat.triangles = {{0, 1, 2}};

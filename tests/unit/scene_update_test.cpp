@@ -9,6 +9,7 @@
 
 #include "context_impl.h"
 #include "device_tree.h"
+#include "medial_vk/queries.h"
 #include "scene.h"
 #include "spiral.h"
 #include "support/device.h"
@@ -171,6 +172,28 @@ TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
   std::fill(wrong.vertices.begin(), wrong.vertices.end(), Point{1, 1, 1});
   EXPECT_EQ(device.update(context, view_of(wrong)).error().message,
             "the mesh has no extent, or one too large for a double");
+}
+
+// The public call: points that are answered one by one, and thousands that are answered by packets.
+TEST_F(SceneUpdate, ScenesAnswerAsNewOnes) {
+  const Mesh mesh = torus(), moved = deformed(mesh);
+  Scene scene = Scene::create(*context_, view_of(mesh)).value();
+  ASSERT_TRUE(scene.update(view_of(moved)).ok());
+  Scene fresh = Scene::create(*context_, view_of(moved)).value();
+  for (const std::size_t count : {100u, 6000u}) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = 0.37 * static_cast<double>(i);
+      points.push_back({7 + 2 * std::sin(t), 1.3 * std::cos(1.7 * t), 0.9 * std::sin(2.3 * t)});
+    }
+    const auto updated = scene.closest_points(points), expected = fresh.closest_points(points);
+    ASSERT_TRUE(updated.ok() && expected.ok());
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_NEAR(updated.value()[i].distance, expected.value()[i].distance, 4 * 2e-6 * 7) << i;
+  }
+  Mesh smaller = mesh;
+  smaller.triangles.pop_back();
+  EXPECT_EQ(scene.update(view_of(smaller)).error().code, ErrorCode::kInvalidMesh);
 }
 
 }  // namespace
