@@ -217,7 +217,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   const std::uint32_t argument = prepare(r, d);
   ProgramKey key;
   key.shader = kernel.shader;
-  if (kernel.lanes == Lanes::kEight && context_->has_lockstep_lanes()) key.shader += "_lockstep";
+  if (kernel.lanes == Lanes::kEight && context_->has_lockstep_lanes) key.shader += "_lockstep";
   key.storage_buffers = static_cast<uint>(kernel.buffers.size());
   key.texel_buffers = static_cast<uint>(kernel.reads);
   key.push_constant_bytes = sizeof(step);

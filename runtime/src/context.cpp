@@ -74,7 +74,8 @@ void Context::Impl::query_properties() {
   subgroup.pNext = nullptr;  // the chain was on this stack frame
 
   limits = query.properties.limits;
-  driver = driver_properties.driverID;
+  has_lockstep_lanes = driver_properties.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && subgroup.subgroupSize % 8 == 0 &&
+                       (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
   max_allocation_bytes = maintenance.maxMemoryAllocationSize;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);
   pipeline_cache_identity_ = {.vendor = query.properties.vendorID, .device = query.properties.deviceID};

@@ -37,20 +37,15 @@ class Context::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
   VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
-  VkDriverId driver{};
+  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes.glsl)? True
+  // on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it. Tests clear it.
+  bool has_lockstep_lanes = false;
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;
   // Written by the validation layer from any thread (through atomic_ref); this object must not move.
   std::uint64_t validation_messages = 0;
   // Shaders that are looked up before the embedded ones: kernels of a test, for example.
   std::span<const EmbeddedShader> extra_shaders;
-
-  /// Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes.glsl)?
-  /// True on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it.
-  bool has_lockstep_lanes() const {
-    return driver == VK_DRIVER_ID_MESA_LLVMPIPE && subgroup.subgroupSize % 8 == 0 &&
-           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
-  }
 
   /// The program for this shader and these specialization constants; made once, kept until the context ends.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.

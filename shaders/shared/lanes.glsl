@@ -61,9 +61,12 @@ vec4 sum_of_lanes(vec4 mine) {
   barrier();
   exchanged[slot] = mine;
   barrier();
-  vec4 sum = vec4(0.0);
-  for (uint k = 0; k < kLanes; ++k) sum += exchanged[(slot & ~7u) + k];
-  return sum;
+  // Added in the same order as by shuffles.
+  vec4 sum[kLanes];
+  [[unroll]] for (uint k = 0; k < kLanes; ++k) sum[k] = exchanged[(slot & ~7u) + k];
+  [[unroll]] for (uint stride = 1; stride < kLanes; stride <<= 1)
+    [[unroll]] for (uint k = 0; k + stride < kLanes; k += 2 * stride) sum[k] += sum[k + stride];
+  return sum[0];
 }
 float least_of_lanes(float mine) {
   uint slot = gl_LocalInvocationID.x;
