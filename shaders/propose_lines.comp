@@ -7,7 +7,8 @@
 // angles by the line through the centre along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it; each
 // proposes its best line, and lines nearly parallel to a better one are given up. The sixth lane, if it is free, and the
 // seventh aim at the point where the contacts tie: curves of the medial surface, such as the axis of a round tube, are
-// thinner than any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of Section 3.2.
+// thinner than any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of
+// Section 3.2.
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -24,6 +25,7 @@ const uint kMostEntries = 4096;   // a lane looks at no more of the list than th
 const uint kScoutLanes = 6, kSecondTieLane = 5, kTieLane = 6, kDeepLane = 7;
 const uint kTieEntries = 64;      // contacts that the tie is computed from
 const uint kTieSteps = 3;         // and two more below the finest level
+const uint kDirectDepth = 2;      // levels below the finest voxel from which points are asked directly
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kNoLine = 3e38;
 
@@ -120,6 +122,39 @@ vec3 widest_turn(Cell cell, uint lane, vec3 point) {
   return unit_or_zero(a - b);
 }
 
+// A point that needs no line (docs/theory.md, "Points beside a sheet"): if p, pushed away from its nearest contact a by
+// epsilon, is closer than D + epsilon to some contact b, then a medial point lies within epsilon of p, wherever its sheet
+// is. Where the directions to a and b differ by enough, p stands for it.
+struct Direct {
+  vec3 point;
+  vec3 toward;   // b
+  float cosine;  // between the directions to a and b; above 1: there is none
+};
+
+// Each lane asks the centre of one eighth of the cell; the widest turn of all lanes is returned to all.
+Direct direct_point(Cell cell, uint lane, vec3 centre) {
+  vec3 p = centre + 0.25 * step.cell_size * corner_sign(lane), to_a = vec3(0.0), toward = vec3(0.0);
+  float least = 3e38, cosine = 2.0;
+  for (uint entry = 0; entry < cell.list_count; ++entry) {
+    vec3 v = vector_to_triangle(p, load_triangle(lists[cell.list_begin + entry]));
+    to_a = dot(v, v) < least ? v : to_a;
+    least = min(least, dot(v, v));
+  }
+  vec3 a = unit_or_zero(to_a), pushed = p - step.epsilon * a;
+  float limit = sqrt(least) + 0.98 * step.epsilon;
+  for (uint entry = 0; entry < cell.list_count; ++entry) {
+    TriangleTexels b = load_triangle(lists[cell.list_begin + entry]);
+    vec3 g = unit_or_zero(vector_to_triangle(p, b));
+    bool better = squared_distance_to_triangle(pushed, b) < limit * limit && dot(a, g) < cosine;
+    toward = better ? g : toward;
+    cosine = better ? dot(a, g) : cosine;
+  }
+  float widest = least_of_lanes(cosine);
+  uint best = first_lane_with(cosine == widest);
+  vec4 point = sum_of_lanes(lane == best ? vec4(p, 0.0) : vec4(0.0));
+  return Direct(point.xyz, sum_of_lanes(lane == best ? vec4(toward, 0.0) : vec4(0.0)).xyz, widest);
+}
+
 // The part of the line through centre + base that lies in the cell's ball and in the finest voxel, both enlarged by
 // epsilon: a point within epsilon of the medial surface may stand for a sheet that runs along a face of its voxel, just
 // outside. Only ends inside the voxel are accepted (verify_lines.comp).
@@ -149,6 +184,8 @@ void main() {
   bool open = exists && (cells[index / kLinesPerCell].flags & kCellEmpty) == 0u;
   Cell cell;
   cell.touching = 0u;
+  cell.list_count = 0u;
+  float cos_threshold = -2.0;
   vec3 centre = vec3(0.0), g0 = vec3(0.0), base = vec3(0.0);
   float d0 = 0.0;
   Candidate best = Candidate(vec3(0.0), kNoLine);
@@ -159,6 +196,7 @@ void main() {
     d0 = length(to_nearest);
     g0 = unit_or_zero(to_nearest);
     bool deep = d0 + step.circumradius + step.slack >= step.radius;
+    cos_threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
     float least_turn = sin(deep ? min(step.deep_angle, step.angle) : step.angle);
     bool aimed = aims[kAimsPerCell * (index / kLinesPerCell)].direction.w > 0.0;
     if (aimed && lane < kAimsPerCell) {
@@ -169,6 +207,8 @@ void main() {
     if (!aimed && lane < kScoutLanes) best = best_of_run(cell, lane, centre, g0, d0, least_turn);
     if (lane == kDeepLane) best = Candidate(g0, 1e30);
   }
+  Direct direct = Direct(vec3(0.0), vec3(0.0), 2.0);
+  if (step.depth >= kDirectDepth) direct = direct_point(cell, lane, centre);
   vec3 tie = step_to_tie(cell, lane, centre, d0), across = widest_turn(cell, lane, centre + tie);
   bool takes_tie = lane == kTieLane || (lane == kSecondTieLane && best.key == kNoLine && step.depth > 0u);
   if (open && takes_tie) {
@@ -184,6 +224,14 @@ void main() {
   for (uint i = slot - lane; i < slot - lane + kLinesPerCell; ++i) {
     bool ahead = proposals[i].w < best.key || (proposals[i].w == best.key && i < slot);
     drop = drop || (ahead && !alone && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
+  }
+  // The deep line gives way to a point that needs none.
+  bool is_direct = open && lane == kDeepLane && direct.cosine <= cos_threshold;
+  if (is_direct) {
+    atomicAdd(counters[kQueries], 2u);
+    points[2 * index] = vec4(direct.point, float(kDirectSeed));
+    points[2 * index + 1] = vec4(direct.toward, 1.0);
+    return;
   }
   float from, to;
   drop = drop || !clip_line(cell, centre, base, best.direction, from, to);

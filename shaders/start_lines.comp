@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Packs the lines worth narrowing.
+// Packs the lines worth narrowing. A point that needs no line becomes one of length zero: narrowing finds its whole turn
+// in the last part, between the point and itself with the other direction.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 8
@@ -20,6 +21,10 @@ void main() {
   vec3 p = points[2 * index].xyz, q = points[2 * index + 1].xyz;
   vec3 a = vector_to_triangle(p, load_triangle(nearest[2 * index].y));
   vec3 b = vector_to_triangle(q, load_triangle(nearest[2 * index + 1].y));
+  if (points[2 * index].w == float(kDirectSeed)) {
+    b = length(a) * q;
+    q = p;
+  }
   uint cell = index / kLinesPerCell;
   lines[offsets[index].x] = Line(vec4(p, length(a)), vec4(q, length(b)), vec4(unit_or_zero(a), 0.0),
                                  vec4(unit_or_zero(b), 0.0), cell, cells[cell].voxel, 0u, 0u);

@@ -182,6 +182,7 @@ MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 4u * 24u;
 // after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
 MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
 MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
+MEDIAL_VK_GPU_CONSTANT kDirectSeed = 2u;       // a seed that is no line: a point, and the direction to its second contact
 MEDIAL_VK_GPU_CONSTANT kSectionsPerLine = 8u;  // points inside a line per narrowing step
 MEDIAL_VK_GPU_CONSTANT kFluxSamples = 48u;     // spiral points of the flux that is stored with a point
 
