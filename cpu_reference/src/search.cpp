@@ -12,6 +12,8 @@ namespace {
 
 // Lines stay this share of a voxel inside it, so that rounding does not carry their ends across a face.
 constexpr double kHair = 1e-9;
+// Levels below the voxel from which points beside a sheet are asked: where cells are not much larger than epsilon.
+constexpr int kDirectDepth = 2;
 
 }  // namespace
 
@@ -37,7 +39,7 @@ Outcome VoxelSearch::run(const Vector3i& voxel, Side where, const ContactList& p
   return search({grid_.centre(voxel, finest), grid_.voxel_size, where}, 0, parent, sphere);
 }
 
-// Contacts -> outside? -> dismissed? -> aimed lines -> parts.
+// Contacts -> outside? -> dismissed? -> aimed lines -> points beside a sheet -> parts.
 Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& parent, Sphere& sphere) {
   LevelCount& count = result_.levels[grid_.levels - 1 + depth];
   ++count.visited;
@@ -53,7 +55,9 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
   if (test.dismisses(angle)) return Outcome::kEmpty;
   ++count.kept;
   count.contacts += list.contacts().size();
-  if (aim(cell, test, list, angle, where, sphere)) {
+  const bool found =
+      aim(cell, test, list, angle, where, sphere) || (depth >= kDirectDepth && stand_beside(cell, list, where, sphere));
+  if (found) {
     ++count.found;
     return Outcome::kFound;
   }
@@ -95,6 +99,33 @@ bool VoxelSearch::aim(const Cell& cell, const BoxTest& test, const ContactList& 
     if (segment && try_segment(*segment, list, angle, where, sphere)) return true;
   }
   return false;
+}
+
+// Points beside a sheet (docs/theory.md): the centres of the parts of the cell, as they are.
+bool VoxelSearch::stand_beside(const Cell& cell, const ContactList& list, Side where, Sphere& sphere) {
+  for (int k = 0; k < 8; ++k) {
+    const Vector3d offset((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, (k >> 2) - 0.5);
+    const End here = look(cell.centre + offset * (cell.side / 2), list);
+    const std::optional<End> there = second_contact(here, list);
+    if (there && accept(here, *there, list, where, sphere)) return true;
+  }
+  return false;
+}
+
+/// Of the contacts that keep the growth test from failing, the one in the direction that differs most.
+std::optional<VoxelSearch::End> VoxelSearch::second_contact(const End& here, const ContactList& list) const {
+  const Vector3d pushed = here.point - thresholds_.epsilon * here.gradient;
+  const double limit = here.nearest.distance + thresholds_.epsilon - 16 * tree_.rounding();
+  std::optional<End> best;
+  for (const Contact& contact : list.contacts()) {
+    if ((tree_.closest_on(contact.triangle, pushed).point - pushed).norm() >= limit) continue;
+    const TrianglePoint at = tree_.closest_on(contact.triangle, here.point);
+    const Closest other = {at.point, (at.point - here.point).norm(), contact.triangle, at.feature};
+    const Vector3d direction = direction_to(here.point, other);
+    if (!best || direction.dot(here.gradient) < best->gradient.dot(here.gradient))
+      best = {here.point, other, direction};
+  }
+  return best;
 }
 
 /// The part of a line that lies in the voxel and in the cell's ball, where its list holds.

@@ -49,6 +49,8 @@ class VoxelSearch {
   Outcome search_parts(const Cell& cell, Side where, int depth, const ContactList& list, Sphere& sphere);
   void note_undecided(BoxTest& test, const ContactList& list, double angle, bool hopeless);
   bool aim(const Cell& cell, const BoxTest& test, const ContactList& list, double angle, Side where, Sphere& sphere);
+  bool stand_beside(const Cell& cell, const ContactList& list, Side where, Sphere& sphere);
+  std::optional<End> second_contact(const End& here, const ContactList& list) const;
   std::optional<Segment> clip(const Cell& cell, const Line& line) const;
   bool try_segment(const Segment& segment, const ContactList& list, double angle, Side where, Sphere& sphere);
   bool accept(const End& here, const End& there, const ContactList& list, Side where, Sphere& sphere);
