@@ -77,5 +77,5 @@ void main() {
   if (!exists) return;
   if (lane != 0u || is_feasible) return;
   cells[index].flags |= kCellEmpty;
-  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 1], 0xffffffffu);
+  COUNT(kKeptCount, 0xffffffffu);
 }

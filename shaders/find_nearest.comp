@@ -49,9 +49,8 @@ void main() {
   uint first_point = (index % lanes_per_item) * kPointsPerLane;
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
-  // Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
   bool is_line = kSource == kLineEnds || kSource == kSections || kSource == kGrownEnds;
-  uint list_count = is_line && step.depth == 0u ? cell.touching : cell.list_count;
+  uint list_count = is_line ? line_list_count(cell) : cell.list_count;
   if (entry >= list_count) return;
   if (kSource == kLineEnds && points[2 * item].w < 0.0) return;  // no line
 

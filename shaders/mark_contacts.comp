@@ -76,7 +76,7 @@ bool is_in_grid(uvec3 coordinates) {
 // What becomes of a child, once all contacts have been seen.
 void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, float nearest_distance, uvec4 count,
             float least_cosine) {
-  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level], 1u);
+  COUNT(kVisitedCount, 1u);
   float theta = dismissal_angle(nearest_distance);
   bool is_empty = least_cosine > cos(theta) + kAxisSlack;
   uint flags = parent_flags & kCellInside;
@@ -159,6 +159,7 @@ void main() {
   counts[item] = count;
   axes[item] = axis;
   if (end < parent.list_count) return;
+  if (child == 0u) COUNT_TESTS(16u * parent.list_count);  // of the eight: for the nearest one, and here
   if (is_in_grid(coordinates))
     settle(item, centre, parent.flags, nearest[item].y, nearest_distance, count, axis.w);
   else

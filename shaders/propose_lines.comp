@@ -235,7 +235,10 @@ void main() {
   }
   float from, to;
   drop = drop || !clip_line(cell, centre, base, best.direction, from, to);
-  if (!drop) atomicAdd(counters[kQueries], 2u);
+  if (!drop) {
+    atomicAdd(counters[kQueries], 2u);
+    COUNT_TESTS(2u * line_list_count(cell));
+  }
   points[2 * index] = vec4(centre + base + from * best.direction, drop ? -1.0 : 1.0);
   points[2 * index + 1] = vec4(centre + base + to * best.direction, 1.0);
 }

@@ -26,6 +26,8 @@ void main() {
     q = p;
   }
   uint cell = index / kLinesPerCell;
+  COUNT(kLineCount, 1u);
+  COUNT_TESTS((kSectionsPerLine * step.narrowing_steps + 2u) * line_list_count(cells[cell]));  // and the grown ends
   lines[offsets[index].x] = Line(vec4(p, length(a)), vec4(q, length(b)), vec4(unit_or_zero(a), 0.0),
                                  vec4(unit_or_zero(b), 0.0), cell, cells[cell].voxel, 0u, 0u);
 }

@@ -23,5 +23,5 @@ void main() {
   Cell voxel = voxels[line.voxel];
   points[line.voxel] = FoundPoint(centre, vec4(a, angle), vec4(b, 0.0), voxel.x, voxel.y, voxel.z, line.voxel);
   verdicts[line.voxel] = kVerdictFound | verdicts[line.voxel];
-  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 3], 1u);
+  COUNT(kFoundCount, 1u);
 }

@@ -33,8 +33,8 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching
     reasons[voxel] = uvec2(0u);
   }
   atomicMax(counters[kLongestCellList], state.y);
-  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 1], 1u);
-  atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + 2], state.y);
+  COUNT(kKeptCount, 1u);
+  COUNT(kContactCount, state.y);
 }
 
 void main() {

@@ -183,6 +183,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.depth = below ? level - coarse_levels_ : 0u;
   step.level = level;
   step.closed = mesh_->closed ? 1u : 0u;
+  step.narrowing_steps = narrowing_steps_;
   step.settles = below && size < kSettleSize ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
   step.half_side = static_cast<float>(size / 2 + kCentreError);

@@ -51,6 +51,7 @@ class CertifiedPipeline {
   }
   std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
   double cell_size(std::uint32_t level) const;
+  std::uint32_t narrowing_steps() const { return narrowing_steps_; }
 
   /// Appends the whole extraction of `count` top cells from `first` on.
   Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count);

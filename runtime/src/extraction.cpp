@@ -28,10 +28,12 @@ Status check_parameters(const ExtractionParameters& p) {
 void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, ExtractionCounters& sum) {
   for (std::size_t level = 0; level < sum.levels.size(); ++level) {
     const std::uint32_t* s = &c[gpu::kStatistics + gpu::kStatisticsPerLevel * level];
-    sum.levels[level].visited += s[0];
-    sum.levels[level].kept += s[1];
-    sum.levels[level].contacts += s[2];
-    sum.levels[level].found += s[3];
+    sum.levels[level].visited += s[gpu::kVisitedCount];
+    sum.levels[level].kept += s[gpu::kKeptCount];
+    sum.levels[level].contacts += s[gpu::kContactCount];
+    sum.levels[level].found += s[gpu::kFoundCount];
+    sum.levels[level].lines += s[gpu::kLineCount];
+    sum.levels[level].triangle_tests += s[gpu::kTestCount] + (std::uint64_t{s[gpu::kTestCount + 1]} << 32);
   }
   sum.found += c[gpu::kFound];
   sum.undecided += c[gpu::kUndecided];
@@ -125,6 +127,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   CertifiedRun run(context, mesh.value(), pipeline.value(), extraction);
   if (Status s = run.run(progress); !s.ok()) return s.error();
   ExtractionCounters& c = extraction.counters;
+  c.narrowing_steps = pipeline.value().narrowing_steps();
   const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
   c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
   sort_by_voxel(extraction.spheres);

@@ -122,6 +122,7 @@ struct StepConstants {
   uint level;                   // index into the statistics
   uint closed;                  // 1: inside and outside can be decided for whole cells
   uint last_level;              // 1: what is kept now stays undecided
+  uint narrowing_steps;         // of every line
   uint settles;                 // 1: cells that can only hide what is near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
@@ -173,10 +174,13 @@ MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search o
 MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit
 MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known
 MEDIAL_VK_GPU_CONSTANT kOpen = 18u;             // children that the first test of dismissal leaves open
-MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: visited, kept, contacts, found
-MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 4u;
+MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: kVisited and so on
+MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 8u;
+MEDIAL_VK_GPU_CONSTANT kVisitedCount = 0u, kKeptCount = 1u, kContactCount = 2u, kFoundCount = 3u;
+MEDIAL_VK_GPU_CONSTANT kLineCount = 4u;         // lines narrowed
+MEDIAL_VK_GPU_CONSTANT kTestCount = 5u;         // distances from points to triangles: low word, high word
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
-MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 4u * 24u;
+MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 8u * 24u;
 
 // Entries of a contact list that one invocation reads in one dispatch. lavapipe ends an invocation's loops silently
 // after 65,535 iterations in all; longer lists take several rounds of the same dispatch.

@@ -11,6 +11,17 @@ uint invocation_index() {
   return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
+// Statistics of this level, for kernels that declare `counters`.
+#define COUNT(which, number) atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + (which)], number)
+#define COUNT_TESTS(number)                                                     \
+  {                                                                             \
+    uint more = number, before = COUNT(kTestCount, more);                       \
+    if (before + more < before) COUNT(kTestCount + 1u, 1u);                     \
+  }
+
+// Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
+uint line_list_count(Cell cell) { return step.depth == 0u ? cell.touching : cell.list_count; }
+
 // Children are numbered 0 to 7: bit 0 is x, bit 1 is y, bit 2 is z.
 uvec3 child_coordinates(Cell parent, uint child) {
   return 2 * uvec3(parent.x, parent.y, parent.z) + uvec3(child & 1u, (child >> 1) & 1u, child >> 2);

@@ -106,7 +106,7 @@ Extraction from_reference(const reference::Result& result) {
     out.undecided.push_back(from_reference(undecided));
   }
   for (const reference::LevelCount& level : result.levels) {
-    out.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found});
+    out.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found, 0, 0});
   }
   out.counters.found = result.found;
   out.counters.undecided = result.undecided;

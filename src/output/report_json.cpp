@@ -79,7 +79,9 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
                     {"visited", level.visited},
                     {"kept", level.kept},
                     {"contacts", level.contacts},
-                    {"found", level.found}});
+                    {"found", level.found},
+                    {"lines", level.lines},
+                    {"triangle_tests", level.triangle_tests}});
   }
   return json;
 }
@@ -149,6 +151,7 @@ std::string report_json(const RunRecord& record) {
         {"rejected", record.certify.rejected}}},
       {"levels", levels_json(record.counters.levels)},
       {"queries", record.counters.queries},
+      {"narrowing_steps", record.counters.narrowing_steps},
       {"retries", record.counters.retries},
       {"points",
        {{"written", record.points},

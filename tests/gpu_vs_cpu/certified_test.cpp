@@ -80,10 +80,16 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
     EXPECT_LE(c.levels[level].kept, c.levels[level].visited) << "level " << level;
     EXPECT_GE(c.levels[level].contacts, c.levels[level].kept) << "every kept cell has a nearest triangle";
     found += c.levels[level].found;
+    EXPECT_GE(c.levels[level].lines, c.levels[level].found) << "level " << level;
     if (level < finest) {
       EXPECT_EQ(c.levels[level].found, 0u);
+      EXPECT_EQ(c.levels[level].lines, 0u);
     }
     if (level == 0) continue;
+    // Eight children ask every contact of their parent twice: for the nearest one, and to inherit it.
+    if (level < finest) {
+      EXPECT_EQ(c.levels[level].triangle_tests, 16 * c.levels[level - 1].contacts) << "level " << level;
+    }
     // Parts of a voxel are examined until it has a point, a point drops all parts that are left.
     const std::uint64_t most = 8 * (c.levels[level - 1].kept - c.levels[level - 1].found);
     EXPECT_LE(c.levels[level].visited, most) << "level " << level;

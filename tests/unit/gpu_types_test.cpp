@@ -93,6 +93,7 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(StepConstants, level),
         MEDIAL_VK_MEMBER(StepConstants, closed),
         MEDIAL_VK_MEMBER(StepConstants, last_level),
+        MEDIAL_VK_MEMBER(StepConstants, narrowing_steps),
         MEDIAL_VK_MEMBER(StepConstants, settles),
         MEDIAL_VK_MEMBER(StepConstants, half_side),
         MEDIAL_VK_MEMBER(StepConstants, touch_half_side),
