@@ -21,29 +21,60 @@ layout(set = 0, binding = 5) writeonly buffer Lists { uint lists[]; };
 float nearest_in_box(vec3 p, Treelet t) { return length(max(max(t.lower.xyz - p, p - t.upper.xyz), vec3(0.0))); }
 float farthest_in_box(vec3 p, Treelet t) { return length(max(p - t.lower.xyz, t.upper.xyz - p)); }
 
+// Of eight lanes each; floats as bits, which are in the same order where they are positive.
+const uint kMostEights = kMostLanes / kLanes;
+shared uint count_of_eight[kMostEights];
+shared uint least_bound, least_clearance;
+
+// Of the entries of all lanes, how many those of the lanes before this one have, and how many there are.
+uvec2 count_all_lanes(uint mine) {
+  uint lane = gl_LocalInvocationID.x, eight = lane / kLanes;
+  uvec2 place = count_lanes(mine);
+  if (lane % kLanes == 0u) count_of_eight[eight] = place.y;
+  barrier();
+  place.y = 0u;
+  for (uint i = 0; i < gl_WorkGroupSize.x / kLanes; ++i) {
+    place.x += i < eight ? count_of_eight[i] : 0u;
+    place.y += count_of_eight[i];
+  }
+  return place;
+}
+
 void main() {
-  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
+  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
   uint treelet_count = step.treelet_count;
   bool exists = item < counters[kParents];
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);
+  if (lane == 0u) {
+    least_bound = 0x7f800000u;
+    least_clearance = 0x7f800000u;
+  }
+  barrier();
   float bound = 3e38, clearance = bound;
-  for (uint i = lane; i < treelet_count; i += kLanes) {
+  for (uint i = lane; i < treelet_count; i += lanes) {
     bound = min(bound, farthest_in_box(centre, treelets[i]));
     clearance = min(clearance, nearest_in_box(centre, treelets[i]));
   }
+  bound = least_of_lanes(bound);
   clearance = least_of_lanes(clearance);
-  float reach = least_of_lanes(bound) + 2.0 * step.list_radius + step.slack;
-  uint run = (treelet_count + kLanes - 1u) / kLanes;
+  if (lane % kLanes == 0u) {
+    atomicMin(least_bound, floatBitsToUint(bound));
+    atomicMin(least_clearance, floatBitsToUint(clearance));
+  }
+  barrier();
+  float reach = uintBitsToFloat(least_bound) + 2.0 * step.list_radius + step.slack;
+  uint run = (treelet_count + lanes - 1u) / lanes;
   uint begin = min(treelet_count, lane * run), end = min(treelet_count, begin + run);
   uint count = 0;
   for (uint i = begin; i < end; ++i) count += nearest_in_box(centre, treelets[i]) <= reach ? treelets[i].count : 0u;
-  uvec2 place = count_lanes(count);
+  uvec2 place = count_all_lanes(count);
   uint total = place.y;
   if (!exists) return;
   if (!kWrite) {
     // decide_side.comp replaces the clearance by flags.
-    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, floatBitsToUint(clearance));
+    if (lane == 0u) states[item] = uvec4(1u, total, (total + 31u) / 32u, least_clearance);
     return;
   }
   uvec4 state = states[item], offset = offsets[item];

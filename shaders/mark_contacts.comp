@@ -42,7 +42,7 @@ bool touches_cube(vec3 v, float d) {
   vec3 h = step.touch_half_side * (v / max(d, 1e-30));
   float most = -1.0;
   [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
-  return d - most <= distance_slack(d, step.circumradius);
+  return d - most <= distance_slack(d, 1.7321 * step.touch_half_side);
 }
 
 // The triangle that lane k of the eight has loaded, from entry `list_entry`.

@@ -25,6 +25,7 @@ const uint kMostEntries = 4096;   // a lane looks at no more of the list than th
 const uint kScoutLanes = 6, kSecondTieLane = 5, kTieLane = 6, kDeepLane = 7;
 const uint kTieEntries = 64;      // contacts that the tie is computed from
 const uint kTieSteps = 3;         // and two more below the finest level
+const uint kMostDirectEntries = 8192;  // cells with longer lists are not asked directly: lavapipe's loop budget
 const uint kDirectDepth = 2;      // levels below the finest voxel from which points are asked directly
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kNoLine = 3e38;
@@ -112,7 +113,8 @@ vec3 opposite_direction(Cell cell, uint lane, vec3 point, float nearest_distance
 // The normal of the sheet between the two contacts at the tie whose spokes differ most, or as good as most.
 vec3 widest_turn(Cell cell, uint lane, vec3 point) {
   float nearest_distance = 3e38;
-  for (uint entry = lane; entry < cell.touching; entry += kLinesPerCell)
+  uint stride = kLinesPerCell * (1u + cell.touching / kMostEntries);
+  for (uint entry = lane; entry < cell.touching; entry += stride)
     nearest_distance =
         min(nearest_distance, squared_distance_to_triangle(point, load_triangle(lists[cell.list_begin + entry])));
   nearest_distance = sqrt(least_of_lanes(nearest_distance));
@@ -135,14 +137,15 @@ struct Direct {
 Direct direct_point(Cell cell, uint lane, vec3 centre) {
   vec3 p = centre + 0.25 * step.cell_size * corner_sign(lane), to_a = vec3(0.0), toward = vec3(0.0);
   float least = 3e38, cosine = 2.0;
-  for (uint entry = 0; entry < cell.list_count; ++entry) {
+  uint count = cell.list_count <= kMostDirectEntries ? cell.list_count : 0u;
+  for (uint entry = 0; entry < count; ++entry) {
     vec3 v = vector_to_triangle(p, load_triangle(lists[cell.list_begin + entry]));
     to_a = dot(v, v) < least ? v : to_a;
     least = min(least, dot(v, v));
   }
   vec3 a = unit_or_zero(to_a), pushed = p - step.epsilon * a;
   float limit = sqrt(least) + 0.98 * step.epsilon;
-  for (uint entry = 0; entry < cell.list_count; ++entry) {
+  for (uint entry = 0; entry < count; ++entry) {
     TriangleTexels b = load_triangle(lists[cell.list_begin + entry]);
     vec3 g = unit_or_zero(vector_to_triangle(p, b));
     bool better = squared_distance_to_triangle(pushed, b) < limit * limit && dot(a, g) < cosine;

@@ -63,11 +63,11 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
       {treelets_.range(), counters_.range(), states_.range(), offsets_.range(), cells_[0].range(), lists_[0].range()},
       Reads::kNoMesh,
       {0},
-      kEightLanes,
+      kGatherLanes,
       Lanes::kEight};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
-  const Extent groups{gpu::kParents, kEightLanes};
+  const Extent groups{gpu::kParents, kGatherLanes};
   run(r, count_entries, groups, step);
   Kernel side = side_kernel("decide_side",
                             {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});

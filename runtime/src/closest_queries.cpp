@@ -104,6 +104,7 @@ Status Scene::Impl::closest(const ClosestBatch& batch, std::span<ClosestPoint> o
 }
 
 Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {
+  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
   std::vector<ClosestPoint> out(points.size());
   Impl::ClosestBatch batch;
   batch.points = points;
@@ -130,6 +131,7 @@ Result<std::vector<ClosestPoint>> Scene::closest_points_of_groups(std::span<cons
     return Error{ErrorCode::kUsage, std::to_string(points.size()) + " points are no groups of " +
                                         std::to_string(group_size) + " (1 to " + std::to_string(kBatch) + ")"};
   }
+  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
   std::vector<ClosestPoint> out(points.size());
   if (points.empty()) return out;
   const std::vector<std::uint32_t> slots = make_slots(impl_->packets->shape(), points.first(group_size));

@@ -1,13 +1,12 @@
 #include "program.h"
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include "context_impl.h"
+#include "parallel_blocks.h"
 
 namespace medial_vk {
 namespace {
@@ -175,22 +174,13 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
   std::ranges::stable_sort(missing, std::greater<>{}, size);
   std::vector<std::unique_ptr<Program>> made(missing.size());
   std::vector<Status> status(missing.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < missing.size(); i = next++) {
-      Result<std::unique_ptr<Program>> program = build_program(*missing[i]);
-      if (program.ok())
-        made[i] = std::move(program.value());
-      else
-        status[i] = program.error();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), missing.size());
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-  }
+  parallel_blocks(missing.size(), 1, thread_count(0), [&](std::size_t i, std::size_t) {
+    Result<std::unique_ptr<Program>> program = build_program(*missing[i]);
+    if (program.ok())
+      made[i] = std::move(program.value());
+    else
+      status[i] = program.error();
+  });
   for (std::size_t i = 0; i < missing.size(); ++i)
     if (made[i]) programs_.emplace(*missing[i], std::move(made[i]));
   const auto failed = std::find_if(status.begin(), status.end(), [](const Status& s) { return !s.ok(); });

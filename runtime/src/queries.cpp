@@ -22,7 +22,7 @@ Result<Scene> Scene::create(Context& context, const MeshView& mesh) {
 }
 
 Status Scene::Impl::make_packets(const MeshView& view) {
-  packets.reset();
+  packets.reset();  // they would answer for the mesh as it was
   Result<PacketQueries> made = PacketQueries::create(*context, mesh, view, kBatch, PacketShape::best_for(*context));
   if (!made.ok()) return made.error();
   packets = std::make_unique<PacketQueries>(std::move(made).value());
@@ -143,6 +143,7 @@ Status Scene::Impl::fluxes(std::span<const Ball> spheres, std::size_t first, std
 }
 
 Result<std::vector<FluxSample>> Scene::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
+  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
   if (samples == 0 || samples > kBatch) {
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kBatch)};
   }

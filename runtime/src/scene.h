@@ -29,9 +29,10 @@ struct LeafRange {
 struct DeviceMesh {
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
-  /// Positions travel as floats in the tree's texels; 2^24 is the last that is exact. Also what a workgroup of 256
-  /// lanes can look through within lavapipe's 65,535 loop iterations.
-  static constexpr std::uint32_t kMostTriangles = 16'000'000;
+  /// A workgroup of 256 lanes can list them all within lavapipe's 65,535 loop iterations (gather_contacts.comp): each
+  /// lane at most 16 of the 4,096 or fewer treelets, of less than 2 n / 4096 triangles. Positions travel as floats in
+  /// the tree's texels, exact up to 2^24.
+  static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
   /// kOutOfMemory.

@@ -101,6 +101,11 @@ class Scene::Impl {
     Buffer upload, asked, nearest, hits, readback;
   };
   Status make_packets(const MeshView& view);
+  /// Error: the last update failed half-way.
+  Status usable() const {
+    if (packets) return {};
+    return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
+  }
   Status make_room();
   Status write_queries(const ClosestBatch& batch, std::size_t padded) const;
   void record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups, const Buffer& table) const;

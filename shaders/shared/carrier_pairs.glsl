@@ -125,7 +125,7 @@ bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
   vec3 ab = b.nearest.xyz - a.nearest.xyz;
   float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(error_of(a, box).x, error_of(b, box).x);
   for (uint k = 0;;) {
-    Carrier rival = CARRIER_OF_LANE(nearest_row, carrier_order, 0u, k);
+    Carrier rival = CARRIER_OF_LANE(nearest_row, carrier_order, kept_count, 0u, k);
     float share = clamp(dot(ab, rival.nearest.xyz - a.nearest.xyz) * inverse, 0.0, 1.0);
     bool is_third = rival.name != a.name && rival.name != b.name;
     bool beaten = is_third && beats(rival, mix(a.nearest, b.nearest, share), slack, box);

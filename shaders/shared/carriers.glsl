@@ -5,7 +5,7 @@
 #define MEDIAL_VK_CARRIERS_GLSL
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
-const uint kMostEntries = 8192u;  // nor are those with more contacts
+const uint kMostEntries = 4096u;  // nor are those with more contacts
 // Contacts whose features are listed at a time, and features of a contact: at most a face, three edges, three vertices.
 const uint kEntriesAtOnce = 64u, kMostFeatures = 7u * kEntriesAtOnce;
 // What kind of carrier, in the low bits of its name: a trusted face, an edge 1 to 3, a vertex 4 to 6 of its triangle,
@@ -146,12 +146,13 @@ Carrier load_carrier(uint slot) {
   return Carrier(carrier_name[slot], carrier_nearest[slot], carrier_spokes[slot]);
 }
 
-// Carriers go in rows of eight, one for each lane. Lane k's of `row`, whose slots `order` holds from `first` on.
+// Carriers go in rows of eight, one for each lane. Lane k's of `row`, whose slots are the `count` of `order` from `first`
+// on; beyond them, the last one.
 #ifdef LOCKSTEP
-#define CARRIER_OF_LANE(row, order, first, k) \
+#define CARRIER_OF_LANE(row, order, count, first, k) \
   Carrier(from_lane(row.name, k), from_lane(row.nearest, k), from_lane(row.spokes, k))
 #else
-#define CARRIER_OF_LANE(row, order, first, k) load_carrier(order[min((first) + (k), carrier_count - 1u)])
+#define CARRIER_OF_LANE(row, order, count, first, k) load_carrier(order[min((first) + (k), (count) - 1u)])
 #endif
 
 uint row_count(uint carriers) { return (carriers + kLanes - 1u) / kLanes; }
@@ -207,7 +208,7 @@ void order_unbeaten(uint lane, Box box) {
     float slack = error_of(mine, box).x;
     bool keep = first + lane < carrier_count;
     for (uint k = 0; k < min(kRivals, carrier_count); ++k) {
-      Carrier rival = CARRIER_OF_LANE(nearest_row, ranked, 0u, k);
+      Carrier rival = CARRIER_OF_LANE(nearest_row, ranked, carrier_count, 0u, k);
       keep = keep && (k >= first + lane || !beats(rival, mine.nearest, slack, box));
     }
     uint kept = or_of_lanes(keep ? 1u << lane : 0u);

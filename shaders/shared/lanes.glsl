@@ -10,8 +10,9 @@
 #endif
 
 const uint kLanes = 8u;
+const uint kMostLanes = 256u;
 
-// Among the eight lanes of a cell, in workgroups of at most 64: all of them call these.
+// Among the eight lanes of a cell, in workgroups of at most kMostLanes: all of them call these.
 //   from_lane (LOCKSTEP only)   the value that lane k holds
 //   sum_of_lanes, least_of_lanes, or_of_lanes, first_lane_with
 //   count_lanes                 the sum over the lanes before this one, and over all
@@ -53,8 +54,8 @@ uvec2 count_lanes(uint mine) {
 
 void synchronize() { barrier(); }
 
-shared vec4 exchanged[64];
-shared uint exchanged_bits[64];
+shared vec4 exchanged[kMostLanes];
+shared uint exchanged_bits[kMostLanes];
 
 vec4 sum_of_lanes(vec4 mine) {
   uint slot = gl_LocalInvocationID.x;

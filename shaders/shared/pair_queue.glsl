@@ -56,7 +56,7 @@ uint turning_partners(Carrier mine, Carrier row, float theta) {
   uint mask = 0u;
   for (uint r = is_same_row ? 1u : 0u; r < (is_same_row ? 5u : kLanes); ++r) {
     uint k = (lane + r) % kLanes;
-    Carrier other = CARRIER_OF_LANE(row, carrier_order, kLanes * next_other_row, k);
+    Carrier other = CARRIER_OF_LANE(row, carrier_order, kept_count, kLanes * next_other_row, k);
     bool is_pair = !is_same_row || r < 4u || lane < 4u;
     bool asked = is_pair && exists && kLanes * next_other_row + k < kept_count;
     mask |= asked && can_turn(mine, other, theta) ? 1u << r : 0u;
@@ -69,7 +69,8 @@ uint unbeaten_partners(uint mask, Carrier mine, Carrier row, Carrier nearest_row
   uint unbeaten = 0u;
   for (; mask != 0u; mask &= mask - 1u) {
     uint r = uint(findLSB(mask));
-    Carrier other = CARRIER_OF_LANE(row, carrier_order, kLanes * next_other_row, (gl_LocalInvocationID.x + r) % kLanes);
+    uint k = (gl_LocalInvocationID.x + r) % kLanes;
+    Carrier other = CARRIER_OF_LANE(row, carrier_order, kept_count, kLanes * next_other_row, k);
     if (is_beaten(mine, other, nearest_row, box)) continue;
     unbeaten |= 1u << r;
     Aim aim = aim_between(mine.nearest, other.nearest, step.half_side);
