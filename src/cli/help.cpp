@@ -50,7 +50,7 @@ Where it runs:
       --device D        Vulkan device by index or part of its name (default: the
                         environment variable MEDIAL_VK_DEVICE, else the best)
       --backend B       vulkan (default), or cpu: the reference in double
-                        precision, slow, needs no Vulkan
+                        precision, one thread, needs no Vulkan
       --memory M        device memory to stay below, MiB or as 2G (default 1G)
       --threads N       CPU threads, 0 for all (default 0)
 
