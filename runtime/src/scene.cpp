@@ -45,8 +45,8 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
   if (!bvh.ok()) return bvh.error();
   DeviceMesh device(context);
-  device.bvh = std::move(bvh).value();
-  device.order = device.bvh.order();
+  device.bvh_ = std::move(bvh).value();
+  device.order = device.bvh_.order();
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.measure(mesh); !status.ok()) return status.error();
   if (Status status = device.upload_mesh(context, mesh); !status.ok()) return status.error();
@@ -55,19 +55,19 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
 }
 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
-  if (linked_vertices != 0 && mesh.vertices.size() != linked_vertices) {
+  if (linked_vertices_ != 0 && mesh.vertices.size() != linked_vertices_) {
     return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
-                                              " vertices, the one on the device " + std::to_string(linked_vertices)};
+                                              " vertices, the one on the device " + std::to_string(linked_vertices_)};
   }
-  if (Status status = bvh.refit(mesh); !status.ok()) return status;
+  if (Status status = bvh_.refit(mesh); !status.ok()) return status;
   if (Status status = measure(mesh); !status.ok()) return status;
   if (Status status = upload_mesh(context, mesh); !status.ok()) return status;
-  return linked_vertices != 0 ? upload_links(context, mesh) : Status();
+  return linked_vertices_ != 0 ? upload_links(context, mesh) : Status();
 }
 
 /// What is known of the mesh as a whole. Error: it has no extent.
 Status DeviceMesh::measure(const MeshView& mesh) {
-  const BvhBox& box = bvh.nodes()[0].box;
+  const BvhBox& box = bvh_.nodes()[0].box;
   const Point sides = box.upper - box.lower;
   const double side = std::max({sides[0], sides[1], sides[2]});
   if (!(side > 0) || !std::isfinite(side)) {
@@ -84,27 +84,27 @@ Status DeviceMesh::measure(const MeshView& mesh) {
 
 Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh) {
   const UnitTransform to_unit_box = {lower, longest};
-  const std::vector<Texel> triangle_data = make_triangle_texels(bvh, to_unit_box, mesh.flags);
-  const std::vector<Texel> tree_data = make_tree_texels(bvh, to_unit_box);
+  const std::vector<Texel> triangle_data = make_triangle_texels(bvh_, to_unit_box, mesh.flags);
+  const std::vector<Texel> tree_data = make_tree_texels(bvh_, to_unit_box);
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
   use_texels = std::max(triangle_data.size(), tree_data.size()) <= context.limits.maxTexelBufferElements;
-  Status status = fill(context, arena, std::as_bytes(std::span(triangle_data)), "triangles", triangles);
+  Status status = fill(context, arena_, std::as_bytes(std::span(triangle_data)), "triangles", triangles);
   if (!status.ok()) return status;
-  status = fill(context, arena, std::as_bytes(std::span(tree_data)), "the tree over the triangles", tree);
+  status = fill(context, arena_, std::as_bytes(std::span(tree_data)), "the tree over the triangles", tree);
   if (!status.ok()) return status;
-  return fill(context, arena, std::as_bytes(std::span(order)), "triangle indices", triangle_info);
+  return fill(context, arena_, std::as_bytes(std::span(order)), "triangle indices", triangle_info);
 }
 
 Status DeviceMesh::create_views() {
   Buffer unread;
   if (!use_texels) {
-    Result<Buffer> buffer = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+    Result<Buffer> buffer = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
     if (!buffer.ok()) return buffer.error();
     unread = buffer.value();
   }
-  Result<VkBufferView> triangle_view = arena.create_texel_view(use_texels ? triangles : unread);
+  Result<VkBufferView> triangle_view = arena_.create_texel_view(use_texels ? triangles : unread);
   if (!triangle_view.ok()) return triangle_view.error();
-  Result<VkBufferView> tree_view = arena.create_texel_view(use_texels ? tree : unread);
+  Result<VkBufferView> tree_view = arena_.create_texel_view(use_texels ? tree : unread);
   if (!tree_view.ok()) return tree_view.error();
   triangle_texels = triangle_view.value();
   tree_texels = tree_view.value();
@@ -113,22 +113,22 @@ Status DeviceMesh::create_views() {
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
   if (Status status = upload_links(context, mesh); !status.ok()) return status;
-  linked_vertices = mesh.vertices.size();
+  linked_vertices_ = mesh.vertices.size();
   return {};
 }
 
 Status DeviceMesh::upload_links(Context::Impl& context, const MeshView& mesh) {
   const MeshLinks cones = make_mesh_links(mesh, order);
-  Status status = fill(context, arena, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours",
+  Status status = fill(context, arena_, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours",
                        triangle_links);
   if (!status.ok()) return status;
-  return fill(context, arena, std::as_bytes(std::span(cones.corners)), "spokes to vertices", corner_cones);
+  return fill(context, arena_, std::as_bytes(std::span(cones.corners)), "spokes to vertices", corner_cones);
 }
 
 // Subtrees of at most `least` triangles, in leaf order, joined until there are enough.
 std::vector<LeafRange> DeviceMesh::leaf_ranges(std::uint32_t least) const {
   const UnitTransform to_unit_box = {lower, longest};
-  const std::vector<BvhNode>& nodes = bvh.nodes();
+  const std::vector<BvhNode>& nodes = bvh_.nodes();
   std::vector<std::uint32_t> sizes(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
     sizes[i] = nodes[i].count != 0 ? nodes[i].count : sizes[nodes[i].first] + sizes[nodes[i].first + 1];

@@ -53,7 +53,7 @@ struct DeviceMesh {
   std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
 
   /// Of the Bvh whose leaf order `order` is.
-  const std::vector<BvhNode>& tree_nodes() const { return bvh.nodes(); }
+  const std::vector<BvhNode>& tree_nodes() const { return bvh_.nodes(); }
 
   Point to_unit(const Point& p) const;
   Point to_input(const std::array<float, 3>& p) const;
@@ -83,15 +83,15 @@ struct DeviceMesh {
   std::vector<std::uint32_t> order;  // triangle_info on the host
 
  private:
-  explicit DeviceMesh(Context::Impl& context) : arena(context) {}
+  explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
   Status measure(const MeshView& mesh);
   Status upload_mesh(Context::Impl& context, const MeshView& mesh);
   Status create_views();
   Status upload_links(Context::Impl& context, const MeshView& mesh);
 
-  Arena arena;
-  Bvh bvh;                          // input units
-  std::size_t linked_vertices = 0;  // vertices of the mesh in add_links()
+  Arena arena_;
+  Bvh bvh_;                          // input units
+  std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()
 };
 
 }  // namespace medial_vk

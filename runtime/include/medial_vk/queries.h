@@ -44,10 +44,10 @@ class Scene {
  public:
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite), kOutOfMemory.
   static Result<Scene> create(Context& context, const MeshView& mesh);
-  /// Follows vertices that have moved; `mesh` has the triangles that create() was given. The tree is refitted, not built
-  /// anew: answers are as exact, and as fast as long as neighbours stay neighbours. Errors: kInvalidMesh (another number
-  /// of triangles, an index out of range, a coordinate that is not finite: the scene stays as it was; no extent: it is of
-  /// no use until an update succeeds), kOutOfMemory.
+  /// Follows vertices that have moved; `mesh` has the triangles that create() was given. The tree is refitted, not
+  /// built anew: answers are as exact, and as fast as long as neighbours stay neighbours. Errors: kInvalidMesh (another
+  /// number of triangles, an index out of range, a coordinate that is not finite: the scene stays as it was; no extent:
+  /// it is of no use until an update succeeds), kOutOfMemory.
   Status update(const MeshView& mesh);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
