@@ -28,6 +28,7 @@ const uint kTieSteps = 3;         // and two more below the finest level
 const uint kMostDirectEntries = 8192;  // cells with longer lists are not asked directly: lavapipe's loop budget
 const uint kDirectDepth = 2;      // levels below the finest voxel from which points are asked directly
 const float kParallel = 0.95;     // cosine above which two lines count as the same
+const float kAlongNormal = 0.99999;  // cosine
 const float kNoLine = 3e38;
 
 shared vec4 proposals[64];  // direction; w: how far the crossing is expected, smaller is better
@@ -148,7 +149,9 @@ Direct direct_point(Cell cell, uint lane, vec3 centre) {
   for (uint entry = 0; entry < count; ++entry) {
     TriangleTexels b = load_triangle(lists[cell.list_begin + entry]);
     vec3 g = unit_or_zero(vector_to_triangle(p, b));
-    bool better = squared_distance_to_triangle(pushed, b) < limit * limit && dot(a, g) < cosine;
+    // Only a foot inside a face is sure to be the end of a spoke: the angle is that of the sheet between a and b.
+    bool is_foot = b.normal.w > 0.5 && dot(g, b.normal.xyz) > kAlongNormal;
+    bool better = is_foot && squared_distance_to_triangle(pushed, b) < limit * limit && dot(a, g) < cosine;
     toward = better ? g : toward;
     cosine = better ? dot(a, g) : cosine;
   }

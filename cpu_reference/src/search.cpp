@@ -112,7 +112,8 @@ bool VoxelSearch::stand_beside(const Cell& cell, const ContactList& list, Side w
   return false;
 }
 
-/// Of the contacts that keep the growth test from failing, the one in the direction that differs most.
+/// Of the contacts that keep the growth test from failing, the one in the direction that differs most. Only a foot
+/// inside a face is sure to be the end of a spoke, so that the angle is that of a sheet.
 std::optional<VoxelSearch::End> VoxelSearch::second_contact(const End& here, const ContactList& list) const {
   const Vector3d pushed = here.point - thresholds_.epsilon * here.gradient;
   const double limit = here.nearest.distance + thresholds_.epsilon - 16 * tree_.rounding();
@@ -120,6 +121,7 @@ std::optional<VoxelSearch::End> VoxelSearch::second_contact(const End& here, con
   for (const Contact& contact : list.contacts()) {
     if ((tree_.closest_on(contact.triangle, pushed).point - pushed).norm() >= limit) continue;
     const TrianglePoint at = tree_.closest_on(contact.triangle, here.point);
+    if (!contact.trusted || at.feature != Feature::kFace) continue;
     const Closest other = {at.point, (at.point - here.point).norm(), contact.triangle, at.feature};
     const Vector3d direction = direction_to(here.point, other);
     if (!best || direction.dot(here.gradient) < best->gradient.dot(here.gradient))
