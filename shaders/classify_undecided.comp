@@ -25,6 +25,7 @@ const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
 const float kSettleMargin = 0.02;  // above the last level: what is given up is at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
+
 // Feet stay within the circumradius of the nearest points to the centre, because projections on convex sets do not
 // expand distances; and two spokes of length r that differ by 2 alpha end 2 r sin(alpha) apart.
 float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {

@@ -16,7 +16,7 @@
 
 #include "cpu_reference/queries.h"
 #include "medial_vk/queries.h"
-#include "support/device.h"
+#include "support/device_test.h"
 #include "support/reference_mesh.h"
 #include "support/solids.h"
 
@@ -53,27 +53,13 @@ inline std::vector<NamedSolid> solids() {
   return all;
 }
 
-/// One context for all tests, with validation where the layer is installed; no message may come.
-class TreeQueriesTest : public testing::Test {
+class TreeQueriesTest : public test::DeviceTest {
  protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
   Scene scene_of(const Mesh& mesh) {
     Result<Scene> scene = Scene::create(*context_, view_of(mesh));
     EXPECT_TRUE(scene.ok());
     return std::move(scene).value();
   }
-  std::optional<Context> context_;
 };
 
 /// Points spread over the mesh's box, the same every time.

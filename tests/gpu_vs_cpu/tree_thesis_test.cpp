@@ -12,7 +12,7 @@
 #include "medial/certify.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/extraction.h"
-#include "support/device.h"
+#include "support/device_test.h"
 #include "support/reference_mesh.h"
 #include "support/solids.h"
 
@@ -21,23 +21,7 @@ namespace {
 
 constexpr std::uint32_t kResolution = 20;
 
-/// One context for all tests, with validation where the layer is installed; no message may come.
-class TreeThesisTest : public testing::Test {
- protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-  std::optional<Context> context_;
-};
+class TreeThesisTest : public test::DeviceTest {};
 
 struct Solid {
   std::string name;

@@ -14,7 +14,7 @@
 #include "point_math.h"
 #include "point_order.h"
 #include "spiral.h"
-#include "support/device.h"
+#include "support/device_test.h"
 #include "support/solids.h"
 
 namespace medial_vk {
@@ -33,21 +33,8 @@ struct Answers {
   std::vector<std::uint32_t> hits;
 };
 
-class PacketQueriesTest : public testing::Test {
+class PacketQueriesTest : public test::DeviceTest {
  protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-
   /// Runs `record(recorder, slots, queries, nearest, hits)` over the queries; results that it leaves alone are zero.
   template <class Record>
   Answers run(std::span<const Texel> queries, std::span<const std::uint32_t> slots, const Record& record) {
@@ -103,8 +90,6 @@ class PacketQueriesTest : public testing::Test {
                      TreeQueries::Ties::kIndex);
     });
   }
-
-  std::optional<Context> context_;
 };
 
 /// Samples on spheres of radius 0.02 in the unit box.

@@ -10,7 +10,7 @@
 #include "device_tree.h"
 #include "medial_vk/queries.h"
 #include "spiral.h"
-#include "support/device.h"
+#include "support/device_test.h"
 #include "support/solids.h"
 #include "tree_queries.h"
 
@@ -26,22 +26,7 @@ Mesh rotated_torus() {
   return mesh;
 }
 
-class SceneTest : public testing::Test {
- protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-  std::optional<Context> context_;
-};
+class SceneTest : public test::DeviceTest {};
 
 TEST_F(SceneTest, UnitBox) {
   const Mesh mesh = rotated_torus();

@@ -12,7 +12,7 @@
 #include "medial_vk/queries.h"
 #include "scene.h"
 #include "spiral.h"
-#include "support/device.h"
+#include "support/device_test.h"
 #include "support/solids.h"
 #include "tree_queries.h"
 
@@ -36,21 +36,8 @@ Mesh deformed(Mesh mesh) {
   return mesh;
 }
 
-class SceneUpdate : public testing::Test {
+class SceneUpdate : public test::DeviceTest {
  protected:
-  void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = test::no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
-  }
-  void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
-    }
-  }
-
   struct Nearest {
     Texel point;
     std::uint32_t triangle, feature;
@@ -91,8 +78,6 @@ class SceneUpdate : public testing::Test {
     }
     return out;
   }
-
-  std::optional<Context> context_;
 };
 
 std::vector<Point> points_around(const Point& centre) {
