@@ -44,7 +44,7 @@ class Recorder {
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
-  void begin_stage(const char* stage);
+  void begin_stage(const std::string& stage);
   /// Ends the last stage. run_commands() does it; who records into a buffer of its own calls it last.
   void end_stages();
 

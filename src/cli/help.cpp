@@ -57,6 +57,8 @@ Where it runs:
 Other:
       --check           test every ball of the output against the mesh on the
                         CPU, print a table, and fail if any ball fails
+      --kernel-times    in the report, time on the device by kernel and level
+                        instead of by stage (mode certified)
   -q, --quiet           only errors
   -v, --verbose         more about levels and time
       --version         print the version and exit

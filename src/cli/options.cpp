@@ -102,6 +102,7 @@ void declare(CLI::App& app, Options& options) {
   add.whole("--threads", 0, 1024, " threads", options.threads);
 
   add.flag("--check", options.check);
+  add.flag("--kernel-times", parameters.kernel_times);
   add.flag("-q,--quiet", options.quiet);
   add.flag("-v,--verbose", options.verbose);
   add.action("--list-devices", Action::kListDevices, options.action);

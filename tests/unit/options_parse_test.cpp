@@ -79,10 +79,12 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "--threads",
                                   "3",
                                   "--check",
+                                  "--kernel-times",
                                   "-v"});
   EXPECT_EQ(options.output, "b.csv");
   EXPECT_EQ(options.format, MedialFormat::kCsv);
   EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
+  EXPECT_TRUE(options.parameters.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
   EXPECT_EQ(options.parameters.resolution, 80u);
@@ -192,7 +194,7 @@ TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
   for (const char* name : {"MESH",           "--output",       "--ascii",   "--report",  "--picture",
                            "--resolution",   "--object-angle", "--radius",  "--epsilon", "--mode",
                            "--extra-levels", "--simplify",     "--perturb", "--seed",    "--list-devices",
-                           "--device",       "--backend",      "--memory",  "--threads", "--check",
+                           "--device",       "--backend",      "--memory",  "--threads", "--check", "--kernel-times",
                            "--quiet",        "--verbose",      "--version", "--help",    "130"}) {
     EXPECT_THAT(help, HasSubstr(name));
   }

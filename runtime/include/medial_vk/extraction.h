@@ -35,6 +35,9 @@ struct ExtractionParameters {
   bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
   std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
   std::uint64_t memory_budget = 1ull << 30;                    ///< Bytes of device memory to stay below.
+  /// Certified: Extraction::device_times by kernel and level ("mark_contacts@2"; a number after a slash tells variants
+  /// of a kernel apart) instead of by stage. Every dispatch then ends with a timestamp.
+  bool kernel_times = false;
 };
 
 /// The voxel grid of the output, in the units of the mesh. Voxel of p: floor((p - origin) / voxel_size).
