@@ -33,7 +33,7 @@ void main() {
     states[item].w = 0u;
   } else {
     centre = cell_centre(child_coordinates(parents[item / 8], item % 8));
-    clearance = sqrt(uintBitsToFloat(nearest[item].x));
+    clearance = uintBitsToFloat(nearest[item].x);
   }
   // Lines reach epsilon beyond the ball of their cell.
   uint side = side_of_ball(centre, step.circumradius + step.epsilon, clearance - step.slack, step.closed != 0u);

@@ -6,11 +6,11 @@
 // Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 8
+#define TRIANGLE_TEXEL_BINDING 9
 #include "triangles.glsl"
 
 layout(constant_id = 2) const uint kSource = 0;
-const uint kChildren = 0, kLineEnds = 1, kSections = 2, kGrownEnds = 3, kSphere = 4;
+const uint kLineEnds = 0, kSections = 1, kGrownEnds = 2, kSphere = 3, kOpposites = 4;
 layout(constant_id = 3) const uint kPointsPerLane = 8;
 layout(constant_id = 4) const uint kPointsPerItem = 8;
 
@@ -21,17 +21,17 @@ layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // line
 layout(set = 0, binding = 5) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
+layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites of flux samples
 
 uint cell_of(uint item) {
-  if (kSource == kChildren) return item;
   if (kSource == kLineEnds) return item / kLinesPerCell;
   if (kSource == kSphere) return found[step.first_item + item].cell;
+  if (kSource == kOpposites) return found[step.first_item + item / (kFluxSamples / kFluxGroup)].cell;
   return lines[item].cell;
 }
 
-vec3 point_of(uint item, uint index, Cell cell) {
-  if (kSource == kChildren) return cell_centre(child_coordinates(cell, index));
-  if (kSource == kLineEnds || kSource == kSphere) return points[kPointsPerItem * item + index].xyz;
+vec3 point_of(uint item, uint index) {
+  if (kSource == kLineEnds || kSource == kSphere || kSource == kOpposites) return points[kPointsPerItem * item + index].xyz;
   if (kSource == kSections) {
     float share = float(index + 1) / float(kSectionsPerLine + 1);
     return mix(lines[item].p.xyz, lines[item].q.xyz, share);
@@ -45,7 +45,9 @@ void main() {
   uint lanes_per_item = kPointsPerItem / kPointsPerLane;
   uint index = invocation_index();
   uint item = index / lanes_per_item;
-  if (step.first_item + item >= counters[step.items_counter] * step.items_multiplier) return;
+  uint before = kSource == kOpposites ? 0u : step.first_item;
+  if (before + item >= counters[step.items_counter] * step.items_multiplier) return;
+  if (kSource == kOpposites) item = asked[item];
   uint first_point = (index % lanes_per_item) * kPointsPerLane;
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
@@ -59,7 +61,7 @@ void main() {
   uint triangle[kPointsPerLane];
   uint result = item * kPointsPerItem + first_point;
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
-    point[k] = point_of(item, first_point + k, cell);
+    point[k] = point_of(item, first_point + k);
     uvec2 so_far = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[result + k];
     best[k] = uintBitsToFloat(so_far.x);
     triangle[k] = so_far.y;

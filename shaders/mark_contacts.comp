@@ -19,7 +19,7 @@
 layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 4) buffer Nearest { uvec2 nearest[]; };  // distance from the centre (bits), triangle
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
 // Contacts; those that touch the cube; of these the one whose normal is farthest from that of the nearest triangle; what
@@ -31,17 +31,47 @@ layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // ke
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
+const uint kWitnessSample = 128;  // contacts among which witnesses are sought, or twice as many
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
 // One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
 const uint kSeenInFront = 2u, kSeenBehind = 4u;
 
-float corner_distance[8];  // from the corners of the cube to the triangle nearest to its centre
+// A triangle that others are compared with. Any will do; good ones are near the centre, or near the point of the ball
+// opposite to that: where a sheet passes, the two lie on its two sides.
+struct Witness {
+  uint name;
+  float distance;
+  vec3 direction;
+  float bend;             // what the curvature of the distance to its nearest point adds within the list's ball
+  float to_corner[8];     // distances from the corners of the cube
+};
 
-// Lemma A for the cube: at some corner x_k, D_t - g_t.x_k <= dist(x_k, nearest).
-bool touches_cube(vec3 v, float d) {
-  vec3 h = step.touch_half_side * (v / max(d, 1e-30));
+Witness witness_of(vec3 centre, uint name) {
+  TriangleTexels texels = load_triangle(name);
+  Witness w;
+  w.name = name;
+  vec3 v = vector_to_triangle(centre, texels);
+  w.distance = length(v);
+  w.direction = unit_or_zero(v);
+  float radius = step.list_radius;
+  // dist(m, t) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
+  w.bend = w.distance > radius ? radius * radius / (2.0 * w.distance) : -1.0;
+  [[unroll]] for (uint k = 0; k < 8u; ++k)
+    w.to_corner[k] = sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), texels));
+  return w;
+}
+
+// Lemma A for the ball of the list: may t, at distance d in direction g from the centre, be nearest to a point of it?
+bool is_contact(Witness w, float d, vec3 g) {
+  float radius = step.list_radius;
+  float reach = w.bend >= 0.0 ? radius * length(g - w.direction) + w.bend : 2.0 * radius;
+  return d - w.distance - 6.0 * step.slack <= reach;  // docs/theory.md, "Rounding"
+}
+
+// Lemma A for the cube: at some corner x_k, D_t - g_t.x_k <= dist(x_k, witness).
+bool touches_cube(Witness w, float d, vec3 h) {
   float most = -1.0;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
+  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, w.to_corner[k] + dot(h, corner_sign(k)));
   return d - most <= distance_slack(d, 1.7321 * step.touch_half_side);
 }
 
@@ -60,6 +90,27 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 #else
   return lists[list_entry];
 #endif
+}
+
+// The nearest to p of the parent's contacts, or of a sample of them. All eight lanes call it, each with its own p.
+uint witness_near(Cell parent, uint lane, vec3 p) {
+  uint stride = 1u + parent.list_count / kWitnessSample;
+  uint last = parent.list_begin + parent.list_count - 1u;
+  uint best_name = 0u;
+  float best = 3e38;
+  for (uint entry = parent.list_begin;;) {
+    uint mine_name = lists[min(entry + lane * stride, last)];
+    TriangleTexels mine = load_triangle(mine_name);
+    [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+      uint list_entry = min(entry + k * stride, last);
+      float d = squared_distance_to_triangle(p, triangle_of_lane(mine, list_entry, k));
+      best_name = d < best ? name_of_lane(mine_name, list_entry, k) : best_name;
+      best = min(best, d);
+    }
+    entry += kLanes * stride;
+    if (entry > last) break;
+  }
+  return best_name;
 }
 
 // Of a triangle that may be the nearest: on which side of it the centre may be, given how far that is behind its plane.
@@ -105,43 +156,42 @@ void main() {
   if (entry >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);
-  TriangleTexels nearest_texels = load_triangle(nearest[item].y);
-  vec3 to_nearest = vector_to_triangle(centre, nearest_texels);
-  float nearest_distance = length(to_nearest);
-  vec3 nearest_direction = unit_or_zero(to_nearest);
-  float radius = step.list_radius;
-  bool far = nearest_distance > radius;
-  [[unroll]] for (uint k = 0; k < 8u; ++k)
-    corner_distance[k] =
-        sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), nearest_texels));
-  // dist(m, nearest) <= D0 - g0.x + |x|^2 / (2 D0): what curvature of the distance to a point adds.
-  float bend = far ? radius * radius / (2.0 * nearest_distance) : 0.0;
+  Witness front = witness_of(centre, witness_near(parent, child, centre));
+  vec3 opposite = centre - step.circumradius * front.direction;
+  Witness back = witness_of(centre, witness_near(parent, child, opposite));
+  vec3 front_normal = triangle_texel(4u * front.name + 3u).xyz;
   uint end = min(parent.list_count, entry + kEntriesPerRound);
   uint word_count = (parent.list_count + 31u) / 32u;
   uint base = 8u * parent.word_begin + child * word_count;
   uvec4 count = entry == 0 ? uvec4(0u) : counts[item];
   vec4 axis = entry == 0 ? vec4(0.0, 0.0, 0.0, 2.0) : axes[item];
+  uvec2 first = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[item];
   uint word = 0, touch_word = 0;
   for (;;) {
-    uint first = parent.list_begin + entry, last = parent.list_begin + end - 1u;
-    uint mine_name = lists[min(first + child, last)];
+    uint next = parent.list_begin + entry, last = parent.list_begin + end - 1u;
+    uint mine_name = lists[min(next + child, last)];
     TriangleTexels mine = load_triangle(mine_name);
     [[unroll]] for (uint k = 0; k < 8u; ++k) {
-      TriangleTexels texels = triangle_of_lane(mine, min(first + k, last), k);
+      TriangleTexels texels = triangle_of_lane(mine, min(next + k, last), k);
+      uint name = name_of_lane(mine_name, min(next + k, last), k);
       vec3 v = vector_to_triangle(centre, texels);
       float d = length(v);
-      float excess = d - nearest_distance - 6.0 * step.slack;  // docs/theory.md, "Rounding"
-      float reach = far ? radius * length(v / max(d, 1e-30) - nearest_direction) + bend : 2.0 * radius;
-      bool contact = excess <= reach && entry + k < end;
-      bool touches = contact && touches_cube(v, d);
+      vec3 g = v / max(d, 1e-30);
+      vec3 h = step.touch_half_side * g;
+      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && entry + k < end;
+      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h);
       uint bit = 1u << (entry + k & 31u);
       word |= contact ? bit : 0u;
       touch_word |= touches ? bit : 0u;
       bool trusted = texels.normal.w > 0.5;
-      float cosine = trusted ? dot(texels.normal.xyz, nearest_texels.normal.xyz) : -2.0;
-      count.z = touches && cosine < axis.w ? name_of_lane(mine_name, min(first + k, last), k) : count.z;
+      float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
+      count.z = touches && cosine < axis.w ? name : count.z;
       count.w |= touches && !trusted ? kSeenUntrusted : 0u;
-      count.w |= excess <= 0.0 ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
+      // Of all triangles that may be the nearest, in the end: those before a clearly nearer one are forgotten.
+      float behind_first = d - uintBitsToFloat(first.x);
+      count.w &= behind_first < -6.0 * step.slack ? ~(kSeenInFront | kSeenBehind) : 0xffffffffu;
+      count.w |= behind_first <= 6.0 * step.slack ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
+      first = behind_first < 0.0 ? uvec2(floatBitsToUint(d), name) : first;
       axis.xyz += touches ? texels.normal.xyz : vec3(0.0);
       axis.w = touches ? min(axis.w, cosine) : axis.w;
     }
@@ -158,10 +208,11 @@ void main() {
   }
   counts[item] = count;
   axes[item] = axis;
+  nearest[item] = first;
   if (end < parent.list_count) return;
-  if (child == 0u) COUNT_TESTS(16u * parent.list_count);  // of the eight: for the nearest one, and here
+  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + 2u * (parent.list_count / (1u + parent.list_count / kWitnessSample))));
   if (is_in_grid(coordinates))
-    settle(item, centre, parent.flags, nearest[item].y, nearest_distance, count, axis.w);
+    settle(item, centre, parent.flags, first.y, uintBitsToFloat(first.x), count, axis.w);
   else
     states[item] = uvec4(0u);
 }

@@ -123,6 +123,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&samples_, gpu::kFluxSamples * block * 16, "flux samples"},
       {&opposites_, gpu::kFluxSamples * block * 16, "opposite flux samples"},
       {&sample_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of flux samples"},
+      {&flux_tallies_, block * 16, "sums of flux samples"},
       {&opposite_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of opposite flux samples"},
   };
   for (const Request& request : requests) {
@@ -194,7 +195,12 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   return step;
 }
 
+void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
+  if (!parameters_.kernel_times) r.begin_stage(stage);
+}
+
 std::uint32_t CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
+  if (parameters_.kernel_times) r.begin_stage("prepare_dispatch");
   const std::uint32_t argument = next_argument_++ % kMostArguments;
   gpu::DispatchConstants c = constants;
   c.argument = argument;
@@ -216,6 +222,10 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.queries_per_item = extent.queries;
   d.first_entry = step.first_entry;
   const std::uint32_t argument = prepare(r, d);
+  if (parameters_.kernel_times) {
+    const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
+    r.begin_stage(kernel.shader + variant + "@" + std::to_string(step.level));
+  }
   ProgramKey key;
   key.shader = kernel.shader;
   if (kernel.lanes == Lanes::kEight && context_->has_lockstep_lanes) key.shader += "_lockstep";
@@ -247,6 +257,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   d.item_limit = 0xffffffffu;
   d.list_counter = gpu::kNoCounter;
   const VkDeviceSize offset = VkDeviceSize{prepare(r, d)} * 12;
+  if (parameters_.kernel_times) r.begin_stage("scan");
   const auto push = bytes_of(constants);
   const BufferRange blocks[] = {states_.range(), block_sums_.range(), counters_.range()};
   r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_, offset);
@@ -279,7 +290,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   struct Shape {
     uint per_lane, per_item;
   };
-  constexpr Shape kShapes[] = {{8, 8}, {2, 2}, {8, 8}, {2, 2}, {8, gpu::kFluxSamples}};
+  constexpr Shape kShapes[] = {{2, 2}, {8, 8}, {2, 2}, {8, gpu::kFluxSamples}, {8, 8}};
   const Shape shape = kShapes[static_cast<uint>(source)];
   Extent lanes = extent;
   lanes.multiplier *= shape.per_item / shape.per_lane;
@@ -294,7 +305,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   run_rounds(r,
              {"find_nearest",
               {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),
-               lines_.range(), result_.range(), nearest.range()},
+               lines_.range(), result_.range(), nearest.range(), asked_.range()},
               Reads::kTriangles,
               {static_cast<uint>(source), shape.per_lane, shape.per_item}},
              lanes, s);

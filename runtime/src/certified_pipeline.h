@@ -73,13 +73,15 @@ class CertifiedPipeline {
     const Buffer* cells;
     const Buffer* lists;
   };
-  enum class Source : std::uint32_t { kChildren, kLineEnds, kSections, kGrownEnds, kSphere };
+  enum class Source : std::uint32_t { kLineEnds, kSections, kGrownEnds, kSphere, kOpposites };
 
   Status allocate(std::uint64_t memory_budget);
   Status upload_treelets();
   gpu::StepConstants level_constants(std::uint32_t level) const;
 
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
+  // Of the whole run. With kernel_times every dispatch is a stage of its own instead.
+  void begin_stage(Recorder& r, const char* stage) const;
   void clear_counter(Recorder& r, std::uint32_t counter);
   void start_level(Recorder& r, std::uint32_t source);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
@@ -146,7 +148,7 @@ class CertifiedPipeline {
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;
-  Buffer samples_, opposites_, sample_nearest_, opposite_nearest_;
+  Buffer samples_, opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
 };
 
 }  // namespace medial_vk

@@ -7,7 +7,7 @@ using gpu::uint;
 
 Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
   next_argument_ = 0;
-  r.begin_stage("contacts");
+  begin_stage(r, "contacts");
   record_top_cells(r, first, count);
   // Levels alternate between two sets of buffers; the finest voxels have their own, which live to the end.
   uint parents = 0, lists = 0;
@@ -92,11 +92,11 @@ void CertifiedPipeline::clear_counter(Recorder& r, std::uint32_t counter) {
 
 void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
                                         bool finest) {
-  r.begin_stage("dismissal");
+  begin_stage(r, "dismissal");
   const Buffer& axes = offsets_;  // as large as needed, and free until the prefix sums
   const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
-  find_nearest(r, Source::kChildren, {gpu::kParents, 1, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step,
-               *level.parents, *level.parent_lists, points_, nearest_);
+  Extent asking = children;
+  asking.queries = 1;
   clear_counter(r, gpu::kAsked);
   clear_counter(r, gpu::kOpen);
   run_rounds(r,
@@ -108,7 +108,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
               {},
               64,
               Lanes::kEight},
-             children, step);
+             asking, step);
   run(r,
       {"dismiss_cells",
        {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
@@ -136,9 +136,9 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
 }
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
-  r.begin_stage("pairs");
+  begin_stage(r, "pairs");
   run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kEightLanes}, step);
-  r.begin_stage("search");
+  begin_stage(r, "search");
   const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
   run(r,
       {"propose_lines",
@@ -197,7 +197,7 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
 void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const bool some_settle = step.settles != 0u || (step.depth >= 1 && mesh_->has_untrusted);
   if (step.last_level == 0u && !some_settle) return;
-  r.begin_stage("classification");
+  begin_stage(r, "classification");
   run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kEightLanes},
       step);
 }
@@ -213,7 +213,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
 }
 
 void CertifiedPipeline::record_collection(Recorder& r) {
-  r.begin_stage("flux");
+  begin_stage(r, "flux");
   const gpu::StepConstants step = level_constants(coarse_levels_);
   Kernel collect{"collect_points",
                  {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
@@ -233,22 +233,20 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   const Extent points{gpu::kFound, 1, 1, first, capacity_.flux_block, gpu::kNoCounter};
   const Extent samples{gpu::kFound, gpu::kFluxSamples, 1, first * gpu::kFluxSamples,
                        capacity_.flux_block * gpu::kFluxSamples};
-  Kernel place{"place_samples",
-               {mesh_->triangles.range(), counters_.range(), result_.range(), opposites_.range(),
-                sample_nearest_.range(), samples_.range()},
-               Reads::kTriangles,
-               {0}};
-  run(r, place, samples, step);
+  run(r, {"place_samples", {counters_.range(), result_.range(), samples_.range()}}, samples, step);
   find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], samples_, sample_nearest_);
-  place.buffers[3] = samples_.range();
-  place.buffers[5] = opposites_.range();
-  place.constants = {1};
-  run(r, place, samples, step);
-  find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], opposites_, opposite_nearest_);
+  clear_counter(r, gpu::kAsked);
+  run(r,
+      {"choose_opposites",
+       {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
+        opposites_.range(), flux_tallies_.range(), asked_.range()},
+       Reads::kTriangles},
+      points, step);
+  find_nearest(r, Source::kOpposites, {gpu::kAsked}, step, cells_[2], lists_[2], opposites_, opposite_nearest_);
   run(r,
       {"measure_flux",
        {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
-        opposites_.range(), opposite_nearest_.range()},
+        opposites_.range(), opposite_nearest_.range(), flux_tallies_.range()},
        Reads::kTriangles},
       points, step);
 }

@@ -172,7 +172,7 @@ MEDIAL_VK_GPU_CONSTANT kQueries = 12u;          // closest-point queries asked
 MEDIAL_VK_GPU_CONSTANT kIgnored = 14u;          // totals that nobody needs
 MEDIAL_VK_GPU_CONSTANT kKept = 15u;             // cells left after the search of a level
 MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total has been, in 1/1024 of its limit
-MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known
+MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known; opposites of flux samples
 MEDIAL_VK_GPU_CONSTANT kOpen = 18u;             // children that the first test of dismissal leaves open
 MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: kVisited and so on
 MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 8u;
@@ -189,6 +189,7 @@ MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
 MEDIAL_VK_GPU_CONSTANT kDirectSeed = 2u;       // a seed that is no line: a point, and the direction to its second contact
 MEDIAL_VK_GPU_CONSTANT kSectionsPerLine = 8u;  // points inside a line per narrowing step
 MEDIAL_VK_GPU_CONSTANT kFluxSamples = 48u;     // spiral points of the flux that is stored with a point
+MEDIAL_VK_GPU_CONSTANT kFluxGroup = 8u;        // of them whose opposites are asked together
 
 #ifdef __cplusplus
 }  // namespace medial_vk::gpu
