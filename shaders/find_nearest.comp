@@ -24,7 +24,7 @@ layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared di
 layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites of flux samples
 
 uint cell_of(uint item) {
-  if (kSource == kLineEnds) return item / kLinesPerCell;
+  if (kSource == kLineEnds) return item / step.lines_per_cell;
   if (kSource == kSphere) return found[step.first_item + item].cell;
   if (kSource == kOpposites) return found[step.first_item + item / (kFluxSamples / kFluxGroup)].cell;
   return lines[item].cell;

@@ -14,7 +14,7 @@ layout(set = 0, binding = 4) writeonly buffer States { uvec4 states[]; };
 
 void main() {
   uint index = invocation_index();
-  if (index >= kLinesPerCell * counters[kCells]) return;
+  if (index >= step.lines_per_cell * counters[kCells]) return;
   states[index] = uvec4(0);
   if (points[2 * index].w < 0.0) return;
   if (points[2 * index].w == float(kDirectSeed)) {

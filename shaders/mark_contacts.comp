@@ -22,8 +22,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) buffer Nearest { uvec2 nearest[]; };  // distance from the centre (bits), triangle
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
-// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the nearest triangle; what
-// has been seen (kSeen*).
+// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and in the end
+// the cell's partner; what has been seen (kSeen*).
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 // Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the nearest triangle.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
@@ -31,6 +31,7 @@ layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // ke
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
+const float kTurnSlack = 2e-6;
 const uint kWitnessSample = 128;  // contacts among which witnesses are sought, or twice as many
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
 // One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
@@ -42,8 +43,8 @@ struct Witness {
   uint name;
   float distance;
   vec3 direction;
-  float bend;             // what the curvature of the distance to its nearest point adds within the list's ball
-  float to_corner[8];     // distances from the corners of the cube
+  float clear_distance, square_sum, square_slope;  // is_contact
+  float to_corner[8];  // distances from the corners of the cube
 };
 
 Witness witness_of(vec3 centre, uint name) {
@@ -54,25 +55,29 @@ Witness witness_of(vec3 centre, uint name) {
   w.distance = length(v);
   w.direction = unit_or_zero(v);
   float radius = step.list_radius;
-  // dist(m, t) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
-  w.bend = w.distance > radius ? radius * radius / (2.0 * w.distance) : -1.0;
+  // dist(m, w) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
+  bool far = w.distance > radius;
+  w.clear_distance = w.distance + 6.0 * step.slack + (far ? radius * radius / (2.0 * w.distance) : 0.0);
+  w.square_sum = radius * radius * (far ? 2.0 + kTurnSlack : 4.0);
+  w.square_slope = radius * radius * (far ? 2.0 : 0.0);
   [[unroll]] for (uint k = 0; k < 8u; ++k)
     w.to_corner[k] = sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), texels));
   return w;
 }
 
 // Lemma A for the ball of the list: may t, at distance d in direction g from the centre, be nearest to a point of it?
+// Asked of squares: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
 bool is_contact(Witness w, float d, vec3 g) {
-  float radius = step.list_radius;
-  float reach = w.bend >= 0.0 ? radius * length(g - w.direction) + w.bend : 2.0 * radius;
-  return d - w.distance - 6.0 * step.slack <= reach;  // docs/theory.md, "Rounding"
+  float excess = d - w.clear_distance;
+  return excess <= 0.0 || excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
 }
 
 // Lemma A for the cube: at some corner x_k, D_t - g_t.x_k <= dist(x_k, witness).
 bool touches_cube(Witness w, float d, vec3 h) {
-  float most = -1.0;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, w.to_corner[k] + dot(h, corner_sign(k)));
-  return d - most <= distance_slack(d, 1.7321 * step.touch_half_side);
+  float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
+  bool touches = false;
+  [[unroll]] for (uint k = 0; k < 8u; ++k) touches = touches || w.to_corner[k] + dot(h, corner_sign(k)) >= limit;
+  return touches;
 }
 
 // The triangle that lane k of the eight has loaded, from entry `list_entry`.
@@ -166,7 +171,8 @@ void main() {
   uvec4 count = entry == 0 ? uvec4(0u) : counts[item];
   vec4 axis = entry == 0 ? vec4(0.0, 0.0, 0.0, 2.0) : axes[item];
   uvec2 first = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[item];
-  uint word = 0, touch_word = 0;
+  uint word = 0, touch_word = 0, partner = kNoTriangle;
+  float partner_away = 3e38, least_turn = sin(dismissal_angle(front.distance));
   for (;;) {
     uint next = parent.list_begin + entry, last = parent.list_begin + end - 1u;
     uint mine_name = lists[min(next + child, last)];
@@ -186,6 +192,12 @@ void main() {
       bool trusted = texels.normal.w > 0.5;
       float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
       count.z = touches && cosine < axis.w ? name : count.z;
+      // The sheet between the two is about (D_t - D_0) / |g_t - g_0| from the centre (equation 2.11).
+      float turn = length(g - front.direction);
+      float away = (d - front.distance) / max(turn, 1e-30) - 0.2 * step.circumradius * turn;
+      bool is_partner = touches && turn >= least_turn && away < partner_away;
+      partner = is_partner ? name : partner;
+      partner_away = is_partner ? away : partner_away;
       count.w |= touches && !trusted ? kSeenUntrusted : 0u;
       // Of all triangles that may be the nearest, in the end: those before a clearly nearer one are forgotten.
       float behind_first = d - uintBitsToFloat(first.x);
@@ -206,10 +218,11 @@ void main() {
     }
     if (entry >= end) break;
   }
-  counts[item] = count;
+  bool is_last = end >= parent.list_count;
+  counts[item] = uvec4(count.xy, is_last ? partner : count.z, count.w);
   axes[item] = axis;
   nearest[item] = first;
-  if (end < parent.list_count) return;
+  if (!is_last) return;
   if (child == 0u) COUNT_TESTS(8u * (parent.list_count + 2u * (parent.list_count / (1u + parent.list_count / kWitnessSample))));
   if (is_in_grid(coordinates))
     settle(item, centre, parent.flags, first.y, uintBitsToFloat(first.x), count, axis.w);

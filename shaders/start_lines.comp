@@ -17,7 +17,7 @@ layout(set = 0, binding = 7) writeonly buffer Lines { Line lines[]; };
 
 void main() {
   uint index = invocation_index();
-  if (index >= kLinesPerCell * counters[kCells] || states[index].x == 0u) return;
+  if (index >= step.lines_per_cell * counters[kCells] || states[index].x == 0u) return;
   vec3 p = points[2 * index].xyz, q = points[2 * index + 1].xyz;
   vec3 a = vector_to_triangle(p, load_triangle(nearest[2 * index].y));
   vec3 b = vector_to_triangle(q, load_triangle(nearest[2 * index + 1].y));
@@ -25,7 +25,7 @@ void main() {
     b = length(a) * q;
     q = p;
   }
-  uint cell = index / kLinesPerCell;
+  uint cell = index / step.lines_per_cell;
   COUNT(kLineCount, 1u);
   COUNT_TESTS((kSectionsPerLine * step.narrowing_steps + 2u) * line_list_count(cells[cell]));  // and the grown ends
   lines[offsets[index].x] = Line(vec4(p, length(a)), vec4(q, length(b)), vec4(unit_or_zero(a), 0.0),

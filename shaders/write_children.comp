@@ -16,7 +16,7 @@ layout(set = 0, binding = 6) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 7) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 8) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 9) writeonly buffer Lists { uint lists[]; };
-// Before the first round: contacts, and those that touch. Between rounds: where the next of either kind goes.
+// Before the first round: contacts, those that touch, and the partner. Between rounds: where the next of either kind goes.
 layout(set = 0, binding = 10) buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 11) writeonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 12) writeonly buffer Verdicts { uint verdicts[]; };
@@ -26,7 +26,8 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching
   uvec3 c = child_coordinates(parent, item % 8);
   uint voxel = kFinest ? offset.x : parent.voxel;
   cells[offset.x] =
-      Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, touching, 0u, 0u);
+      Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, touching,
+           counts[item].z, 0u);
   if (kFinest) {
     winners[voxel] = 0xffffffffu;
     verdicts[voxel] = 0u;

@@ -192,6 +192,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.touch_half_side =
       level == coarse_levels_ ? static_cast<float>(size / 2 + 2 * epsilon + 4 * kCentreError) : step.half_side;
   step.treelet_count = treelet_count_;
+  step.lines_per_cell = gpu::kLinesPerCell;
   return step;
 }
 

@@ -83,12 +83,17 @@ class CertifiedPipeline {
   // Of the whole run. With kernel_times every dispatch is a stage of its own instead.
   void begin_stage(Recorder& r, const char* stage) const;
   void clear_counter(Recorder& r, std::uint32_t counter);
-  void start_level(Recorder& r, std::uint32_t source);
+  void start_level(Recorder& r, std::uint32_t source, bool same_level = false);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
+  // One line for every cell. What it does not settle goes to `left`.
+  void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  // From the proposed lines to the points of the voxels.
+  void record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
-  void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left);
+  void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left,
+                         bool searched_once);
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
 

@@ -18,9 +18,11 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     const gpu::StepConstants step = level_constants(level);
     record_children(r, step, buffers, finest);
     if (finest) {
-      record_search(r, step, buffers);
-      record_classification(r, step, buffers);
-      record_drop_found(r, step, buffers, cells_[0]);
+      record_first_search(r, step, buffers, cells_[1]);
+      const LevelBuffers left{nullptr, nullptr, &cells_[1], &lists_[2]};
+      record_search(r, step, left);
+      record_classification(r, step, left);
+      record_drop_found(r, step, left, cells_[0], false);
     } else {
       start_level(r, gpu::kCells);
     }
@@ -34,7 +36,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     record_children(r, step, buffers, false);
     record_search(r, step, buffers);
     record_classification(r, step, buffers);
-    record_drop_found(r, step, buffers, cells_[0]);
+    record_drop_found(r, step, buffers, cells_[0], false);
     lists = target;
   }
   record_collection(r);
@@ -79,9 +81,9 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   start_level(r, gpu::kCells);
 }
 
-void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source) {
+void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source, bool same_level) {
   const BufferRange counters[] = {counters_.range()};
-  r.dispatch({"start_level", 1, 0, 0, 1, {source}}, counters, {}, {}, 1);
+  r.dispatch({"start_level", 1, 0, 0, 1, {source, same_level ? 1u : 0u}}, counters, {}, {}, 1);
   r.barrier();
 }
 
@@ -135,11 +137,23 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
              children, step);
 }
 
+void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
+                                            const Buffer& left) {
+  begin_stage(r, "search");
+  step.lines_per_cell = 1;
+  run(r,
+      {"propose_crossings",
+       {mesh_->triangles.range(), level.cells->range(), counters_.range(), points_.range()},
+       Reads::kTriangles},
+      {gpu::kCells}, step);
+  record_lines(r, step, level);
+  record_drop_found(r, step, level, left, true);
+}
+
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   begin_stage(r, "pairs");
   run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kEightLanes}, step);
   begin_stage(r, "search");
-  const Extent seeds{gpu::kCells, gpu::kLinesPerCell};
   run(r,
       {"propose_lines",
        {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), aims_.range(),
@@ -148,15 +162,20 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
        {},
        64,
        Lanes::kEight},
-      seeds, step);
-  find_nearest(r, Source::kLineEnds, {gpu::kCells, gpu::kLinesPerCell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
+      {gpu::kCells, gpu::kLinesPerCell}, step);
+  record_lines(r, step, level);
+}
+
+void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  const Extent seeds{gpu::kCells, step.lines_per_cell};
+  find_nearest(r, Source::kLineEnds, {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
                *level.cells, *level.lists, points_, nearest_);
   run(r,
       {"keep_turning",
        {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range()},
        Reads::kTriangles},
       seeds, step);
-  scan(r, {gpu::kCells, gpu::kLinesPerCell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
+  scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
            0xffffffffu});
   run(r,
       {"start_lines",
@@ -203,13 +222,18 @@ void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConsta
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
-                                          const Buffer& left) {
+                                          const Buffer& left, bool searched_once) {
   const Extent cells{gpu::kCells};
-  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, step);
+  run(r,
+      {"drop_found",
+       {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()},
+       Reads::kNoMesh,
+       {searched_once ? 1u : 0u}},
+      cells, step);
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
-  start_level(r, gpu::kKept);
+  start_level(r, gpu::kKept, searched_once);
 }
 
 void CertifiedPipeline::record_collection(Recorder& r) {

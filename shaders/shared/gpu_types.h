@@ -32,8 +32,10 @@ struct Cell {
   uint flags;       // kCell*
   uint nearest;     // triangle nearest to the centre
   uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
-  uint padding_0, padding_1;
+  uint partner;     // of the contacts that touch, the one whose sheet with the nearest passes the centre closest
+  uint padding;
 };
+MEDIAL_VK_GPU_CONSTANT kNoTriangle = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
 MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
 MEDIAL_VK_GPU_CONSTANT kCellSettled = 8u;     // given up: what may hide in it is near a face or near the angle
@@ -127,6 +129,7 @@ struct StepConstants {
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint treelet_count;
+  uint lines_per_cell;          // seeds that are proposed for a cell
 };
 
 // What became of a finest voxel (bits).

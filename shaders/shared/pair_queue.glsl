@@ -5,6 +5,7 @@
 // of them wanted that.
 #ifndef MEDIAL_VK_PAIR_QUEUE_GLSL
 #define MEDIAL_VK_PAIR_QUEUE_GLSL
+#include "aim.glsl"
 #include "carrier_pairs.glsl"
 
 const uint kQueueSize = 256u;  // a power of two, above kLanes + 3 kLanes^2
@@ -13,7 +14,6 @@ shared uint queue[kQueueSize];  // two slots of carriers, modulo its size
 // with itself.
 uint queue_head, queue_tail, next_row, next_other_row;
 
-const float kNoAim = 3e38;
 Aim best_aim;  // of the pairs that this lane has queued: the one that ties nearest to the boundary
 
 void start_pairs() {
@@ -22,21 +22,6 @@ void start_pairs() {
   next_row = 0u;
   next_other_row = 0u;
   best_aim = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
-}
-
-// Where the plane between two carriers crosses the cell (equation 2.11): at the point nearest to the centre, or, if
-// that is outside, towards the corner in its direction. Direction w is 0 where it does not cross.
-Aim aim_between(vec4 a, vec4 b, float half_side) {
-  vec3 across = b.xyz - a.xyz;
-  float turn = length(across), offset = b.w - a.w;
-  float extent = half_side * dot(abs(across), vec3(1.0));
-  bool crosses = turn >= 0.1 && abs(offset) <= 1.2 * extent;
-  vec3 base = across * (offset / max(turn * turn, 1e-2));
-  if (any(greaterThan(abs(base), vec3(half_side))))
-    base = clamp(offset / max(extent, 1e-30), -1.0, 1.0) * half_side *
-           mix(vec3(-1.0), vec3(1.0), greaterThan(across, vec3(0.0)));
-  float away = max(0.0, max(a.w - dot(a.xyz, base), b.w - dot(b.xyz, base)));
-  return Aim(vec4(base, crosses ? away : kNoAim), crosses ? vec4(across / turn, 1.0) : vec4(0.0));
 }
 
 bool has_more_blocks() { return next_row < row_count(kept_count); }
