@@ -1,7 +1,8 @@
 # Compiles GLSL compute shaders to SPIR-V, validates them and embeds them as constant arrays.
 #   medial_vk_embed_shaders(TARGET SHADER_DIR name1 name2 ...)
 # adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No names: an empty list.
-# Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep.
+# Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
+# texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
@@ -19,11 +20,19 @@ function(medial_vk_embed_shaders target shader_dir)
     if(uses_lanes)
       list(APPEND variants ${name}_lockstep)
     endif()
+    file(STRINGS ${source} uses_texels REGEX "include \"(triangles|tree_query|tree_packet_main).glsl\"")
+    if(uses_texels)
+      list(TRANSFORM variants APPEND _storage OUTPUT_VARIABLE storage_variants)
+      list(APPEND variants ${storage_variants})
+    endif()
     foreach(variant ${variants})
       set(spv ${out}/${variant}.spv)
       set(defines)
-      if(variant MATCHES "_lockstep$")
-        set(defines -DLOCKSTEP)
+      if(variant MATCHES "_lockstep")
+        list(APPEND defines -DLOCKSTEP)
+      endif()
+      if(variant MATCHES "_storage$")
+        list(APPEND defines -DSTORAGE)
       endif()
       add_custom_command(OUTPUT ${spv}
         COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 ${defines} -I${shader_dir}/shared

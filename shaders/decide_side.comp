@@ -13,7 +13,7 @@
 #include "winding.glsl"
 #include "cell_side.glsl"
 
-layout(constant_id = 2) const bool kTop = false;
+layout(constant_id = 1) const bool kTop = false;
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };

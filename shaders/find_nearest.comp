@@ -9,10 +9,10 @@
 #define TRIANGLE_TEXEL_BINDING 9
 #include "triangles.glsl"
 
-layout(constant_id = 2) const uint kSource = 0;
+layout(constant_id = 1) const uint kSource = 0;
 const uint kLineEnds = 0, kSections = 1, kGrownEnds = 2, kSphere = 3, kOpposites = 4;
-layout(constant_id = 3) const uint kPointsPerLane = 8;
-layout(constant_id = 4) const uint kPointsPerItem = 8;
+layout(constant_id = 2) const uint kPointsPerLane = 8;
+layout(constant_id = 3) const uint kPointsPerItem = 8;
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };

@@ -106,7 +106,7 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
   for (uint entry = parent.list_begin;;) {
     uint mine_name = lists[min(entry + lane * stride, last)];
     TriangleTexels mine = load_triangle(mine_name);
-    [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+    for (uint k = 0; k < kLanes; ++k) {
       uint list_entry = min(entry + k * stride, last);
       float d = squared_distance_to_triangle(p, triangle_of_lane(mine, list_entry, k));
       best_name = d < best ? name_of_lane(mine_name, list_entry, k) : best_name;
@@ -161,9 +161,14 @@ void main() {
   if (entry >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);
-  Witness front = witness_of(centre, witness_near(parent, child, centre));
-  vec3 opposite = centre - step.circumradius * front.direction;
-  Witness back = witness_of(centre, witness_near(parent, child, opposite));
+  Witness front, back;
+  vec3 from = centre;
+  for (uint pass = 0;;) {
+    front = back;
+    back = witness_of(centre, witness_near(parent, child, from));
+    from = centre - step.circumradius * back.direction;
+    if (++pass == 2u) break;
+  }
   vec3 front_normal = triangle_texel(4u * front.name + 3u).xyz;
   uint end = min(parent.list_count, entry + kEntriesPerRound);
   uint word_count = (parent.list_count + 31u) / 32u;

@@ -142,14 +142,37 @@ BvhHit Bvh::closest(const Point& p, double bound) const {
   walk_near_first(
       nodes_, p, [&] { return best.squared_distance; },
       [&](std::uint32_t i) {
-        const NearestOffset nearest = nearest_on_triangle(p, corners_[i]);
-        const bool tie = nearest.squared_distance == best.squared_distance && best.triangle != 0xffffffffu;
-        if (nearest.squared_distance < best.squared_distance || (tie && order_[i] < best.triangle)) {
-          best = {nearest.squared_distance, p + nearest.offset, order_[i]};
-        }
+        improve(p, i, best);
         return false;
       });
   if (best.triangle == 0xffffffffu) best.squared_distance = std::numeric_limits<double>::infinity();
+  return best;
+}
+
+void Bvh::improve(const Point& p, std::uint32_t position, BvhHit& best) const {
+  if (clearly_beyond(p, corners_[position], best.squared_distance)) return;
+  const NearestOffset nearest = nearest_on_triangle(p, corners_[position]);
+  const std::uint32_t triangle = order_[position];
+  const bool tie = nearest.squared_distance == best.squared_distance && best.triangle != 0xffffffffu;
+  if (nearest.squared_distance < best.squared_distance || (tie && triangle < best.triangle)) {
+    best = {nearest.squared_distance, p + nearest.offset, triangle};
+  }
+}
+
+void Bvh::gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const {
+  positions.clear();
+  const double limit = radius * radius;
+  walk_near_first(
+      nodes_, centre, [&] { return limit; },
+      [&](std::uint32_t i) {
+        if (!clearly_beyond(centre, corners_[i], limit)) positions.push_back(i);
+        return false;
+      });
+}
+
+BvhHit Bvh::closest_of(const Point& p, const std::vector<std::uint32_t>& positions) const {
+  BvhHit best;
+  for (const std::uint32_t position : positions) improve(p, position, best);
   return best;
 }
 

@@ -234,8 +234,8 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   key.texel_buffers = static_cast<uint>(kernel.reads);
   key.push_constant_bytes = sizeof(step);
   key.workgroup_size = kernel.workgroup_size;
-  if (kernel.reads != Reads::kNoMesh) key.constants.push_back(mesh_->use_texels ? 1u : 0u);
-  key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
+  if (kernel.reads != Reads::kNoMesh) key.shader += storage_suffix(mesh_->use_texels);
+  key.constants = kernel.constants;
   const VkBufferView texels[] = {mesh_->triangle_texels, mesh_->tree_texels};
   r.dispatch_indirect(key, kernel.buffers, std::span(texels, key.texel_buffers), bytes_of(step), arguments_,
                       VkDeviceSize{argument} * 12);
@@ -276,13 +276,16 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
   return {shader, std::move(buffers), Reads::kTree};
 }
 
-CertifiedPipeline::Kernel CertifiedPipeline::pair_kernel(const char* shader, const LevelBuffers& level,
-                                                         std::vector<BufferRange> more) const {
-  std::vector<BufferRange> buffers = {mesh_->triangles.range(),      level.cells->range(),
-                                      level.lists->range(),          counters_.range(),
-                                      mesh_->triangle_links.range(), mesh_->corner_cones.range()};
-  buffers.insert(buffers.end(), more.begin(), more.end());
-  return {shader, std::move(buffers), Reads::kTriangles, {}, kEightLanes, Lanes::kEight};
+void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+  run(r,
+      {"judge_pairs",
+       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(),
+        mesh_->triangle_links.range(), mesh_->corner_cones.range(), aims_.range(), verdicts_.range(), reasons_.range()},
+       Reads::kTriangles,
+       {},
+       kEightLanes,
+       Lanes::kEight},
+      {gpu::kCells, kEightLanes}, step);
 }
 
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,

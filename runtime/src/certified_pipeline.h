@@ -91,7 +91,7 @@ class CertifiedPipeline {
   // From the proposed lines to the points of the voxels.
   void record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
-  void record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  void record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level);
   void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left,
                          bool searched_once);
   void record_collection(Recorder& r);
@@ -129,8 +129,8 @@ class CertifiedPipeline {
   void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step);
   // A kernel that asks winding numbers: the tree's buffers follow its own.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
-  // A kernel with one workgroup per kept cell that lists its carriers: `more` buffers follow.
-  Kernel pair_kernel(const char* shader, const LevelBuffers& level, std::vector<BufferRange> more) const;
+  // The pairs of carriers of every cell, before its search or after (step.classifies).
+  void judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   void scan(Recorder& r, const gpu::ScanConstants& constants);

@@ -152,7 +152,7 @@ void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   begin_stage(r, "pairs");
-  run(r, pair_kernel("dismiss_pairs", level, {aims_.range()}), {gpu::kCells, kEightLanes}, step);
+  judge_pairs(r, step, level);
   begin_stage(r, "search");
   run(r,
       {"propose_lines",
@@ -213,12 +213,12 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
 }
 
 // Cells give up at the last level, some before it, and one level below the finest where the mesh cannot be trusted.
-void CertifiedPipeline::record_classification(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level) {
   const bool some_settle = step.settles != 0u || (step.depth >= 1 && mesh_->has_untrusted);
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
-  run(r, pair_kernel("classify_undecided", level, {verdicts_.range(), reasons_.range()}), {gpu::kCells, kEightLanes},
-      step);
+  step.classifies = 1;
+  judge_pairs(r, step, level);
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,

@@ -101,13 +101,15 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                                                slots,
                                                tree_->positions.range()};
   const std::array<VkBufferView, 3> texels = {device_->triangle_texels, tree_->node_texels, tree_->frame_texels};
+  const std::string shader =
+      shape_.through_shared_memory ? "find_closest_in_packets_shared" : "find_closest_in_packets";
   const ProgramKey key{
-      shape_.through_shared_memory ? "find_closest_in_packets_shared" : "find_closest_in_packets",
+      shader + storage_suffix(tree_->use_texels),
       static_cast<std::uint32_t>(buffers.size()),
       static_cast<std::uint32_t>(texels.size()),
       sizeof(constants),
       shape_.width,
-      {tree_->use_texels ? 1u : 0u, static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
+      {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
   if (counted) {
     r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
   } else {

@@ -23,6 +23,9 @@ struct ProgramKey {
   auto operator<=>(const ProgramKey&) const = default;
 };
 
+/// What follows the name of a shader that reads the mesh (cmake/EmbedShaders.cmake).
+inline const char* storage_suffix(bool use_texels) { return use_texels ? "" : "_storage"; }
+
 /// Plain handles; the context's program cache creates and destroys them.
 struct Program {
   ProgramKey key;

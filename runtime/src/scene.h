@@ -70,8 +70,8 @@ struct DeviceMesh {
   /// add_links().
   Buffer triangle_links;
   Buffer corner_cones;
-  /// Specialization constant 1 of every kernel that reads the mesh: false if a texel view would be too large for the
-  /// device. Then the views are of a buffer that is never read.
+  /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
+  /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
   bool use_texels = true;
   bool closed = false;
   bool has_untrusted = true;  // some triangle's normal proves nothing

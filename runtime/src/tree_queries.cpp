@@ -43,9 +43,10 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
   const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
   const gpu::QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
                                          count.multiplier, mesh_->triangle_count, tolerance};
-  ProgramKey key{kernel.walk, static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize, {}};
-  key.constants.push_back(mesh_->use_texels ? 1u : 0u);
-  key.constants.insert(key.constants.end(), kernel.constants.begin(), kernel.constants.end());
+  const char* suffix = storage_suffix(mesh_->use_texels);
+  ProgramKey key{kernel.walk, static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize,
+                 kernel.constants};
+  key.shader += suffix;
   if (count.arguments != nullptr) {
     r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
   } else {
@@ -53,6 +54,7 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
   }
   r.barrier();
   key.shader = kernel.resolve;
+  key.shader += suffix;
   resolve(r, std::move(key), buffers, bytes_of(constants));
 }
 
@@ -73,12 +75,12 @@ void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange 
   const std::array<BufferRange, 8> buffers = {
       mesh_->triangles.range(), mesh_->tree.range(), info, unresolved_.range(), queries, info, nearest, hits};
   const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0};
-  const ProgramKey key{"resolve_closest_points",
+  const ProgramKey key{std::string("resolve_closest_points") + storage_suffix(mesh_->use_texels),
                        static_cast<std::uint32_t>(buffers.size()),
                        2,
                        sizeof(constants),
                        kResolveGroup,
-                       {mesh_->use_texels ? 1u : 0u, static_cast<std::uint32_t>(ties)}};
+                       {static_cast<std::uint32_t>(ties)}};
   resolve(r, key, buffers, bytes_of(constants));
 }
 

@@ -130,6 +130,7 @@ struct StepConstants {
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint treelet_count;
   uint lines_per_cell;          // seeds that are proposed for a cell
+  uint classifies;              // 1: pairs are asked after the search, not before
 };
 
 // What became of a finest voxel (bits).

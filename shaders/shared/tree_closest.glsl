@@ -17,7 +17,7 @@ struct TreeHit {
 
 // Among exact ties the smallest index of the input wins (triangle_order: leaf position to index), which costs a seventh
 // more; else the smallest leaf position.
-layout(constant_id = 2) const bool kSmallestIndex = false;
+layout(constant_id = 1) const bool kSmallestIndex = false;
 
 // Nearest triangle closer than sqrt(bound); if `any`, the first one that is found.
 TreeHit walk_tree(vec3 p, float bound, bool any) {

@@ -6,9 +6,9 @@
 // A node of the wide tree is two texels for each of kArity children, as in tree.glsl; a count of -1: no child.
 #include "packet_team.glsl"
 
-layout(constant_id = 2) const bool kSmallestIndex = false;  // among exact ties; else the smallest leaf position
-layout(constant_id = 3) const uint kPerLane = 7u;
-layout(constant_id = 4) const uint kArity = 8u;
+layout(constant_id = 1) const bool kSmallestIndex = false;  // among exact ties; else the smallest leaf position
+layout(constant_id = 2) const uint kPerLane = 7u;
+layout(constant_id = 3) const uint kArity = 8u;
 
 const float kPreferFaces = 1.0 - 9.5367e-7;  // as in tree_closest.glsl
 // A level leaves at most kArity - 1 children behind, and no tree is deeper than kStackSize.

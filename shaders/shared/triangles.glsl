@@ -1,9 +1,14 @@
 // Triangle data from a uniform texel buffer (much faster on lavapipe: loads with per-lane addresses are gathered) or
-// from a storage buffer, where the mesh has more texels than the device allows in a view.
+// from a storage buffer, where the mesh has more texels than the device allows in a view: kernels that include this are
+// compiled twice, the second time with STORAGE.
 // Before including, define TRIANGLE_STORAGE_BINDING and TRIANGLE_TEXEL_BINDING.
 #include "closest_point.glsl"
 
-layout(constant_id = 1) const bool kUseTexels = true;
+#ifdef STORAGE
+const bool kUseTexels = false;
+#else
+const bool kUseTexels = true;
+#endif
 layout(set = 0, binding = TRIANGLE_STORAGE_BINDING) readonly buffer TriangleStorage { vec4 triangle_storage[]; };
 layout(set = 0, binding = TRIANGLE_TEXEL_BINDING) uniform samplerBuffer triangle_texels;
 

@@ -40,34 +40,42 @@ class Certifier {
 
   /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
   /// (contacts of three sheets that nearly tie) double can.
-  bool certify_or_mend(MedialSphere& s) const {
+  bool certify_or_mend(MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
     const MedialSphere as_found = s;
-    if (certify(s)) return true;
+    if (certify(s, nearby)) return true;
     for (const MedialSphere& mended : narrowed(as_found)) {
       s = mended;
-      if (certify(s)) return true;
+      if (certify(s, nearby)) return true;
     }
     return false;
   }
 
-  /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
-  bool certify(MedialSphere& s) const {
+  /// Makes the sphere's numbers exact, with `nearby` as scratch memory; false if it fails a condition of the certificate.
+  bool certify(MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
     if (!in_its_voxel(s)) return false;
-    const BvhHit nearest = closest(s.centre, s.radius);
+    // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
+    const double expected = s.radius + 1e-5 * longest_, reach = expected + 2 * epsilon_;
+    bvh_.gather_within(s.centre, reach, nearby);
+    BvhHit nearest = bvh_.closest_of(s.centre, nearby);
+    if (!(nearest.squared_distance <= expected * expected)) {
+      nearest = bvh_.closest(s.centre);
+      bvh_.gather_within(s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);
+    }
     const double distance = std::sqrt(nearest.squared_distance);
     if (distance <= 2 * rounding_) return false;
     s.radius = distance - rounding_;
     const Point toward = (1 / distance) * (nearest.point - s.centre);
     const Point grown_centre = s.centre - epsilon_ * toward;
-    const BvhHit grown = closest(grown_centre, distance + epsilon_);
-    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon.
+    const BvhHit grown = bvh_.closest_of(grown_centre, nearby);
+    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near is
+    // no nearer than that.
     if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
     const std::array<float, 3> a = unit_float(toward), beyond = unit_float(grown.point - grown_centre);
     set_spokes(s, a);
-    if (tip_is_near(s) && is_salient(s)) return set_angle(s);
+    if (tip_is_near(s, nearby) && is_salient(s)) return set_angle(s);
     // Where many contacts tie (the centre of a sphere), the exact nearest one may lie between the two of the device.
     s.spoke_b = beyond;
-    return tip_is_near(s) && is_salient(s) && set_angle(s);
+    return tip_is_near(s, nearby) && is_salient(s) && set_angle(s);
   }
 
  private:
@@ -82,12 +90,6 @@ class Certifier {
       magnitude = std::max({magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
     }
     return 32 * u * longest + 4 * u * magnitude;
-  }
-
-  // The nearest point, expected at about this distance: with a bound the search is short.
-  BvhHit closest(const Point& p, double expected) const {
-    const BvhHit hit = bvh_.closest(p, expected + 1e-5 * longest_);
-    return hit.triangle != 0xffffffffu ? hit : bvh_.closest(p);
   }
 
   struct End {
@@ -147,8 +149,9 @@ class Certifier {
   }
 
   // Lemma 2.4: the tip of spoke b is within 2 epsilon of the boundary.
-  bool tip_is_near(const MedialSphere& s) const {
-    return bvh_.any_within(s.centre + s.radius * widen(s.spoke_b), 2 * epsilon_ * (1 - 1e-6));
+  bool tip_is_near(const MedialSphere& s, const std::vector<std::uint32_t>& nearby) const {
+    const BvhHit nearest = bvh_.closest_of(s.centre + s.radius * widen(s.spoke_b), nearby);
+    return std::sqrt(nearest.squared_distance) < 2 * epsilon_ * (1 - 1e-6);
   }
 
   bool is_salient(const MedialSphere& s) const {
@@ -186,8 +189,9 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
   std::vector<std::uint8_t> passed(spheres.size());
   const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   const auto certify_part = [&](std::size_t part) {
+    std::vector<std::uint32_t> nearby;
     for (std::size_t i = part * spheres.size() / count; i < (part + 1) * spheres.size() / count; ++i)
-      passed[i] = certifier.certify_or_mend(spheres[i]) ? 1 : 0;
+      passed[i] = certifier.certify_or_mend(spheres[i], nearby) ? 1 : 0;
   };
   std::vector<std::thread> workers;
   for (std::size_t part = 1; part < count; ++part) workers.emplace_back(certify_part, part);

@@ -97,7 +97,7 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(StepConstants, settles),
         MEDIAL_VK_MEMBER(StepConstants, half_side),
         MEDIAL_VK_MEMBER(StepConstants, touch_half_side),
-        MEDIAL_VK_MEMBER(StepConstants, treelet_count), MEDIAL_VK_MEMBER(StepConstants, lines_per_cell)}},
+        MEDIAL_VK_MEMBER(StepConstants, treelet_count), MEDIAL_VK_MEMBER(StepConstants, lines_per_cell), MEDIAL_VK_MEMBER(StepConstants, classifies)}},
       {"ScanConstants",
        sizeof(gpu::ScanConstants),
        {MEDIAL_VK_MEMBER(ScanConstants, items_counter), MEDIAL_VK_MEMBER(ScanConstants, items_multiplier),

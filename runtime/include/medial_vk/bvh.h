@@ -54,11 +54,18 @@ class Bvh {
 
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
+  /// For several closest points near one another: leaf positions of all triangles within `radius` of `centre`, and of
+  /// some that are a little farther away, replace `positions`; closest_of() then asks no others.
+  void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
+  /// As closest(), among the triangles at these leaf positions.
+  BvhHit closest_of(const Point& p, const std::vector<std::uint32_t>& positions) const;
   /// Is there a point of the mesh at a distance below `radius` from `centre`? Stops at the first.
   bool any_within(const Point& centre, double radius) const;
 
  private:
   void take_corners(const MeshView& mesh, unsigned threads);
+  /// Makes the triangle at a leaf position the best if it is nearer, or as near and of a smaller index.
+  void improve(const Point& p, std::uint32_t position, BvhHit& best) const;
 
   std::vector<BvhNode> nodes_;
   std::vector<std::uint32_t> order_;
