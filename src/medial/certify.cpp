@@ -50,7 +50,8 @@ class Certifier {
     return false;
   }
 
-  /// Makes the sphere's numbers exact, with `nearby` as scratch memory; false if it fails a condition of the certificate.
+  /// Makes the sphere's numbers exact, with `nearby` as scratch memory; false if it fails a condition of the
+  /// certificate.
   bool certify(MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
     if (!in_its_voxel(s)) return false;
     // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
@@ -67,8 +68,8 @@ class Certifier {
     const Point toward = (1 / distance) * (nearest.point - s.centre);
     const Point grown_centre = s.centre - epsilon_ * toward;
     const BvhHit grown = bvh_.closest_of(grown_centre, nearby);
-    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near is
-    // no nearer than that.
+    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near
+    // is no nearer than that.
     if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
     const std::array<float, 3> a = unit_float(toward), beyond = unit_float(grown.point - grown_centre);
     set_spokes(s, a);

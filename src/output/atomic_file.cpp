@@ -43,6 +43,10 @@ mode_t permissions_for(const std::string& target) {
   return 0666 & ~mask;
 }
 
+/// For mkostemp. A name of its own, not the target's with a suffix: that could grow past the longest name a folder
+/// takes.
+std::string temporary_name(const std::string& target) { return folder_of(target) + "/.medial-vk.XXXXXX"; }
+
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -63,7 +67,7 @@ Status write_standard_output(std::string_view bytes) {
 
 }  // namespace
 
-Result<AtomicFile> AtomicFile::create(const std::string& path) {
+Result<AtomicFile> AtomicFile::create(const std::string& path, bool may_be_unnamed) {
   AtomicFile file;
   file.path_ = path;
   file.target_ = follow_links(path);
@@ -73,11 +77,15 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     if (file.descriptor_ < 0) return file.cannot_write("", errno);
     return file;
   }
-  // A name of its own, not the target's with a suffix: that could grow past the longest name a folder takes.
-  std::string name = folder_of(file.target_) + "/.medial-vk.XXXXXX";
-  file.descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
-  if (file.descriptor_ < 0) return file.cannot_write("", errno);
-  file.temporary_ = std::move(name);
+  const std::string folder = folder_of(file.target_);
+  if (may_be_unnamed) file.descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  file.unnamed_ = file.descriptor_ >= 0;
+  if (!file.unnamed_) {
+    std::string name = temporary_name(file.target_);
+    file.descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    if (file.descriptor_ < 0) return file.cannot_write("", errno);
+    file.temporary_ = std::move(name);
+  }
   if (::fchmod(file.descriptor_, permissions_for(file.target_)) != 0) return file.cannot_write("permissions: ", errno);
   return file;
 }
@@ -86,12 +94,14 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
+      unnamed_(std::exchange(other.unnamed_, false)),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
+  std::swap(unnamed_, other.unnamed_);
   std::swap(descriptor_, other.descriptor_);
   return *this;
 }
@@ -115,11 +125,36 @@ Status AtomicFile::write(std::string_view bytes) {
 Status AtomicFile::finish() {
   // fsync has no meaning for pipes and devices, and some file systems do not know it; neither is an error.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) return cannot_write("", errno);
+  if (unnamed_) return {};  // it would be gone
+  if (::close(std::exchange(descriptor_, -1)) != 0) return cannot_write("", errno);
+  return {};
+}
+
+// A link cannot replace a file: where there is one, a name for the moment between the link and the rename.
+Status AtomicFile::name_it() {
+  const std::string self = fmt::format("/proc/self/fd/{}", descriptor_);
+  const auto link_to = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (!link_to(target_)) {
+    if (errno != EEXIST) return cannot_write("", errno);
+    std::string name = temporary_name(target_);
+    const int placeholder = ::mkostemp(name.data(), O_CLOEXEC);
+    if (placeholder < 0) return cannot_write("", errno);
+    ::close(placeholder);
+    ::unlink(name.c_str());
+    if (!link_to(name)) return cannot_write("", errno);
+    temporary_ = std::move(name);
+  }
+  unnamed_ = false;
   if (::close(std::exchange(descriptor_, -1)) != 0) return cannot_write("", errno);
   return {};
 }
 
 Status AtomicFile::publish() {
+  if (unnamed_) {
+    if (Status named = name_it(); !named) return named;
+  }
   if (temporary_.empty()) return {};
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) return cannot_write("", errno);
   temporary_.clear();

@@ -1,4 +1,5 @@
-// Output files appear whole or not at all: a temporary file in the same folder, then rename.
+// Output files appear whole or not at all: a file in the same folder without a name (O_TMPFILE; under a temporary name
+// where there is no such thing), then a link or a rename. A process that is killed leaves nothing behind.
 #pragma once
 
 #include <span>
@@ -9,31 +10,34 @@
 
 namespace medial_vk {
 
-/// A file being written under a temporary name. Until publish() nothing is seen under its own name, and what was there
-/// before stays; the destructor removes the temporary file. A symbolic link is followed. A target that exists and is
-/// no regular file (/dev/null, a pipe) is written in place, as renaming over it would destroy it.
+/// A file being written without its name. Until publish() nothing is seen under that, and what was there before stays;
+/// the destructor removes the file. A symbolic link is followed. A target that exists and is no regular file
+/// (/dev/null, a pipe) is written in place, as renaming over it would destroy it.
 class AtomicFile {
  public:
-  /// Errors (all calls): kCannotWrite with the path and the system's reason.
-  static Result<AtomicFile> create(const std::string& path);
+  /// `may_be_unnamed` false: as where there is no O_TMPFILE. Errors (all calls): kCannotWrite with the path and the
+  /// system's reason.
+  static Result<AtomicFile> create(const std::string& path, bool may_be_unnamed = true);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
   Status write(std::string_view bytes);
-  /// Flushes to the disk and closes, so that a full disk is noticed before the rename. No write() after it.
+  /// Flushes to the disk, so that a full disk is noticed before there is a name. No write() after it.
   Status finish();
   /// Gives the file its name, replacing what was there. Call after finish().
   Status publish();
 
  private:
   AtomicFile() = default;
+  Status name_it();
   Error cannot_write(const char* what, int system_error) const;
   void discard();
 
   std::string path_;       // As the caller named it: for messages.
   std::string target_;     // With symbolic links resolved: what is renamed to.
-  std::string temporary_;  // Empty: written in place, or published.
+  std::string temporary_;  // Empty: written in place, without a name, or published.
+  bool unnamed_ = false;
   int descriptor_ = -1;
 };
 
