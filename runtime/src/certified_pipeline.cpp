@@ -17,6 +17,11 @@ constexpr uint kTopCellsAlongSide = 8;
 constexpr uint kMostTreelets = 8192;
 constexpr uint kLeastTreelet = 16;
 
+// A dispatch over lists asks at most eight distances an entry. Lavapipe asks some 250 million a second on two cores:
+// with this many entries a dispatch takes 0.1 s or so, which bounds how long a stop takes. Other devices are a hundred
+// times as fast, and want as much work at a time as memory allows.
+constexpr std::uint64_t kMostEntriesOfCpu = 1 << 22, kMostCellsOfCpu = 1 << 16;
+
 // Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
 // Centres of cells are rounded three times: at most 3 * 2^-25 a coordinate.
@@ -40,13 +45,13 @@ std::uint32_t steps_to_narrow(double from, double to) {
 }  // namespace
 
 CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh,
-                                     const ExtractionParameters& parameters)
-    : context_(&context), mesh_(&mesh), parameters_(parameters), arena_(context) {}
+                                     const ExtractionParameters& parameters, const StopWord& stop)
+    : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
 
 Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
                                                     const ExtractionParameters& parameters,
-                                                    const std::array<std::uint32_t, 3>& grid) {
-  CertifiedPipeline p(context, mesh, parameters);
+                                                    const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
+  CertifiedPipeline p(context, mesh, parameters, stop);
   p.grid_ = grid;
   // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side; always one level of children.
   const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
@@ -76,10 +81,14 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   constexpr std::uint64_t kBytesPerCell = 1608, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
-  const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
-                                        std::max<std::uint64_t>(8 * voxels, 4096)});
-  const std::uint64_t entries =
-      std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
+  const bool is_cpu = context_->description.type == "cpu";
+  const std::uint64_t most_cells = is_cpu ? kMostCellsOfCpu : std::uint64_t{1} << 19;
+  // Never so few that a top cell, which may touch everything, does not fit.
+  const std::uint64_t most_entries =
+      is_cpu ? std::max(kMostEntriesOfCpu, std::uint64_t{8} * mesh_->triangle_count) : std::uint64_t{1} << 27;
+  const std::uint64_t cells = std::min(
+      {memory_budget * 45 / 100 / kBytesPerCell, limit / 256, most_cells, std::max<std::uint64_t>(8 * voxels, 4096)});
+  const std::uint64_t entries = std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, most_entries});
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
   capacity_.list_entries = static_cast<uint>(entries);
@@ -205,8 +214,8 @@ std::uint32_t CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstan
   const std::uint32_t argument = next_argument_++ % kMostArguments;
   gpu::DispatchConstants c = constants;
   c.argument = argument;
-  const BufferRange buffers[] = {counters_.range(), arguments_.range()};
-  r.dispatch({"prepare_dispatch", 2, 0, sizeof(c), 1, {}}, buffers, {}, bytes_of(c), 1);
+  const BufferRange buffers[] = {counters_.range(), arguments_.range(), stop_->range()};
+  r.dispatch({"prepare_dispatch", 3, 0, sizeof(c), 1, {}}, buffers, {}, bytes_of(c), 1);
   r.barrier();
   return argument;
 }

@@ -18,6 +18,7 @@
 #include "medial_vk/extraction.h"
 #include "recorder.h"
 #include "scene.h"
+#include "stop_word.h"
 
 namespace medial_vk {
 
@@ -31,10 +32,10 @@ struct PipelineCapacity {
 
 class CertifiedPipeline {
  public:
-  /// Allocates all buffers for one mesh and one set of parameters. Errors: kOutOfMemory, kInternal.
+  /// Allocates all buffers for one mesh and one set of parameters; `stop` outlives it. Errors: kOutOfMemory, kInternal.
   static Result<CertifiedPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
                                           const ExtractionParameters& parameters,
-                                          const std::array<std::uint32_t, 3>& grid);
+                                          const std::array<std::uint32_t, 3>& grid, const StopWord& stop);
 
   /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
@@ -64,7 +65,8 @@ class CertifiedPipeline {
   Result<std::vector<gpu::UndecidedCell>> read_undecided(std::uint32_t count);
 
  private:
-  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters);
+  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
+                    const StopWord& stop);
 
   // Where one level reads and writes.
   struct LevelBuffers {
@@ -138,6 +140,7 @@ class CertifiedPipeline {
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;
+  const StopWord* stop_;
   ExtractionParameters parameters_;
   PipelineCapacity capacity_;
   Arena arena_;

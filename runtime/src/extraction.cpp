@@ -42,15 +42,16 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
 
 class CertifiedRun {
  public:
-  CertifiedRun(Context::Impl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, Extraction& extraction)
-      : context_(context), mesh_(mesh), pipeline_(pipeline), extraction_(extraction) {}
+  CertifiedRun(Context::Impl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, StopWatch& watch,
+               Extraction& extraction)
+      : context_(context), mesh_(mesh), pipeline_(pipeline), watch_(watch), extraction_(extraction) {}
 
-  Status run(const ProgressCallback& progress) {
+  Status run() {
     const std::uint32_t total = pipeline_.top_cells();
     std::uint32_t size = std::min({kFirstChunk, pipeline_.likely_chunk(), pipeline_.largest_chunk()});
     for (std::uint32_t first = 0; first < total;) {
-      if (progress && !progress(double(first) / total))
-        return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
+      watch_.set_done(double(first) / total);
+      if (watch_.stopped()) return StopWatch::error();
       const std::uint32_t count = std::min(size, total - first);
       Result<Fill> fill = run_chunk(first, count);
       if (!fill.ok()) return fill.error();
@@ -88,8 +89,10 @@ class CertifiedRun {
   }
 
   Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
-    auto times = run_commands(context_, [&](Recorder& r) { return pipeline_.record(r, first, count); });
+    auto times = run_commands(
+        context_, [&](Recorder& r) { return pipeline_.record(r, first, count); }, [&] { watch_.stopped(); });
     if (!times.ok()) return times.error();
+    if (watch_.stopped()) return StopWatch::error();
     add_times(times.value(), extraction_.device_times);  // chunks that are run again cost time too
     const auto counters = pipeline_.read_counters();
     const Fill fill{counters[gpu::kUtilisation] / 1024.0, counters[gpu::kOverflow] != 0};
@@ -107,42 +110,51 @@ class CertifiedRun {
   Context::Impl& context_;
   const DeviceMesh& mesh_;
   CertifiedPipeline& pipeline_;
+  StopWatch& watch_;
   Extraction& extraction_;
 };
 
 Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view,
-                                     const ExtractionParameters& parameters, const ProgressCallback& progress) {
+                                     const ExtractionParameters& parameters, StopWatch& watch) {
+  Result<StopWord> stop = StopWord::create(context);
+  if (!stop.ok()) return stop.error();
+  watch.watch(stop.value());
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
+  if (watch.stopped()) return StopWatch::error();
   if (Status s = mesh.value().add_links(context, view); !s.ok()) return s.error();
+  if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size);
+  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size, stop.value());
   if (!pipeline.ok()) return pipeline.error();
   extraction.counters.levels.resize(pipeline.value().level_count());
   for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)
     extraction.counters.levels[level].cell_size = pipeline.value().cell_size(level);
   const auto record_one = [&](Recorder& r) { return pipeline.value().record(r, 0, 1); };
   if (Status made = make_programs(context, record_one); !made.ok()) return made.error();
-  CertifiedRun run(context, mesh.value(), pipeline.value(), extraction);
-  if (Status s = run.run(progress); !s.ok()) return s.error();
+  CertifiedRun run(context, mesh.value(), pipeline.value(), watch, extraction);
+  if (Status s = run.run(); !s.ok()) return s.error();
   ExtractionCounters& c = extraction.counters;
   c.narrowing_steps = pipeline.value().narrowing_steps();
   const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
   c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
   sort_by_voxel(extraction.spheres);
   sort_by_voxel(extraction.undecided);
-  if (progress) progress(1.0);
   return extraction;
 }
 
 }  // namespace
 
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
-                                          const ExtractionParameters& parameters, const ProgressCallback& progress) {
+                                          const ExtractionParameters& parameters, const ProgressCallback& progress,
+                                          const std::stop_token& stop) {
   if (Status s = check_parameters(parameters); !s.ok()) return s.error();
-  if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, progress);
-  return extract_certified(context.impl(), mesh, parameters, progress);
+  StopWatch watch(progress, stop);
+  const auto extract = parameters.mode == Mode::kThesis ? extract_thesis : extract_certified;
+  Result<Extraction> extraction = extract(context.impl(), mesh, parameters, watch);
+  if (extraction.ok() && progress) progress(1.0);
+  return extraction;
 }
 
 }  // namespace medial_vk

@@ -103,13 +103,12 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
   const std::array<VkBufferView, 3> texels = {device_->triangle_texels, tree_->node_texels, tree_->frame_texels};
   const std::string shader =
       shape_.through_shared_memory ? "find_closest_in_packets_shared" : "find_closest_in_packets";
-  const ProgramKey key{
-      shader + storage_suffix(tree_->use_texels),
-      static_cast<std::uint32_t>(buffers.size()),
-      static_cast<std::uint32_t>(texels.size()),
-      sizeof(constants),
-      shape_.width,
-      {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
+  const ProgramKey key{shader + storage_suffix(tree_->use_texels),
+                       static_cast<std::uint32_t>(buffers.size()),
+                       static_cast<std::uint32_t>(texels.size()),
+                       sizeof(constants),
+                       shape_.width,
+                       {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
   if (counted) {
     r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
   } else {

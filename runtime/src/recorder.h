@@ -97,8 +97,9 @@ std::span<const std::byte> bytes_of(const T& value) {
 /// the programs.
 Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record);
 
-/// Records with `record`, submits, waits; returns seconds per stage. Errors: device lost (kInternal),
-/// kOutOfMemory, whatever `record` returns.
-Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record);
+/// Records with `record`, submits, waits; returns seconds per stage. `while_waiting` is called every ten milliseconds
+/// until the device is done. Errors: device lost (kInternal), kOutOfMemory, whatever `record` returns.
+Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
+                                            const std::function<void()>& while_waiting = {});
 
 }  // namespace medial_vk

@@ -19,7 +19,7 @@ class Submission {
 
   VkCommandBuffer commands() const { return commands_; }
   Status begin();
-  Status submit_and_wait();
+  Status submit_and_wait(const std::function<void()>& while_waiting);
 
  private:
   Context::Impl& context_;
@@ -64,7 +64,7 @@ Error submission_error(const Context::Impl& context, const char* call, VkResult 
                                     "device or a smaller memory budget"};
 }
 
-Status Submission::submit_and_wait() {
+Status Submission::submit_and_wait(const std::function<void()>& while_waiting) {
   VkResult result = context_.vk.vkEndCommandBuffer(commands_);
   if (result != VK_SUCCESS) return vulkan_error("vkEndCommandBuffer", result);
   VkSubmitInfo info{};
@@ -76,10 +76,12 @@ Status Submission::submit_and_wait() {
 
   // No deadline: a slow CPU under a debugger or a sanitizer may take as long as it likes, what is submitted cannot be
   // taken back, and a device that hangs is reported as lost by its driver.
-  constexpr std::uint64_t kMinute = 60'000'000'000ull;
-  do {
-    result = context_.vk.vkWaitForFences(context_.device, 1, &fence_, VK_TRUE, kMinute);
-  } while (result == VK_TIMEOUT);
+  constexpr std::uint64_t kMinute = 60'000'000'000ull, kMoment = 10'000'000ull;
+  for (;;) {
+    result = context_.vk.vkWaitForFences(context_.device, 1, &fence_, VK_TRUE, while_waiting ? kMoment : kMinute);
+    if (result != VK_TIMEOUT) break;
+    if (while_waiting) while_waiting();
+  }
   if (result != VK_SUCCESS) return submission_error(context_, "vkWaitForFences", result);
   return {};
 }
@@ -92,14 +94,15 @@ Status make_programs(Context::Impl& context, const std::function<Status(Recorder
   return context.make_programs(rehearsal.programs());
 }
 
-Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record) {
+Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
+                                            const std::function<void()>& while_waiting) {
   Submission submission(context);
   if (const Status begun = submission.begin(); !begun.ok()) return begun.error();
   Recorder recorder(context, submission.commands());  // its pools must outlive the wait
   if (const Status recorded = record(recorder); !recorded.ok()) return recorded.error();
   recorder.end_stages();
   if (const Status recorded = recorder.status(); !recorded.ok()) return recorded.error();
-  if (const Status ran = submission.submit_and_wait(); !ran.ok()) return ran.error();
+  if (const Status ran = submission.submit_and_wait(while_waiting); !ran.ok()) return ran.error();
   return recorder.stage_times();
 }
 

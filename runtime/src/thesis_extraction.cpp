@@ -21,9 +21,11 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const 
 }
 
 Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline& pipeline, std::uint32_t first,
-                 std::uint32_t count, Extraction& extraction) {
-  auto times = run_commands(context, [&](Recorder& r) { return pipeline.record(r, first, count); });
+                 std::uint32_t count, StopWatch& watch, Extraction& extraction) {
+  auto times = run_commands(
+      context, [&](Recorder& r) { return pipeline.record(r, first, count); }, [&] { watch.stopped(); });
   if (!times.ok()) return times.error();
+  if (watch.stopped()) return StopWatch::error();
   const auto counters = pipeline.read_counters();
   auto points = pipeline.read_points(counters[gpu::kThesisFound]);
   if (!points.ok()) return points.error();
@@ -36,13 +38,16 @@ Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline&
 }  // namespace
 
 Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
-                                  const ProgressCallback& progress) {
+                                  StopWatch& watch) {
+  Result<StopWord> stop = StopWord::create(context);
+  if (!stop.ok()) return stop.error();
+  watch.watch(stop.value());
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   Result<ThesisPipeline> created =
-      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size);
+      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, stop.value());
   if (!created.ok()) return created.error();
   const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };
   if (Status s = make_programs(context, record_one); !s.ok()) return s.error();
@@ -53,15 +58,13 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
   }
   const std::uint32_t total = pipeline.top_cells();
   for (std::uint32_t first = 0; first < total; first += pipeline.chunk_size()) {
-    if (progress && !progress(static_cast<double>(first) / total)) {
-      return Error{ErrorCode::kInterrupted, "interrupted during the extraction"};
-    }
+    watch.set_done(static_cast<double>(first) / total);
+    if (watch.stopped()) return StopWatch::error();
     const std::uint32_t count = std::min(pipeline.chunk_size(), total - first);
-    Status status = run_chunk(context, mesh.value(), pipeline, first, count, extraction);
+    Status status = run_chunk(context, mesh.value(), pipeline, first, count, watch, extraction);
     if (!status.ok()) return status.error();
   }
   sort_by_voxel(extraction.spheres);
-  if (progress) progress(1.0);
   return extraction;
 }
 

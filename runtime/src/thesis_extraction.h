@@ -3,11 +3,12 @@
 
 #include "context_impl.h"
 #include "medial_vk/extraction.h"
+#include "stop_word.h"
 
 namespace medial_vk {
 
 /// As extract_medial_spheres() with Mode::kThesis, whose errors it has. The parameters have been checked.
 Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& mesh, const ExtractionParameters& parameters,
-                                  const ProgressCallback& progress);
+                                  StopWatch& watch);
 
 }  // namespace medial_vk

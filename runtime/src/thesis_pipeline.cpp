@@ -30,17 +30,18 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) /
 
 }  // namespace
 
-ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters)
-    : context_(&context), mesh_(&mesh), parameters_(parameters), arena_(context) {}
+ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
+                               const StopWord& stop)
+    : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
 
 Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
                                               const ExtractionParameters& parameters,
-                                              const std::array<std::uint32_t, 3>& grid) {
+                                              const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   for (const std::uint32_t samples : parameters.samples) {
     if (samples >= 1 && samples <= 4096) continue;
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to 4096"};
   }
-  ThesisPipeline p(context, mesh, parameters);
+  ThesisPipeline p(context, mesh, parameters, stop);
   p.grid_ = grid;
   // Four levels as in the source; fewer while a top cell would be more than half of the longest side.
   while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > parameters.resolution) --p.levels_;
@@ -187,8 +188,8 @@ VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t div
   constants.item_limit = 0xffffffffu;
   constants.list_counter = gpu::kNoCounter;
   constants.argument = next_argument_++ % kMostArguments;
-  const std::array<BufferRange, 2> buffers = {counters_.range(), arguments_.range()};
-  r.dispatch({"prepare_dispatch", 2, 0, sizeof(constants), 1, {}}, buffers, {}, bytes_of(constants), 1);
+  const std::array<BufferRange, 3> buffers = {counters_.range(), arguments_.range(), stop_->range()};
+  r.dispatch({"prepare_dispatch", 3, 0, sizeof(constants), 1, {}}, buffers, {}, bytes_of(constants), 1);
   r.barrier();
   return VkDeviceSize{constants.argument} * 12;
 }

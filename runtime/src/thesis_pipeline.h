@@ -16,6 +16,7 @@
 #include "flux_sampler.h"
 #include "medial_vk/extraction.h"
 #include "scene.h"
+#include "stop_word.h"
 #include "thesis_types.h"
 #include "tree_queries.h"
 
@@ -23,10 +24,10 @@ namespace medial_vk {
 
 class ThesisPipeline {
  public:
-  /// `mesh`, made of `view`, must outlive the pipeline. Errors: kOutOfMemory, kInternal.
+  /// `mesh`, made of `view`, and `stop` must outlive the pipeline. Errors: kOutOfMemory, kInternal.
   static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
-                                       const ExtractionParameters& parameters,
-                                       const std::array<std::uint32_t, 3>& grid);
+                                       const ExtractionParameters& parameters, const std::array<std::uint32_t, 3>& grid,
+                                       const StopWord& stop);
   ThesisPipeline(ThesisPipeline&&) noexcept = default;
 
   std::uint32_t level_count() const { return levels_; }
@@ -45,7 +46,8 @@ class ThesisPipeline {
   Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
 
  private:
-  ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters);
+  ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
+                 const StopWord& stop);
 
   /// Items of a dispatch: counters[counter] * multiplier.
   struct Items {
@@ -76,6 +78,7 @@ class ThesisPipeline {
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;
+  const StopWord* stop_;
   ExtractionParameters parameters_;
   Arena arena_;
   std::unique_ptr<TreeQueries> queries_;    // a fixed place: the flux sampler refers to it

@@ -44,7 +44,7 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
   const gpu::QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
                                          count.multiplier, mesh_->triangle_count, tolerance};
   const char* suffix = storage_suffix(mesh_->use_texels);
-  ProgramKey key{kernel.walk, static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize,
+  ProgramKey key{kernel.walk,     static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize,
                  kernel.constants};
   key.shader += suffix;
   if (count.arguments != nullptr) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -119,14 +120,16 @@ struct Extraction {
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
 };
 
-/// Called between pieces of work with the share done, 0 to 1; return false to stop (Error kInterrupted).
+/// Called with the share done, 0 to 1, between pieces of work and every ten milliseconds while the device computes;
+/// return false to stop (Error kInterrupted).
 using ProgressCallback = std::function<bool(double done)>;
 
-/// Finds the medial spheres of `mesh` on the device of `context`. Blocks until done.
-/// The spheres are exact to float: certify() (src/medial/certify.h) makes the guarantee in double.
-/// Errors: kUsage (a parameter out of range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal (device lost).
+/// Finds the medial spheres of `mesh` on the device of `context`. Blocks until done, or until `stop` is requested from
+/// any thread: then the device finishes the dispatch it is at, and the context is as before. The spheres are exact to
+/// float: certify() (src/medial/certify.h) makes the guarantee in double. Errors: kUsage (a parameter out of range),
+/// kInvalidMesh, kOutOfMemory, kInterrupted, kInternal (device lost).
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
-                                          const ExtractionParameters& parameters,
-                                          const ProgressCallback& progress = {});
+                                          const ExtractionParameters& parameters, const ProgressCallback& progress = {},
+                                          const std::stop_token& stop = {});
 
 }  // namespace medial_vk

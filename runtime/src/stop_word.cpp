@@ -1,0 +1,29 @@
+#include "stop_word.h"
+
+#include <atomic>
+#include <cstring>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+
+Result<StopWord> StopWord::create(Context::Impl& context) {
+  StopWord stop(context);
+  Result<Buffer> buffer = stop.arena_.create_buffer(16, MemoryKind::kUpload, "the word that stops a job");
+  if (!buffer.ok()) return buffer.error();
+  stop.word_ = buffer.value();
+  std::memset(stop.word_.mapped, 0, 16);
+  return stop;
+}
+
+void StopWord::raise() {
+  std::atomic_ref<std::uint32_t>(*static_cast<std::uint32_t*>(word_.mapped)).store(1, std::memory_order_release);
+}
+
+bool StopWatch::stopped() {
+  if (!stopped_) stopped_ = stop_.stop_requested() || (progress_ && !progress_(done_));
+  if (stopped_ && word_ != nullptr) word_->raise();
+  return stopped_;
+}
+
+}  // namespace medial_vk

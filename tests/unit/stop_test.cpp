@@ -1,0 +1,82 @@
+// Stopping an extraction, from another thread or by the callback: it ends with kInterrupted, and the context is as
+// before.
+#include <chrono>
+#include <stop_token>
+#include <thread>
+
+#include "medial_vk/extraction.h"
+#include "support/device_test.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
+ protected:
+  static ExtractionParameters parameters(std::uint32_t resolution) {
+    ExtractionParameters p;
+    p.mode = GetParam();
+    p.resolution = resolution;
+    return p;
+  }
+  Result<Extraction> extract(const ProgressCallback& progress, const std::stop_token& stop) {
+    return extract_medial_spheres(*context_, mesh_.view(), parameters(kLong), progress, stop);
+  }
+  void expect_interrupted(const Result<Extraction>& result) {
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::kInterrupted) << result.error().message;
+  }
+  /// The context still gives what a fresh one gives.
+  void expect_usable() {
+    const auto spheres_of = [&](Context& context) {
+      const Result<Extraction> e = extract_medial_spheres(context, mesh_.view(), parameters(12));
+      EXPECT_TRUE(e.ok()) << (e.ok() ? "" : e.error().message);
+      std::vector<Point> centres;
+      if (e.ok()) {
+        for (const MedialSphere& s : e.value().spheres) centres.push_back(s.centre);
+      }
+      return centres;
+    };
+    Context fresh = test::make_context();
+    const std::vector<Point> expected = spheres_of(fresh);
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(spheres_of(*context_), expected);
+  }
+
+  static constexpr std::uint32_t kLong = 400;  // seconds on any CPU
+  PreparedMesh mesh_ = test::prepare(test::make_torus(1.0, 0.4, 24, 48));
+};
+
+TEST_P(Stop, RequestedBeforeTheStart) {
+  std::stop_source source;
+  source.request_stop();
+  expect_interrupted(extract({}, source.get_token()));
+  expect_usable();
+}
+
+TEST_P(Stop, RequestedByAnotherThreadWhileTheDeviceComputes) {
+  for (const int milliseconds : {5, 100, 300}) {
+    std::stop_source source;
+    std::jthread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      source.request_stop();
+    });
+    expect_interrupted(extract({}, source.get_token()));
+  }
+  expect_usable();
+}
+
+// The callback is asked while the device computes, too: this one never says stop between two chunks.
+TEST_P(Stop, ByTheCallback) {
+  int calls = 0;
+  expect_interrupted(extract([&](double) { return ++calls < 12; }, {}));
+  EXPECT_GE(calls, 12);
+  expect_usable();
+}
+
+INSTANTIATE_TEST_SUITE_P(, Stop, testing::Values(Mode::kCertified, Mode::kThesis),
+                         [](const auto& tested) { return tested.param == Mode::kThesis ? "Thesis" : "Certified"; });
+
+}  // namespace
+}  // namespace medial_vk
