@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// The nearest triangle, among the contacts of a cell, of points in that cell: the one kernel that asks distances.
+// The nearest triangle, among the contacts of a cell, of points in that cell.
 // An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them.
 // Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one before.
 #include "step.glsl"

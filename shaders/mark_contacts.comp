@@ -1,9 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md), for the ball that the child's list
-// must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One invocation per parent and
-// child; one bit per list entry. The eight children of a parent walk one list.
+// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses, for the ball that
+// the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One invocation
+// per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
+// triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
 //
 // The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the nearest
 // triangle: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey

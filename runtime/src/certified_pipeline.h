@@ -3,9 +3,10 @@
 //
 //   gather contacts of the top cells
 //   for each level, coarse to fine and below the finest voxel:
-//     nearest triangle of every child -> mark its contacts -> dismiss -> decide its side -> write the kept ones
-//     from the finest level on: dismiss by pairs -> propose lines -> keep those that turn -> narrow -> verify -> elect
-//     one per voxel
+//     mark the contacts of every child -> dismiss -> decide its side -> write the kept ones
+//     at the finest level: one line across the nearest sheet for every voxel (the steps of lines are below)
+//     from the finest level on, for what is left: dismiss by pairs -> propose lines
+//       -> keep those that turn -> narrow -> verify -> elect one per voxel; say what is undecided
 //   collect the points, measure their flux
 #pragma once
 
