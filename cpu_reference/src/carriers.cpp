@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace medial_vk::reference {
 namespace {
@@ -56,9 +57,9 @@ class Collector {
     std::vector<Carrier> left;
     left.reserve(carriers_.size());
     for (const Carrier& a : carriers_) {
-      const std::size_t rivals = std::min(kMostRivals, left.size());
+      const auto rivals = std::span(left).first(std::min(kMostRivals, left.size()));
       const auto beats = [&](const Carrier& c) { return is_beaten(a, a, 0, c, box_, slack); };
-      if (std::none_of(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(rivals), beats)) left.push_back(a);
+      if (std::ranges::none_of(rivals, beats)) left.push_back(a);
     }
     return left;
   }

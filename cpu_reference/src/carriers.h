@@ -22,7 +22,7 @@ struct Carrier {
   int normal_count;
   double normal_cosine;  // of the greatest angle between one of them and an axis near all
   Cap spokes;
-  double distance;            // from the centre of the box
+  double distance = 0;        // from the centre of the box
   Eigen::Vector3d direction;  // to the nearest point; 0 at distance 0
 };
 

@@ -65,7 +65,7 @@ class VoxelSearch {
   Result& result_;
   Eigen::Vector3i voxel_;
   Eigen::Vector3d lower_, upper_;  // of the voxel, a hair inside
-  Undecided undecided_;
+  Undecided undecided_{};
 };
 
 /// The radius that is written for a computed distance: rounded down, so that the ball cannot protrude.

@@ -57,7 +57,7 @@ double ThesisPipeline::cell_size(std::uint32_t level) const {
 
 Status ThesisPipeline::allocate(const MeshView& view) {
   std::uint64_t cells_per_top = 1;    // at the finest level
-  std::uint64_t samples_per_top = 0;  // at any level
+  std::uint64_t samples_per_top = 1;  // at any level, and never none
   for (std::uint32_t level = 0; level < levels_; ++level) {
     cells_per_top = std::uint64_t{1} << (3 * level);
     samples_per_top = std::max(samples_per_top, cells_per_top * samples(level));

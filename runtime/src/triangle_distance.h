@@ -14,8 +14,8 @@ struct NearestOffset {
   Point offset;
 };
 
-/// True only if the whole triangle is farther from p than the square root of `squared_limit`: it lies beyond the plane at
-/// that distance across the direction s to its centre, since min over its corners of s.(corner - p) > limit |s|. A
+/// True only if the whole triangle is farther from p than the square root of `squared_limit`: it lies beyond the plane
+/// at that distance across the direction s to its centre, since min over its corners of s.(corner - p) > limit |s|. A
 /// quarter of the work of nearest_on_triangle(), and it says so for nearly all small triangles that are.
 inline bool clearly_beyond(const Point& p, const std::array<Point, 3>& corners, double squared_limit) {
   const Point a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;

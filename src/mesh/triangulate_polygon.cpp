@@ -233,10 +233,12 @@ bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t
       std::rotate(kept.begin(), kept.begin() + 1, kept.end());
     }
   }
-  const std::size_t before = triangles.size();
-  const bool zero_area = normal == Point{0, 0, 0};
-  if (!zero_area && EarClipper(std::move(points), kept).clip(triangles)) return true;
-  triangles.resize(before);
+  if (normal != Point{0, 0, 0}) {
+    const std::size_t before = triangles.size();
+    EarClipper clipper(std::move(points), kept);
+    if (clipper.clip(triangles)) return true;
+    triangles.resize(before);
+  }
   for (std::size_t i = 1; i + 1 < kept.size(); ++i) triangles.push_back({kept[0], kept[i], kept[i + 1]});
   return false;
 }
