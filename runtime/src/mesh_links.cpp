@@ -179,7 +179,7 @@ class Builder {
     gpu::TriangleLinks& links = out_.links[first.position];
     links.neighbour[first.corner] = second.position;
     if (reflex && !flat) links.flags |= gpu::kLinkEdge << first.corner;
-    partners_.push_back({first.position, second.position});
+    partners_.emplace_back(first.position, second.position);
   }
 
   // A feature that an untrusted triangle shares need not be listed: that triangle is listed as a whole.

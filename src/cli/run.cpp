@@ -197,10 +197,7 @@ class ExtractionRun {
   }
 
   bool standard_output_taken() const {
-    for (const OutputFile& file : files_) {
-      if (file.path == "-") return true;
-    }
-    return false;
+    return std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
   }
 
   Status conclude() {

@@ -81,13 +81,12 @@ Vector3f over_front_wall(const Vector3f& below, const Vector3f& normal) {
 bool on_line(const SurfaceLayer& layer, std::size_t pixel) {
   constexpr float kCrease = 0.80f;
   const bool here = layer.nearness[pixel] > 0;
-  for (const std::size_t step : {std::size_t{1}, std::size_t{layer.width}}) {
-    if (pixel + step >= layer.nearness.size()) continue;
+  const auto ends_before = [&](std::size_t step) {
+    if (pixel + step >= layer.nearness.size()) return false;
     const bool there = layer.nearness[pixel + step] > 0;
-    if (here != there) return true;
-    if (here && layer.normal[pixel].dot(layer.normal[pixel + step]) < kCrease) return true;
-  }
-  return false;
+    return here != there || (here && layer.normal[pixel].dot(layer.normal[pixel + step]) < kCrease);
+  };
+  return ends_before(1) || ends_before(layer.width);
 }
 
 Vector3f sample_colour(const Layers& layers, std::size_t pixel, const Camera& camera, const ColourScale& scale,
