@@ -20,9 +20,10 @@ struct MutationOutcome {
 /// Makes the mutation of a seed, extracts it on the device and by the reference, and compares:
 ///   * it is refused as an invalid mesh, with a message, or both extractions finish;
 ///   * every ball passes every condition of the certificate, asked by the reference;
-///   * where the mesh is closed, neither finds a clearly salient point in the middle of voxels that the other has
-///   proved
-///     empty. (Of open meshes the two decide sides differently: docs/decisions.md.)
+///   * where the mesh is closed, neither finds a clearly salient point, of a radius that float can tell from none, in
+///   the
+///     middle of voxels that the other has proved empty. (Of open meshes the two decide sides differently:
+///     docs/decisions.md.)
 MutationOutcome check_mutation(Context& context, std::uint64_t seed);
 
 }  // namespace medial_vk::test
