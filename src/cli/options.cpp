@@ -125,6 +125,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+/// At least so many edits turn one word into the other.
+std::size_t difference_of_lengths(const std::string& a, const std::string& b) {
+  return std::max(a.size(), b.size()) - std::min(a.size(), b.size());
+}
+
 /// "; did you mean --resolution?" if there is an option close to the unknown one, else nothing.
 std::string suggestion(const CLI::App& app, const std::string& unknown) {
   const std::string name = unknown.substr(0, unknown.find('='));
@@ -132,7 +137,9 @@ std::string suggestion(const CLI::App& app, const std::string& unknown) {
   std::size_t best_distance = 4;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& known : option->get_lnames()) {
-      const std::size_t distance = edit_distance(name, "--" + known);
+      const std::string full = "--" + known;
+      if (difference_of_lengths(name, full) >= best_distance) continue;
+      const std::size_t distance = edit_distance(name, full);
       if (distance < best_distance) {
         best_distance = distance;
         best = known;

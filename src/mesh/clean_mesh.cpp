@@ -144,6 +144,7 @@ void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint3
   const MeshTopology topology(prepared.mesh);
   const auto is_pair = [&](std::uint32_t t) { return copies[first[t]] == 2; };
   std::vector<bool> seen(triangles.size(), false);
+  std::vector<bool> edge_seen(topology.edge_count(), false);  // all pairs at an edge are of one region
   std::vector<std::uint32_t> region;
   for (std::uint32_t start = 0; start < triangles.size(); ++start) {
     if (first[start] != start || !is_pair(start) || seen[start]) continue;
@@ -152,8 +153,11 @@ void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint3
     bool held = false, loose = false;
     for (std::size_t at = 0; at < region.size(); ++at) {
       for (int k = 0; k < 3; ++k) {
+        const std::uint32_t edge = topology.edge_of(region[at], k);
+        if (edge_seen[edge]) continue;
+        edge_seen[edge] = true;
         std::uint32_t pairs = 0, others = 0;
-        for (const std::uint32_t t : topology.triangles_of(topology.edge_of(region[at], k))) {
+        for (const std::uint32_t t : topology.triangles_of(edge)) {
           if (first[t] != t) continue;
           if (!is_pair(t)) {
             ++others;

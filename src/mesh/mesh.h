@@ -17,7 +17,7 @@ struct Mesh {
 
   // What a reader had to do to polygons that are no plain triangles; passed on to the report.
   std::uint64_t short_polygons = 0;     ///< Faces of fewer than three corners, left out.
-  std::uint64_t fallback_polygons = 0;  ///< Faces that cross themselves, cut into a fan from their first corner.
+  std::uint64_t fallback_polygons = 0;  ///< Faces that cross themselves (or take too long), cut into a fan.
 };
 
 /// What prepare_mesh() found; printed in the summary, written to the report.

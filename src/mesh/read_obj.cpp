@@ -66,6 +66,7 @@ class ObjReader {
         return index_error(scanner_.line(), index);
       }
       if (index < 0) index += count + 1;
+      if (size == kMaxCorners) return line_error(name_, scanner_.line(), "a face has too many corners");
       if (index > count) forward_.push_back({scanner_.line(), static_cast<std::uint64_t>(index)});
       soup_.corners.push_back(static_cast<std::uint32_t>(index - 1));
     }

@@ -87,6 +87,7 @@ class OffReader {
       if (static_cast<std::uint64_t>(size) > scanner_.bytes_left() / 2 + 1) {
         return error(fmt::format("face declares {} corners, more than the rest of the file can hold", size));
       }
+      if (static_cast<std::uint64_t>(size) > kMaxCorners) return error("a face has too many corners");
       for (std::int64_t k = 0; k < size; ++k) {
         std::int64_t index = 0;
         word = next();

@@ -260,6 +260,7 @@ class PlyReader {
   Status read_face(std::uint64_t face, const PlyProperty& property) {
     std::uint64_t size = 0;
     if (Status status = body_.read_length(property, size); !status) return status;
+    if (size > kMaxCorners) return body_.error("a face has too many corners");
     for (std::uint64_t k = 0; k < size; ++k) {
       PlyValue value;
       if (Status status = body_.read(property.type, value); !status) return status;

@@ -21,5 +21,7 @@ bool has_size_of_binary_stl(std::string_view bytes);
 
 /// Indices are 32 bits wide, and the last value is kept for "none".
 constexpr std::uint64_t kMaxVertices = 0xfffffffe;
+/// Of one face: their number is kept in 32 bits.
+constexpr std::uint64_t kMaxCorners = 0xffffffff;
 
 }  // namespace medial_vk

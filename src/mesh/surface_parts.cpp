@@ -14,6 +14,7 @@ std::uint32_t number_pieces(const Mesh& mesh, const MeshTopology& topology, Pass
                             std::vector<std::uint32_t>& piece_of) {
   piece_of.assign(mesh.triangles.size(), kNone);
   std::vector<std::uint32_t> stack;
+  std::vector<bool> crossed(topology.edge_count(), false);  // once: thousands of triangles may share one
   std::uint32_t pieces = 0;
   for (std::uint32_t start = 0; start < piece_of.size(); ++start) {
     if (piece_of[start] != kNone) continue;
@@ -24,7 +25,8 @@ std::uint32_t number_pieces(const Mesh& mesh, const MeshTopology& topology, Pass
       stack.pop_back();
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t edge = topology.edge_of(t, k);
-        if (!passes(edge)) continue;
+        if (crossed[edge] || !passes(edge)) continue;
+        crossed[edge] = true;
         for (const std::uint32_t other : topology.triangles_of(edge)) {
           if (piece_of[other] != kNone) continue;
           piece_of[other] = pieces;

@@ -46,11 +46,13 @@ class CornerGrid {
     }
   }
 
-  /// Calls visit(i) for the corners near the box until it returns true; returns whether it did.
+  /// Calls visit(i) for the corners near the box until it returns true; returns whether it did. Takes every cell that
+  /// it looks into from `work_left`.
   template <class Visit>
-  bool any(const Point2& lower, const Point2& upper, Visit visit) const {
+  bool any(const Point2& lower, const Point2& upper, std::int64_t& work_left, Visit visit) const {
     for (std::ptrdiff_t r = row(lower.y); r <= row(upper.y); ++r) {
       for (std::ptrdiff_t c = column(lower.x); c <= column(upper.x); ++c) {
+        --work_left;
         const std::size_t at = cell(c, r);
         for (std::uint32_t i = starts_[at]; i < starts_[at + 1]; ++i) {
           if (visit(items_[i])) return true;
@@ -77,8 +79,8 @@ class CornerGrid {
 
 class EarClipper {
  public:
-  EarClipper(std::vector<Point2> points, std::vector<std::uint32_t> corners)
-      : points_(std::move(points)), corners_(std::move(corners)) {
+  EarClipper(std::vector<Point2> points, std::vector<std::uint32_t> corners, std::int64_t& work_left)
+      : points_(std::move(points)), corners_(std::move(corners)), work_left_(work_left) {
     const auto n = static_cast<std::uint32_t>(points_.size());
     next_.resize(n);
     previous_.resize(n);
@@ -96,6 +98,7 @@ class EarClipper {
   bool clip(std::vector<Triangle>& triangles) {
     std::uint32_t at = 0, tried = 0;
     while (left_ > 3) {
+      if (--work_left_ < 0) return false;
       if (is_ear(at)) {
         emit(at, triangles);
         remove(at);
@@ -106,7 +109,7 @@ class EarClipper {
         if (++tried <= left_) continue;
         // Stuck. A corner on a line with its neighbours, or a spike, bounds no area: leave one out and go on.
         std::uint32_t flat = at;
-        for (std::uint32_t i = 0; i < left_ && area(flat) != 0; ++i) flat = next_[flat];
+        for (std::uint32_t i = 0; i < left_ && area(flat) != 0; ++i, --work_left_) flat = next_[flat];
         if (area(flat) != 0) return false;
         at = next_[flat];
         remove(flat);
@@ -132,10 +135,11 @@ class EarClipper {
     --left_;
   }
 
-  bool is_ear(std::uint32_t i) const {
+  bool is_ear(std::uint32_t i) {
     if (!(area(i) > 0)) return false;
     const Point2 &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
     const auto blocks = [&](std::uint32_t j) {
+      --work_left_;
       if (!alive_[j] || j == i || j == previous_[i] || j == next_[i]) return false;
       const Point2& p = points_[j];
       // A repeated point (the bridge to a hole) blocks only if its own sides lead into the ear.
@@ -145,7 +149,7 @@ class EarClipper {
     if (use_grid_) {
       const Point2 lower = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
       const Point2 upper = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
-      return !grid_.any(lower, upper, blocks);
+      return !grid_.any(lower, upper, work_left_, blocks);
     }
     for (std::uint32_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       if (blocks(j)) return false;
@@ -167,6 +171,7 @@ class EarClipper {
   std::vector<Point2> points_;
   std::vector<std::uint32_t> corners_, next_, previous_;
   std::vector<bool> alive_;
+  std::int64_t& work_left_;
   std::uint32_t left_ = 0;
   CornerGrid grid_;
   bool use_grid_ = false;
@@ -196,7 +201,7 @@ double squared_distance(const Point& a, const Point& b) {
 }  // namespace
 
 bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t* corners, std::uint32_t size,
-                         std::vector<Triangle>& triangles) {
+                         std::int64_t& work_left, std::vector<Triangle>& triangles) {
   if (size == 3) {
     triangles.push_back({corners[0], corners[1], corners[2]});
     return true;
@@ -235,7 +240,7 @@ bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t
   }
   if (normal != Point{0, 0, 0}) {
     const std::size_t before = triangles.size();
-    EarClipper clipper(std::move(points), kept);
+    EarClipper clipper(std::move(points), kept, work_left);
     if (clipper.clip(triangles)) return true;
     triangles.resize(before);
   }
@@ -246,12 +251,19 @@ bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t
 Mesh triangulate(PolygonSoup soup) {
   Mesh mesh;
   mesh.triangles.reserve(soup.sizes.size());
+  // A circle of a million corners takes 330 looks for each, a spiral of 8000 takes 18000. A tangle with many corners on
+  // a line takes the square of its length for each: from a file of 1 MB, hours. So beyond an allowance of its own, all
+  // polygons together have a few seconds: a look takes 5 to 10 ns.
+  constexpr std::int64_t kLooksPerCorner = 400;
+  std::int64_t reserve = 400'000'000;
   const std::uint32_t* corners = soup.corners.data();
   for (const std::uint32_t size : soup.sizes) {
     if (size < 3) {
       ++mesh.short_polygons;
-    } else if (!triangulate_polygon(soup.vertices, corners, size, mesh.triangles)) {
-      ++mesh.fallback_polygons;
+    } else {
+      std::int64_t work_left = reserve + kLooksPerCorner * size;
+      if (!triangulate_polygon(soup.vertices, corners, size, work_left, mesh.triangles)) ++mesh.fallback_polygons;
+      reserve = std::clamp<std::int64_t>(work_left, 0, reserve);
     }
     corners += size;
   }

@@ -38,8 +38,9 @@ void write_assumptions(MeshReport& r) {
     say(fmt::format("{} between two solids that touch: left out, the solids are one.", faces(r.inner_walls_dropped)));
   }
   if (r.fallback_polygons > 0) {
-    say(fmt::format("{} with sides that cross: cut into a fan of triangles from the first corner.",
-                    count_of(r.fallback_polygons, "polygon", "polygons")));
+    say(fmt::format(
+        "{} with sides that cross, or too tangled to be cut in time: made a fan of triangles from the first corner.",
+        count_of(r.fallback_polygons, "polygon", "polygons")));
   }
   if (r.open_edges > 0) {
     say(fmt::format("{}: inside is where the winding number is at least 1/2.", edges(r.open_edges, "open")));

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "output/medial_file.h"
 
@@ -42,7 +44,7 @@ class Cursor {
   bool text(T& out) {
     const std::string_view digits = word();
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
-    return error == std::errc() && end == digits.data() + digits.size();
+    return error == std::errc() && end == digits.data() + digits.size() && is_finite(out);
   }
 
   template <class T>
@@ -53,12 +55,19 @@ class Cursor {
     if constexpr (std::endian::native == std::endian::big) std::reverse(std::begin(bytes), std::end(bytes));
     std::memcpy(&out, bytes, sizeof(T));
     rest_.remove_prefix(sizeof(T));
-    return true;
+    return is_finite(out);
   }
 
   bool only_space_left() const { return rest_.find_first_not_of(" \n") == std::string_view::npos; }
+  bool at_line_end() const { return rest_.starts_with('\n'); }
 
  private:
+  template <class T>
+  static bool is_finite(T number) {
+    if constexpr (std::is_floating_point_v<T>) return std::isfinite(number);
+    return true;
+  }
+
   std::string_view rest_;
 };
 
@@ -67,19 +76,33 @@ struct Layout {
   std::uint64_t points = 0;
 };
 
-bool read_comment(Cursor words, MedialHeader& header) {
+/// Every comment of the contract, as a set of bits.
+constexpr unsigned kAllComments = 63;
+
+/// `seen`: the bit of the comment is added.
+bool read_comment(Cursor words, MedialHeader& header, unsigned& seen) {
   const std::string_view key = words.word();
   if (key == "medial-vk") {
+    seen |= 1;
     header.version = words.word();
     return !header.version.empty();
   }
   if (key == "grid_origin") {
-    return words.text(header.grid_origin[0]) && words.text(header.grid_origin[1]) && words.text(header.grid_origin[2]);
+    seen |= 2;
+    return std::all_of(header.grid_origin.begin(), header.grid_origin.end(), [&](double& x) { return words.text(x); });
   }
-  if (key == "voxel_size") return words.text(header.voxel_size);
-  if (key == "epsilon") return words.text(header.epsilon);
-  if (key == "object_angle") return words.text(header.object_angle);
-  if (key == "radius_threshold") return words.text(header.radius_threshold);
+  const std::pair<std::string_view, double*> numbers[] = {{"voxel_size", &header.voxel_size},
+                                                          {"epsilon", &header.epsilon},
+                                                          {"object_angle", &header.object_angle},
+                                                          {"radius_threshold", &header.radius_threshold}};
+  unsigned bit = 4;
+  for (const auto& [name, number] : numbers) {
+    if (key == name) {
+      seen |= bit;
+      return words.text(*number);
+    }
+    bit *= 2;
+  }
   return true;  // Somebody else's comment.
 }
 
@@ -90,12 +113,15 @@ bool read_header(Cursor& cursor, MedialHeader& header, Layout& layout) {
   layout.ascii = format == "format ascii 1.0";
   if (!layout.ascii && format != "format binary_little_endian 1.0") return false;
   std::size_t properties = 0;
+  unsigned comments = 0;
   while (const std::optional<std::string_view> line = cursor.line()) {
     Cursor words(*line);
     const std::string_view key = words.word();
-    if (key == "end_header") return properties == std::size(kProperties) && header.voxel_size > 0;
+    if (key == "end_header") {
+      return properties == std::size(kProperties) && comments == kAllComments && header.voxel_size > 0;
+    }
     if (key == "comment") {
-      if (!read_comment(words, header)) return false;
+      if (!read_comment(words, header, comments)) return false;
     } else if (key == "element") {
       if (words.word() != "vertex" || !words.text(layout.points)) return false;
     } else if (key == "property") {
@@ -146,7 +172,9 @@ Result<MedialFile> decode_ply(std::string_view bytes, const std::string& name) {
     if (!place_in_voxel(file.header, file.spheres[i]))
       return invalid(name, fmt::format("point {} is outside the grid", i));
   }
-  if (!layout.ascii && !cursor.only_space_left()) return invalid(name, "bytes follow the last point");
+  // Without its line end the last number may have lost digits.
+  if (layout.ascii && !file.spheres.empty() && !cursor.at_line_end()) return invalid(name, "the last line is cut");
+  if (!cursor.only_space_left()) return invalid(name, "bytes follow the last point");
   return file;
 }
 

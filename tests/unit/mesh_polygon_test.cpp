@@ -12,6 +12,8 @@
 namespace medial_vk {
 namespace {
 
+constexpr std::int64_t kPlenty = 1'000'000'000;
+
 using Outline = std::vector<std::array<double, 2>>;
 
 /// The outline in a tilted plane of 3-space.
@@ -38,7 +40,8 @@ void expect_covered(const Outline& outline, double tilt, std::size_t repeated = 
   std::vector<std::uint32_t> corners(points.size());
   for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
   std::vector<Triangle> triangles;
-  ASSERT_TRUE(triangulate_polygon(points, corners.data(), static_cast<std::uint32_t>(corners.size()), triangles));
+  std::int64_t work = kPlenty;
+  ASSERT_TRUE(triangulate_polygon(points, corners.data(), static_cast<std::uint32_t>(corners.size()), work, triangles));
   EXPECT_EQ(triangles.size(), points.size() - 2 - repeated);
   Point normal = {0, 0, 0};
   double sum = 0;
@@ -108,7 +111,8 @@ TEST(Polygon, SidesThatCrossGiveAFan) {
   for (const auto& p : {points, bow}) {
     const std::uint32_t corners[] = {0, 1, 2, 3};
     std::vector<Triangle> triangles;
-    EXPECT_FALSE(triangulate_polygon(p, corners, 4, triangles));
+    std::int64_t work = kPlenty;
+    EXPECT_FALSE(triangulate_polygon(p, corners, 4, work, triangles));
     EXPECT_EQ(triangles.size(), 2u);
   }
   PolygonSoup soup;
@@ -132,12 +136,22 @@ TEST(Polygon, WildOnesEndAndStayInRange) {
     std::vector<std::uint32_t> corners(points.size());
     for (std::uint32_t& c : corners) c = static_cast<std::uint32_t>(random() % points.size());
     std::vector<Triangle> triangles;
-    (void)triangulate_polygon(points, corners.data(), static_cast<std::uint32_t>(corners.size()), triangles);
+    std::int64_t work = kPlenty;
+    (void)triangulate_polygon(points, corners.data(), static_cast<std::uint32_t>(corners.size()), work, triangles);
     EXPECT_LE(triangles.size(), corners.size());
     for (const Triangle& t : triangles) {
       for (const std::uint32_t v : t) EXPECT_LT(v, points.size());
     }
   }
+}
+
+TEST(Polygon, WithoutTimeLeftItBecomesAFan) {
+  const std::vector<Point> points = lift({{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}, 0.2);
+  const std::uint32_t corners[] = {0, 1, 2, 3, 4};
+  std::vector<Triangle> triangles;
+  std::int64_t work = 2;
+  EXPECT_FALSE(triangulate_polygon(points, corners, 5, work, triangles));
+  EXPECT_EQ(triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
 TEST(Polygon, LargeOnes) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 #include "output/medial_file.h"
@@ -163,6 +164,49 @@ TEST(OutputMedialFile, ReaderRefusesForeignHeadersAndWildCounts) {
   EXPECT_FALSE(decode_ply(replaced("little", "big"), "test").ok());
   EXPECT_FALSE(decode_ply(replaced("property double x\n", "property\n"), "test").ok());
   EXPECT_FALSE(decode_ply("", "test").ok());
+}
+
+// Found by the fuzz target read_medial_ply: what has no version could be read, but not be written and read again.
+TEST(OutputMedialFile, ReaderRefusesAHeaderWithoutOneOfItsComments) {
+  const std::string ply = encode_ply(some_header(), some_spheres(), true);
+  for (const char* comment : {"comment medial-vk", "comment grid_origin", "comment voxel_size", "comment epsilon",
+                              "comment object_angle", "comment radius_threshold"}) {
+    std::string copy = ply;
+    copy.replace(copy.find(comment), std::string_view("comment ").size(), "comment no_");
+    const Result<MedialFile> file = decode_ply(copy, "test");
+    ASSERT_FALSE(file.ok()) << comment;
+    EXPECT_EQ(file.error().message, "test: the header is not that of a medial PLY");
+  }
+}
+
+TEST(OutputMedialFile, ReaderRefusesWhatFollowsTheLastPoint) {
+  for (const bool ascii : {false, true}) {
+    const std::string ply = encode_ply(some_header(), some_spheres(), ascii);
+    EXPECT_FALSE(decode_ply(ply + "0", "test").ok());
+  }
+}
+
+// "12" may be what was left of "123".
+TEST(OutputMedialFile, ReaderRefusesALastLineWithoutItsEnd) {
+  std::vector<MedialSphere> spheres = some_spheres();
+  spheres.back().sheet = 123;
+  const std::string text = encode_ply(some_header(), spheres, true);
+  ASSERT_TRUE(text.ends_with(" 123\n"));
+  for (std::size_t cut = 1; cut <= 4; ++cut) {
+    EXPECT_FALSE(decode_ply(std::string_view(text).substr(0, text.size() - cut), "test").ok()) << cut;
+  }
+}
+
+TEST(OutputMedialFile, ReaderRefusesNumbersThatAreNone) {
+  std::vector<MedialSphere> spheres = some_spheres();
+  MedialHeader header = some_header();
+  spheres[1].radius = std::numeric_limits<double>::infinity();
+  for (const bool ascii : {false, true}) EXPECT_FALSE(decode_ply(encode_ply(header, spheres, ascii), "test").ok());
+  spheres = some_spheres();
+  spheres[0].spoke_b[1] = std::numeric_limits<float>::quiet_NaN();
+  for (const bool ascii : {false, true}) EXPECT_FALSE(decode_ply(encode_ply(header, spheres, ascii), "test").ok());
+  header.voxel_size = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(decode_ply(encode_ply(header, some_spheres(), false), "test").ok());
 }
 
 TEST(OutputMedialFile, CsvHasATitleAndALinePerPoint) {

@@ -115,7 +115,7 @@ TEST(ReadFormats, LineEndsTabsAndMissingLastOne) {
     expect_same(read_text(with(text, "\n", "  # remark\n\n"), "a.obj"), mesh);
   }
   const std::string stl = to_ascii_stl(mesh);
-  expect_same_corners(read_text(with(stl, "\n", "\r\n"), "a.stl"), mesh);
+  for (const char* end : {"\r\n", "\r"}) expect_same_corners(read_text(with(stl, "\n", end), "a.stl"), mesh);
   expect_same_corners(read_text(with(stl, "   vertex", "\tVERTEX"), "a.stl"), mesh);
 }
 

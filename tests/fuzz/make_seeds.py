@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Writes the binary seeds of the fuzz targets, and those of the medial PLY, into tests/fuzz/corpus.
+
+  tests/fuzz/make_seeds.py
+
+The other seeds there are text, written by hand.
+"""
+import pathlib
+import struct
+
+CORPUS = pathlib.Path(__file__).parent / "corpus"
+VERTICES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+FACES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
+MEDIAL_PROPERTIES = ["double x", "double y", "double z", "double radius", "float spoke_a_x", "float spoke_a_y",
+                     "float spoke_a_z", "float spoke_b_x", "float spoke_b_y", "float spoke_b_z", "float object_angle",
+                     "float flux", "int sheet"]
+
+
+def write(name, data):
+    (CORPUS / name).write_bytes(data)
+
+
+def stl(declared, faces, vertices=VERTICES, title=b"binary", tail=b""):
+    data = title.ljust(80, b"\0") + struct.pack("<I", declared)
+    for face in faces:
+        data += struct.pack("<12fH", 0, 0, 0, *(x for v in face for x in vertices[v]), 0)
+    return data + tail
+
+
+def ply(order, element_vertex, vertex_format, element_face, face_format, faces=FACES):
+    name = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    data = f"ply\nformat {name} 1.0\nelement vertex 4\n{element_vertex}element face {len(faces)}\n{element_face}"
+    data = data.encode() + b"end_header\n"
+    for vertex in VERTICES:
+        data += struct.pack(order + vertex_format, *vertex)
+    for face in faces:
+        data += struct.pack(order + face_format, 3, *face)
+    return data
+
+
+def medial(ascii_form, points, count=None, header=("grid_origin -1 -1 -1", "voxel_size 0.5")):
+    lines = ["ply", "format " + ("ascii" if ascii_form else "binary_little_endian") + " 1.0", "comment medial-vk 1.0"]
+    lines += ["comment " + line for line in header]
+    lines += ["comment epsilon 0.005", "comment object_angle 0.6", "comment radius_threshold 0"]
+    lines += [f"element vertex {len(points) if count is None else count}"]
+    lines += ["property " + p for p in MEDIAL_PROPERTIES] + ["end_header"]
+    data = ("\n".join(lines) + "\n").encode()
+    for point in points:
+        data += (" ".join(map(repr, point)) + "\n").encode() if ascii_form else struct.pack("<4d8fi", *point)
+    return data
+
+
+def main():
+    write("read_stl/binary", stl(4, FACES))
+    write("read_stl/binary_solid", stl(4, FACES, title=b"solid facet endsolid"))
+    write("read_stl/binary_nothing", stl(0, []))
+    write("read_stl/binary_longer", stl(1, FACES))
+    write("read_stl/binary_cut", stl(4, FACES)[:200])
+    write("read_stl/binary_lies", stl(0xFFFFFFFF, FACES[:1]))
+    write("read_stl/binary_infinite", stl(1, FACES[:1], [(float("inf"), 0, 0)] * 4))
+    write("read_stl/binary_no_header", b"\0" * 40)
+
+    xyz = "property {0} x\nproperty {0} y\nproperty {0} z\n"
+    indices = "property list {0} {1} vertex_indices\n"
+    for order, name in (("<", "little"), (">", "big")):
+        write(f"read_ply/{name}_float", ply(order, xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i"))
+        write(f"read_ply/{name}_double", ply(order, xyz.format("double"), "3d", indices.format("int", "uint"), "i3I"))
+        write(f"read_ply/{name}_short", ply(order, xyz.format("short"), "3h", indices.format("ushort", "ushort"), "H3H"))
+        write(f"read_ply/{name}_char", ply(order, xyz.format("char"), "3b", indices.format("char", "uchar"), "b3B"))
+        write(f"read_ply/{name}_long", ply(order, xyz.format("int64"), "3q", indices.format("uint64", "int64"), "Q3q"))
+        write(f"read_ply/{name}_float_index",
+              ply(order, xyz.format("uint64"), "3Q", indices.format("uint", "double"), "I3d"))
+        write(f"read_ply/{name}_bad_index",
+              ply(order, xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i", [(0, 1, 4)]))
+    extras = xyz.format("float") + "property uchar red\nproperty list uchar short more\n"
+    write("read_ply/little_extras", ply("<", extras, "3fxx", indices.format("uchar", "int"), "B3i"))
+    write("read_ply/little_cut", ply("<", xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i")[:-5])
+    write("prepare_mesh/stl_binary", stl(4, FACES))
+    write("prepare_mesh/ply_binary", ply("<", xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i"))
+
+    points = [(0.25, 0.25, 0.25, 0.125, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.75, -0.25, -1),
+              (1.25, 0.25, 3.25, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 1.5, -0.5, 7)]
+    for ascii_form, name in ((False, "binary"), (True, "text")):
+        write(f"read_medial_ply/{name}", medial(ascii_form, points))
+        write(f"read_medial_ply/{name}_empty", medial(ascii_form, []))
+        write(f"read_medial_ply/{name}_cut", medial(ascii_form, points)[:-9])
+        write(f"read_medial_ply/{name}_longer", medial(ascii_form, points, 1))
+        write(f"read_medial_ply/{name}_lies", medial(ascii_form, points, 2**40))
+        write(f"read_medial_ply/{name}_outside", medial(ascii_form, [(-2.0,) + points[0][1:]]))
+    write("read_medial_ply/no_grid", medial(True, points, header=()))
+    write("read_medial_ply/bad_grid", medial(True, points, header=("grid_origin 0 0", "voxel_size -1")))
+    write("read_medial_ply/foreign_comment", medial(True, points, header=("hello", "voxel_size 1e300")))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,34 @@
+// What the fuzz targets share: a broken promise ends the process, and the fuzzer keeps the input that broke it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "medial_vk/result.h"
+#include "mesh/mesh.h"
+
+namespace medial_vk::fuzz {
+
+/// What every target calls its input in messages.
+inline const std::string kName = "input";
+
+/// Aborts, naming the promise, unless it holds.
+void require(bool holds, const char* promise);
+
+/// One line of printable characters and readable length, whatever the input holds.
+void require_clear(const Error& error, ErrorCode code);
+
+/// Valid indices, finite coordinates, and no more of either than the bytes can hold; or a clear error that names the
+/// input.
+void require_mesh_or_message(const Result<Mesh>& mesh, std::string_view bytes);
+
+inline std::string_view as_text(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace medial_vk::fuzz
+
+/// Called by libFuzzer for every input.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
