@@ -57,6 +57,15 @@ Status Submission::begin() {
   return {};
 }
 
+/// After a wait that failed, for want of memory say: the device is still at work on buffers that are about to go, and
+/// what is submitted cannot be taken back. A wait that fails again and again is given up.
+void finish(const Context::Impl& context) {
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    const VkResult result = context.vk.vkDeviceWaitIdle(context.device);
+    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) return;
+  }
+}
+
 Error submission_error(const Context::Impl& context, const char* call, VkResult result) {
   if (result != VK_ERROR_DEVICE_LOST) return vulkan_error(call, result);
   return {ErrorCode::kInternal, "the device \"" + context.description.name + "\" was lost while it computed (" + call +
@@ -80,7 +89,10 @@ Status Submission::submit_and_wait() {
   do {
     result = context_.vk.vkWaitForFences(context_.device, 1, &fence_, VK_TRUE, kMinute);
   } while (result == VK_TIMEOUT);
-  if (result != VK_SUCCESS) return submission_error(context_, "vkWaitForFences", result);
+  if (result != VK_SUCCESS) {
+    if (result != VK_ERROR_DEVICE_LOST) finish(context_);
+    return submission_error(context_, "vkWaitForFences", result);
+  }
   return {};
 }
 
