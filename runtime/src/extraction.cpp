@@ -8,6 +8,7 @@
 #include "certified_pipeline.h"
 #include "context_impl.h"
 #include "extraction_result.h"
+#include "host_memory.h"
 #include "scene.h"
 #include "thesis_extraction.h"
 
@@ -141,8 +142,10 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
                                           const ExtractionParameters& parameters, const ProgressCallback& progress) {
   if (Status s = check_parameters(parameters); !s.ok()) return s.error();
-  if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, progress);
-  return extract_certified(context.impl(), mesh, parameters, progress);
+  return catch_out_of_memory("extracting medial spheres", [&] {
+    return parameters.mode == Mode::kThesis ? extract_thesis(context.impl(), mesh, parameters, progress)
+                                            : extract_certified(context.impl(), mesh, parameters, progress);
+  });
 }
 
 }  // namespace medial_vk
