@@ -6,6 +6,7 @@
 
 #include "bvh_boxes.h"
 #include "bvh_builder.h"
+#include "host_memory.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 #include "triangle_distance.h"
@@ -107,14 +108,16 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
 
 Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned threads) {
   threads = thread_count(threads);
-  if (Status status = check_mesh(mesh, threads); !status) return status.error();
-  BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, leaf_size), threads);
-  Bvh bvh;
-  bvh.nodes_ = builder.build();
-  bvh.order_ = builder.take_order();
-  bvh.corners_.resize(bvh.order_.size());
-  bvh.take_corners(mesh, threads);
-  return bvh;
+  return catch_out_of_memory("building a tree over the triangles", [&]() -> Result<Bvh> {
+    if (Status status = check_mesh(mesh, threads); !status) return status.error();
+    BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, leaf_size), threads);
+    Bvh bvh;
+    bvh.nodes_ = builder.build();
+    bvh.order_ = builder.take_order();
+    bvh.corners_.resize(bvh.order_.size());
+    bvh.take_corners(mesh, threads);
+    return bvh;
+  });
 }
 
 Status Bvh::refit(const MeshView& mesh, unsigned threads) {
@@ -124,9 +127,11 @@ Status Bvh::refit(const MeshView& mesh, unsigned threads) {
                         " triangles, the tree was built over " + std::to_string(order_.size()));
   }
   if (order_.empty()) return {};
-  if (Status status = check_mesh(mesh, threads); !status) return status;
-  take_corners(mesh, threads);
-  return {};
+  return catch_out_of_memory("refitting the tree over the triangles", [&]() -> Status {
+    if (Status status = check_mesh(mesh, threads); !status) return status;
+    take_corners(mesh, threads);
+    return {};
+  });
 }
 
 void Bvh::take_corners(const MeshView& mesh, unsigned threads) {

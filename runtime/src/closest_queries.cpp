@@ -103,48 +103,57 @@ Status Scene::Impl::closest(const ClosestBatch& batch, std::span<ClosestPoint> o
   return read_closest(batch, padded, out);
 }
 
-Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {
-  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
+Result<std::vector<ClosestPoint>> Scene::Impl::closest_points(std::span<const Point> points) {
+  if (Status ready = usable(); !ready.ok()) return ready.error();
   std::vector<ClosestPoint> out(points.size());
-  Impl::ClosestBatch batch;
+  ClosestBatch batch;
   batch.points = points;
   std::vector<std::uint32_t> order, slots;
   std::size_t most = kBatch;
   if (points.size() >= kLeastSorted) {
     order = order_along_curve(points);
     batch.asked = order;
-    batch.group_size = impl_->packets->shape().slots();
-    slots = make_slots(impl_->packets->shape(), batch.group_size);
+    batch.group_size = packets->shape().slots();
+    slots = make_slots(packets->shape(), batch.group_size);
     batch.slots = slots;
     most = kBatch / batch.group_size * batch.group_size;
   }
   for (; batch.first < points.size(); batch.first += most) {
     batch.count = std::min(most, points.size() - batch.first);
-    if (Status status = impl_->closest(batch, out); !status.ok()) return status.error();
+    if (Status status = closest(batch, out); !status.ok()) return status.error();
   }
   return out;
 }
 
-Result<std::vector<ClosestPoint>> Scene::closest_points_of_groups(std::span<const Point> points,
-                                                                  std::uint32_t group_size) {
+Result<std::vector<ClosestPoint>> Scene::Impl::closest_points_of_groups(std::span<const Point> points,
+                                                                        std::uint32_t group_size) {
   if (group_size == 0 || group_size > kBatch || points.size() % group_size != 0) {
     return Error{ErrorCode::kUsage, std::to_string(points.size()) + " points are no groups of " +
                                         std::to_string(group_size) + " (1 to " + std::to_string(kBatch) + ")"};
   }
-  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
+  if (Status ready = usable(); !ready.ok()) return ready.error();
   std::vector<ClosestPoint> out(points.size());
   if (points.empty()) return out;
-  const std::vector<std::uint32_t> slots = make_slots(impl_->packets->shape(), points.first(group_size));
-  Impl::ClosestBatch batch;
+  const std::vector<std::uint32_t> slots = make_slots(packets->shape(), points.first(group_size));
+  ClosestBatch batch;
   batch.points = points;
   batch.group_size = group_size;
   batch.slots = slots;
   const std::size_t most = std::size_t{kBatch / group_size} * group_size;
   for (; batch.first < points.size(); batch.first += most) {
     batch.count = std::min(most, points.size() - batch.first);
-    if (Status status = impl_->closest(batch, out); !status.ok()) return status.error();
+    if (Status status = closest(batch, out); !status.ok()) return status.error();
   }
   return out;
+}
+
+Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points(points); });
+}
+
+Result<std::vector<ClosestPoint>> Scene::closest_points_of_groups(std::span<const Point> points,
+                                                                  std::uint32_t group_size) {
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points_of_groups(points, group_size); });
 }
 
 }  // namespace medial_vk

@@ -36,6 +36,7 @@ Result<PhysicalDevice> select_device(VkInstance instance, const std::string& dev
 }  // namespace
 
 Status Context::Impl::initialize(const ContextOptions& options) {
+  allocation_callbacks = options.allocation_callbacks;
   {
     const std::lock_guard lock(volk_mutex());
     Result<Instance> created = create_instance(options.validation, &validation_messages, allocation_callbacks);
@@ -112,7 +113,7 @@ Context::Impl::~Impl() {
   if (device != VK_NULL_HANDLE) {
     vk.vkDeviceWaitIdle(device);
     close_pipeline_cache();
-    destroy_programs();
+    programs_.clear();
     vk.vkDestroyDevice(device, allocation_callbacks);
   }
   const std::lock_guard lock(volk_mutex());
@@ -137,8 +138,10 @@ Result<std::vector<DeviceDescription>> Context::list_devices() try {
   std::uint64_t no_messages = 0;
   Result<Instance> instance = create_instance(false, &no_messages, nullptr);
   if (!instance.ok()) return instance.error();
+  // Also if there is no host memory for the list.
+  const auto destroy = [](Instance* made) { destroy_instance(*made, nullptr); };
+  const std::unique_ptr<Instance, decltype(destroy)> owner(&instance.value(), destroy);
   Result<std::vector<PhysicalDevice>> devices = enumerate_devices(instance.value().handle);
-  destroy_instance(instance.value(), nullptr);
   if (!devices.ok()) return devices.error();
   std::vector<DeviceDescription> descriptions;
   for (PhysicalDevice& device : devices.value()) descriptions.push_back(std::move(device.description));

@@ -62,15 +62,14 @@ class Context::Impl {
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
   const EmbeddedShader* shader(const std::string& name) const;
-  Result<std::unique_ptr<Program>> build_program(const ProgramKey& key) const;
-  void destroy_programs();
+  Result<OwnedProgram> build_program(const ProgramKey& key) const;
 
   Instance instance_;  // owns `instance`
   PipelineCacheIdentity pipeline_cache_identity_;
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
   std::string pipeline_cache_file_;            // empty: none
   std::uint64_t pipeline_cache_checksum_ = 0;  // of the data that was read
-  std::map<ProgramKey, std::unique_ptr<Program>> programs_;
+  std::map<ProgramKey, OwnedProgram> programs_;
 };
 
 /// "vkCreateBuffer failed: out of device memory"; kOutOfMemory for the two memory results, else kInternal.

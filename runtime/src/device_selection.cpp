@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "context_impl.h"
+#include "required_limits.h"
 
 namespace medial_vk {
 namespace {
@@ -95,6 +96,8 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
     description.why_not = "it has Vulkan " + version_text(properties.apiVersion) + ", 1.2 is needed";
   } else if (!family) {
     description.why_not = "it has no compute queue";
+  } else if (std::string too_low = limit_too_low(properties.limits); !too_low.empty()) {
+    description.why_not = std::move(too_low);
   } else {
     description.usable = true;
     device.queue_family = *family;
@@ -139,7 +142,8 @@ std::optional<std::uint32_t> as_index(const std::string& choice, std::size_t cou
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   std::vector<VkPhysicalDevice> handles;
   VkResult result = VK_INCOMPLETE;
-  while (result == VK_INCOMPLETE) {  // a device may appear between the two calls
+  // A device may appear between the two calls; what there is after some tries will do.
+  for (int attempt = 0; attempt < 8 && result == VK_INCOMPLETE; ++attempt) {
     std::uint32_t count = 0;
     result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
     if (result != VK_SUCCESS) break;
@@ -147,7 +151,7 @@ Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
     result = vkEnumeratePhysicalDevices(instance, &count, handles.data());
     handles.resize(count);
   }
-  if (result != VK_SUCCESS) {
+  if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
     Error error = vulkan_error("vkEnumeratePhysicalDevices", result);
     if (error.code != ErrorCode::kOutOfMemory) error.code = ErrorCode::kNoDevice;
     return error;

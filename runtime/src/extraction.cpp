@@ -8,6 +8,7 @@
 #include "certified_pipeline.h"
 #include "context_impl.h"
 #include "extraction_result.h"
+#include "host_memory.h"
 #include "scene.h"
 #include "thesis_extraction.h"
 
@@ -151,8 +152,10 @@ Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh
                                           const std::stop_token& stop) {
   if (Status s = check_parameters(parameters); !s.ok()) return s.error();
   StopWatch watch(progress, stop);
-  const auto extract = parameters.mode == Mode::kThesis ? extract_thesis : extract_certified;
-  Result<Extraction> extraction = extract(context.impl(), mesh, parameters, watch);
+  Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&] {
+    return parameters.mode == Mode::kThesis ? extract_thesis(context.impl(), mesh, parameters, watch)
+                                            : extract_certified(context.impl(), mesh, parameters, watch);
+  });
   if (extraction.ok() && progress) progress(1.0);
   return extraction;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <utility>
 
 #include "clip_polytope.h"
@@ -199,7 +200,7 @@ Foam::Foam(Foam&&) noexcept = default;
 Foam& Foam::operator=(Foam&&) noexcept = default;
 Foam::~Foam() = default;
 
-Result<Foam> Foam::build(std::span<const FoamSample> samples, const Ball& sphere, double query_error) {
+Result<Foam> Foam::build(std::span<const FoamSample> samples, const Ball& sphere, double query_error) try {
   const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
   if (samples.empty()) return usage("foam: no sample");
   if (!is_finite(sphere.centre) || !std::isfinite(sphere.radius) || sphere.radius <= 0)
@@ -213,6 +214,8 @@ Result<Foam> Foam::build(std::span<const FoamSample> samples, const Ball& sphere
       return usage(name + " lies outside the sphere");
   }
   return Foam(std::make_unique<const Impl>(samples, sphere, query_error));
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "out of memory while building a foam"};
 }
 
 const Ball& Foam::sphere() const { return impl_->sphere(); }

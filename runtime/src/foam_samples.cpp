@@ -1,6 +1,7 @@
 // Where foams come from: Algorithm 3 (Sections 3.1, 3.2) and the iteration of Section 3.5.
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "medial_vk/foam.h"
@@ -78,7 +79,7 @@ void add_segment(const Ball& sphere, const FoamSample& sample, std::vector<Segme
 Ball sphere_around_voxel(const Point& centre, double side) { return {centre, std::sqrt(0.75) * side}; }
 
 Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
-                                    const NearestPointsFunction& nearest) {
+                                    const NearestPointsFunction& nearest) try {
   if (!(sphere.radius > 0)) return Error{ErrorCode::kUsage, "foam: the sphere's radius is not positive"};
   std::vector<Point> queries;
   for (const Point& direction : spiral_points(sampling.count))
@@ -108,10 +109,12 @@ Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sa
   const Status tested = test_segments(out, segments, sampling.query_error, nearest);
   if (!tested.ok()) return tested.error();
   return out;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "out of memory while sampling a sphere"};
 }
 
 Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
-                      const NearestPointsFunction& nearest) {
+                      const NearestPointsFunction& nearest) try {
   std::vector<Point> queries;
   for (const FoamBall& f : foam.full_balls()) {
     if (f.kind != FoamBallKind::kHullVertex) queries.push_back(f.ball.centre);
@@ -127,6 +130,8 @@ Status refine_samples(SphereSamples& samples, const Foam& foam, double query_err
   }
   samples.samples.insert(samples.samples.end(), towards.begin(), towards.end());
   return test_segments(samples, segments, query_error, nearest);
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "out of memory while refining the samples of a sphere"};
 }
 
 }  // namespace medial_vk

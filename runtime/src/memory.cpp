@@ -73,6 +73,12 @@ int find_memory_type(const Context::Impl& context, std::uint32_t allowed, Memory
   return best;
 }
 
+/// The next push_back() cannot fail: a handle that it does not take would be lost.
+template <class T>
+void make_room(std::vector<T>& values) {
+  if (values.size() == values.capacity()) values.reserve(std::max<std::size_t>(8, 2 * values.size()));
+}
+
 VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
@@ -177,15 +183,17 @@ Result<Buffer> Arena::create_buffer(VkDeviceSize bytes, MemoryKind kind, const c
                         "kernels of this device see at most " + std::to_string(context_->limits.maxStorageBufferRange) +
                             " bytes of a buffer (maxStorageBufferRange)");
   }
+  make_room(buffers_);
   const VkResult result = create_handle(*context_, buffer.size, &buffer.handle);
   if (result != VK_SUCCESS) return memory_error(bytes, kind, purpose, vulkan_error("vkCreateBuffer", result).message);
+  buffers_.push_back(buffer.handle);
   Result<void*> bound = bind_memory(buffer, kind, purpose);
   if (!bound.ok()) {
     context_->vk.vkDestroyBuffer(context_->device, buffer.handle, context_->allocation_callbacks);
+    buffers_.pop_back();
     return bound.error();
   }
   buffer.mapped = bound.value();
-  buffers_.push_back(buffer.handle);
   return buffer;
 }
 
@@ -249,6 +257,7 @@ VkResult Arena::add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedica
   block.type = type;
   block.size = size;
   block.dedicated = dedicated_to != VK_NULL_HANDLE;
+  make_room(blocks_);
   const VolkDeviceTable& vk = context_->vk;
   VkResult result = vk.vkAllocateMemory(context_->device, &info, context_->allocation_callbacks, &block.memory);
   if (result != VK_SUCCESS) return result;
@@ -279,6 +288,7 @@ Result<VkBufferView> Arena::create_texel_view(const Buffer& buffer) {
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info.range = VK_WHOLE_SIZE;
   VkBufferView view = VK_NULL_HANDLE;
+  make_room(views_);
   const VkResult result =
       context_->vk.vkCreateBufferView(context_->device, &info, context_->allocation_callbacks, &view);
   if (result != VK_SUCCESS) return vulkan_error("vkCreateBufferView", result);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -11,13 +14,22 @@
 namespace medial_vk {
 
 /// Calls body(begin, end) for the blocks of `block` items that cover [0, count), on up to `threads` threads, the
-/// caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either.
+/// caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either. What a body
+/// throws ends the loop early, and one such exception is thrown here once all threads have ended.
 template <class Body>
 void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
-      body(begin, std::min(begin + block, count));
+  std::mutex mutex;
+  std::exception_ptr thrown;
+  const auto work = [&]() noexcept {
+    try {
+      for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
+        body(begin, std::min(begin + block, count));
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      thrown = std::current_exception();
+      next = count;  // the blocks that are left
     }
   };
   const std::size_t useful = std::min<std::size_t>(threads, (count + block - 1) / block);
@@ -26,9 +38,12 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
     for (std::size_t i = 1; i < useful; ++i) others.emplace_back(work);
   } catch (const std::system_error&) {
     // No more threads to be had: those there are do it all.
+  } catch (const std::bad_alloc&) {
+    // Likewise.
   }
   work();
   for (std::thread& other : others) other.join();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 /// The number of threads that 0 stands for.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -100,14 +101,7 @@ VkResult create_pipeline(const Context::Impl& context, VkPipelineCache cache, Vk
                                              &program.pipeline);
 }
 
-void destroy_program(const Context::Impl& context, Program& program) {
-  context.vk.vkDestroyPipeline(context.device, program.pipeline, context.allocation_callbacks);
-  context.vk.vkDestroyPipelineLayout(context.device, program.layout, context.allocation_callbacks);
-  context.vk.vkDestroyDescriptorSetLayout(context.device, program.set_layout, context.allocation_callbacks);
-  program = {};
-}
-
-/// Fills the handles of `program`; on error some of them may be set, destroy_program() takes them back.
+/// Fills the handles of `program`; on error some of them may be set.
 Status make_program(const Context::Impl& context, VkPipelineCache cache, const EmbeddedShader& shader,
                     Program& program) {
   const auto failed = [&program](const char* call, VkResult result) {
@@ -127,36 +121,43 @@ Status make_program(const Context::Impl& context, VkPipelineCache cache, const E
   VkShaderModule module = VK_NULL_HANDLE;
   result = context.vk.vkCreateShaderModule(context.device, &module_info, context.allocation_callbacks, &module);
   if (result != VK_SUCCESS) return failed("vkCreateShaderModule", result);
+  const auto destroy = [&context](VkShaderModule* made) {  // also if there is no host memory for the pipeline's tables
+    context.vk.vkDestroyShaderModule(context.device, *made, context.allocation_callbacks);
+  };
+  const std::unique_ptr<VkShaderModule, decltype(destroy)> owner(&module, destroy);
   result = create_pipeline(context, cache, module, program);
-  context.vk.vkDestroyShaderModule(context.device, module, context.allocation_callbacks);
   if (result != VK_SUCCESS) return failed("vkCreateComputePipelines", result);
   return {};
 }
 
 }  // namespace
 
+void ProgramDeleter::operator()(Program* program) const {
+  vk->vkDestroyPipeline(device, program->pipeline, allocation_callbacks);
+  vk->vkDestroyPipelineLayout(device, program->layout, allocation_callbacks);
+  vk->vkDestroyDescriptorSetLayout(device, program->set_layout, allocation_callbacks);
+  delete program;
+}
+
 const EmbeddedShader* Context::Impl::shader(const std::string& name) const {
   const EmbeddedShader* extra = find_shader(extra_shaders, name);
   return extra != nullptr ? extra : find_shader(embedded_shaders(), name);
 }
 
-Result<std::unique_ptr<Program>> Context::Impl::build_program(const ProgramKey& key) const {
+Result<OwnedProgram> Context::Impl::build_program(const ProgramKey& key) const {
   const EmbeddedShader* found = shader(key.shader);
   if (found == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
   if (const Status fits = check_limits(limits, key); !fits.ok()) return fits.error();
 
-  auto made = std::make_unique<Program>();
+  OwnedProgram made(new Program, ProgramDeleter{&vk, device, allocation_callbacks});
   made->key = key;
-  if (const Status status = make_program(*this, pipeline_cache_, *found, *made); !status.ok()) {
-    destroy_program(*this, *made);
-    return status.error();
-  }
+  if (const Status status = make_program(*this, pipeline_cache_, *found, *made); !status.ok()) return status.error();
   return made;
 }
 
 Result<const Program*> Context::Impl::program(const ProgramKey& key) {
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
-  Result<std::unique_ptr<Program>> made = build_program(key);
+  Result<OwnedProgram> made = build_program(key);
   if (!made.ok()) return made.error();
   return programs_.emplace(key, std::move(made.value())).first->second.get();
 }
@@ -172,10 +173,10 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
     return found != nullptr ? found->words.size() : 0;
   };
   std::ranges::stable_sort(missing, std::greater<>{}, size);
-  std::vector<std::unique_ptr<Program>> made(missing.size());
+  std::vector<OwnedProgram> made(missing.size());
   std::vector<Status> status(missing.size());
   parallel_blocks(missing.size(), 1, thread_count(0), [&](std::size_t i, std::size_t) {
-    Result<std::unique_ptr<Program>> program = build_program(*missing[i]);
+    Result<OwnedProgram> program = build_program(*missing[i]);
     if (program.ok())
       made[i] = std::move(program.value());
     else
@@ -185,11 +186,6 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
     if (made[i]) programs_.emplace(*missing[i], std::move(made[i]));
   const auto failed = std::find_if(status.begin(), status.end(), [](const Status& s) { return !s.ok(); });
   return failed == status.end() ? Status{} : *failed;
-}
-
-void Context::Impl::destroy_programs() {
-  for (auto& [key, program] : programs_) destroy_program(*this, *program);
-  programs_.clear();
 }
 
 }  // namespace medial_vk

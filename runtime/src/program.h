@@ -7,6 +7,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,22 @@ struct ProgramKey {
 /// What follows the name of a shader that reads the mesh (cmake/EmbedShaders.cmake).
 inline const char* storage_suffix(bool use_texels) { return use_texels ? "" : "_storage"; }
 
-/// Plain handles; the context's program cache creates and destroys them.
+/// Plain handles, which belong to an OwnedProgram.
 struct Program {
   ProgramKey key;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
 };
+
+/// Destroys the handles that are there, and the object.
+struct ProgramDeleter {
+  const VolkDeviceTable* vk = nullptr;
+  VkDevice device = VK_NULL_HANDLE;
+  const VkAllocationCallbacks* allocation_callbacks = nullptr;
+  void operator()(Program* program) const;
+};
+/// The context's cache of programs keeps them.
+using OwnedProgram = std::unique_ptr<Program, ProgramDeleter>;
 
 }  // namespace medial_vk

@@ -11,14 +11,16 @@
 namespace medial_vk {
 
 Result<Scene> Scene::create(Context& context, const MeshView& mesh) {
-  Result<DeviceMesh> device = DeviceMesh::create(context.impl(), mesh);
-  if (!device.ok()) return device.error();
-  auto impl = std::make_unique<Impl>(context.impl(), std::move(device).value());
-  Result<TreeQueries> queries = TreeQueries::create(context.impl(), impl->mesh, kBatch);
-  if (!queries.ok()) return queries.error();
-  impl->queries = std::make_unique<TreeQueries>(std::move(queries).value());
-  if (Status made = impl->make_packets(mesh); !made.ok()) return made.error();
-  return Scene(std::move(impl));
+  return catch_out_of_memory("making a scene", [&]() -> Result<Scene> {
+    Result<DeviceMesh> device = DeviceMesh::create(context.impl(), mesh);
+    if (!device.ok()) return device.error();
+    auto impl = std::make_unique<Impl>(context.impl(), std::move(device).value());
+    Result<TreeQueries> queries = TreeQueries::create(context.impl(), impl->mesh, kBatch);
+    if (!queries.ok()) return queries.error();
+    impl->queries = std::make_unique<TreeQueries>(std::move(queries).value());
+    if (Status made = impl->make_packets(mesh); !made.ok()) return made.error();
+    return Scene(std::move(impl));
+  });
 }
 
 Status Scene::Impl::make_packets(const MeshView& view) {
@@ -31,8 +33,10 @@ Status Scene::Impl::make_packets(const MeshView& view) {
 
 // The wide tree is collapsed from the refitted binary one.
 Status Scene::update(const MeshView& mesh) {
-  if (Status status = impl_->mesh.update(*impl_->context, mesh); !status.ok()) return status;
-  return impl_->make_packets(mesh);
+  return catch_out_of_memory("updating a scene", [&]() -> Status {
+    if (Status status = impl_->mesh.update(*impl_->context, mesh); !status.ok()) return status;
+    return impl_->make_packets(mesh);
+  });
 }
 
 Scene::Scene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -40,27 +44,28 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Result<std::vector<std::uint8_t>> Scene::empty_balls(std::span<const Ball> balls) {
+Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball> balls) const {
+  if (Status ready = usable(); !ready.ok()) return ready.error();
   std::vector<std::uint8_t> out(balls.size());
   for (std::size_t first = 0; first < balls.size(); first += kBatch) {
     const std::size_t count = std::min<std::size_t>(kBatch, balls.size() - first);
     const auto squared_radius = [&](std::size_t i) {
-      const double r = std::clamp(balls[i].radius / impl_->mesh.longest, 0.0, kFarthest);
+      const double r = std::clamp(balls[i].radius / mesh.longest, 0.0, kFarthest);
       return static_cast<float>(r * r);
     };
-    auto texels = impl_->texels(
+    auto sent = texels(
         first, count, [&](std::size_t i) { return balls[i].centre; }, squared_radius);
-    if (!texels.ok()) return texels.error();
-    Transfer transfer(*impl_->context);
-    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(texels.value()), "query balls");
+    if (!sent.ok()) return sent.error();
+    Transfer transfer(*context);
+    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(sent.value()), "query balls");
     if (!asked.ok()) return asked.error();
     Result<Buffer> answers = transfer.create(count * 4, "empty balls");
     if (!answers.ok()) return answers.error();
     std::vector<std::uint32_t> empty(count);
     Status status = transfer.run_and_read(
         [&](Recorder& r) {
-          impl_->queries->empty(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
-                                answers.value().range());
+          queries->empty(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
+                         answers.value().range());
         },
         answers.value(), std::span<std::uint32_t>(empty));
     if (!status.ok()) return status.error();
@@ -70,24 +75,25 @@ Result<std::vector<std::uint8_t>> Scene::empty_balls(std::span<const Ball> balls
   return out;
 }
 
-Result<std::vector<double>> Scene::winding_numbers(std::span<const Point> points, double tolerance) {
+Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) const {
+  if (Status ready = usable(); !ready.ok()) return ready.error();
   if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "the tolerance of a winding number must be positive"};
   std::vector<double> out(points.size());
   for (std::size_t first = 0; first < points.size(); first += kBatch) {
     const std::size_t count = std::min<std::size_t>(kBatch, points.size() - first);
-    auto texels = impl_->texels(
+    auto sent = texels(
         first, count, [&](std::size_t i) { return points[i]; }, [](std::size_t) { return kAnyDistance; });
-    if (!texels.ok()) return texels.error();
-    Transfer transfer(*impl_->context);
-    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(texels.value()), "query points");
+    if (!sent.ok()) return sent.error();
+    Transfer transfer(*context);
+    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(sent.value()), "query points");
     if (!asked.ok()) return asked.error();
     Result<Buffer> answers = transfer.create(count * 8, "winding numbers");
     if (!answers.ok()) return answers.error();
     std::vector<std::array<float, 2>> numbers(count);
     Status status = transfer.run_and_read(
         [&](Recorder& r) {
-          impl_->queries->winding(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
-                                  answers.value().range(), static_cast<float>(tolerance));
+          queries->winding(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
+                           answers.value().range(), static_cast<float>(tolerance));
         },
         answers.value(), std::span<std::array<float, 2>>(numbers));
     if (!status.ok()) return status.error();
@@ -142,8 +148,8 @@ Status Scene::Impl::fluxes(std::span<const Ball> spheres, std::size_t first, std
   return {};
 }
 
-Result<std::vector<FluxSample>> Scene::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
-  if (Status usable = impl_->usable(); !usable.ok()) return usable.error();
+Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
+  if (Status ready = usable(); !ready.ok()) return ready.error();
   if (samples == 0 || samples > kBatch) {
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kBatch)};
   }
@@ -155,10 +161,22 @@ Result<std::vector<FluxSample>> Scene::fluxes(std::span<const Ball> spheres, std
   const std::size_t batch = std::max<std::size_t>(1, kBatch / samples);
   for (std::size_t first = 0; first < spheres.size(); first += batch) {
     const std::size_t count = std::min(batch, spheres.size() - first);
-    Status status = impl_->fluxes(spheres, first, directions, std::span(out).subspan(first, count));
+    Status status = fluxes(spheres, first, directions, std::span(out).subspan(first, count));
     if (!status.ok()) return status.error();
   }
   return out;
+}
+
+Result<std::vector<std::uint8_t>> Scene::empty_balls(std::span<const Ball> balls) {
+  return catch_out_of_memory(kAnswering, [&] { return impl_->empty_balls(balls); });
+}
+
+Result<std::vector<double>> Scene::winding_numbers(std::span<const Point> points, double tolerance) {
+  return catch_out_of_memory(kAnswering, [&] { return impl_->winding_numbers(points, tolerance); });
+}
+
+Result<std::vector<FluxSample>> Scene::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
+  return catch_out_of_memory(kAnswering, [&] { return impl_->fluxes(spheres, samples); });
 }
 
 }  // namespace medial_vk

@@ -57,6 +57,7 @@ void Recorder::add_descriptor_pool(std::uint32_t storage, std::uint32_t texels) 
   info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
   info.pPoolSizes = sizes.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
+  descriptor_pools_.reserve(descriptor_pools_.size() + 1);  // so that no pool is lost
   const VkResult result =
       context_->vk.vkCreateDescriptorPool(context_->device, &info, context_->allocation_callbacks, &pool);
   if (result != VK_SUCCESS) {

@@ -51,8 +51,9 @@ class Recorder {
   Status status() const { return status_; }
   /// Of a rehearsal: what dispatch() was given, each once.
   const std::set<ProgramKey>& programs() const { return programs_; }
-  /// After the command buffer has finished: seconds per stage. Empty without timestamps.
-  std::vector<StageTime> stage_times() const;
+  /// After the command buffer has finished: seconds per stage. Empty without timestamps. Errors: kInternal (device
+  /// lost), kOutOfMemory.
+  Result<std::vector<StageTime>> stage_times() const;
 
  private:
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels);

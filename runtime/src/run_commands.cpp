@@ -20,6 +20,7 @@ class Submission {
   VkCommandBuffer commands() const { return commands_; }
   Status begin();
   Status submit_and_wait(const std::function<void()>& while_waiting);
+  void call_while_busy(const std::function<void()>& callback);
 
  private:
   Context::Impl& context_;
@@ -57,11 +58,30 @@ Status Submission::begin() {
   return {};
 }
 
+/// After a wait that failed, for want of memory say: the device is still at work on buffers that are about to go, and
+/// what is submitted cannot be taken back. A wait that fails again and again is given up.
+void finish(const Context::Impl& context) {
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    const VkResult result = context.vk.vkDeviceWaitIdle(context.device);
+    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) return;
+  }
+}
+
 Error submission_error(const Context::Impl& context, const char* call, VkResult result) {
   if (result != VK_ERROR_DEVICE_LOST) return vulkan_error(call, result);
   return {ErrorCode::kInternal, "the device \"" + context.description.name + "\" was lost while it computed (" + call +
                                     "): its driver crashed, or stopped a dispatch that took too long; try another "
                                     "device or a smaller memory budget"};
+}
+
+// If it throws, what the device uses must not be destroyed before the device is done.
+void Submission::call_while_busy(const std::function<void()>& callback) {
+  try {
+    callback();
+  } catch (...) {
+    finish(context_);
+    throw;
+  }
 }
 
 Status Submission::submit_and_wait(const std::function<void()>& while_waiting) {
@@ -80,9 +100,12 @@ Status Submission::submit_and_wait(const std::function<void()>& while_waiting) {
   for (;;) {
     result = context_.vk.vkWaitForFences(context_.device, 1, &fence_, VK_TRUE, while_waiting ? kMoment : kMinute);
     if (result != VK_TIMEOUT) break;
-    if (while_waiting) while_waiting();
+    if (while_waiting) call_while_busy(while_waiting);
   }
-  if (result != VK_SUCCESS) return submission_error(context_, "vkWaitForFences", result);
+  if (result != VK_SUCCESS) {
+    if (result != VK_ERROR_DEVICE_LOST) finish(context_);
+    return submission_error(context_, "vkWaitForFences", result);
+  }
   return {};
 }
 

@@ -59,10 +59,19 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
     return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
                                               " vertices, the one on the device " + std::to_string(linked_vertices_)};
   }
-  if (Status status = bvh_.refit(mesh); !status.ok()) return status;
+  const bool was_intact = intact;
+  intact = false;
+  if (Status status = bvh_.refit(mesh); !status.ok()) {
+    intact = was_intact && status.error().code == ErrorCode::kInvalidMesh;
+    return status;
+  }
   if (Status status = measure(mesh); !status.ok()) return status;
   if (Status status = upload_mesh(context, mesh); !status.ok()) return status;
-  return linked_vertices_ != 0 ? upload_links(context, mesh) : Status();
+  if (linked_vertices_ != 0) {
+    if (Status status = upload_links(context, mesh); !status.ok()) return status;
+  }
+  intact = true;
+  return {};
 }
 
 /// What is known of the mesh as a whole. Error: it has no extent.

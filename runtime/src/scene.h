@@ -42,8 +42,8 @@ struct DeviceMesh {
   /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
   /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with lower, upper,
   /// longest, closed or has_untrusted must be recorded anew. Errors: kInvalidMesh (another number of triangles or
-  /// vertices, an index out of range, a coordinate that is not finite: all stays as it was; no extent: the mesh is of
-  /// no use until an update succeeds), kOutOfMemory, kInternal (device lost).
+  /// vertices, an index out of range, a coordinate that is not finite: all stays as it was; no extent: not intact
+  /// until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(Context::Impl& context, const MeshView& mesh);
 
   /// Adds what the dismissal by pairs asks about edges and vertices; `mesh` as given to create(). Error: kOutOfMemory.
@@ -73,6 +73,7 @@ struct DeviceMesh {
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
   /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
   bool use_texels = true;
+  bool intact = true;  // false after an update that failed half-way: the device may hold parts of both meshes
   bool closed = false;
   bool has_untrusted = true;  // some triangle's normal proves nothing
   std::uint32_t triangle_count = 0;

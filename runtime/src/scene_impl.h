@@ -9,6 +9,7 @@
 
 #include "context_impl.h"
 #include "device_tree.h"
+#include "host_memory.h"
 #include "medial_vk/queries.h"
 #include "packet_queries.h"
 #include "tree_queries.h"
@@ -20,6 +21,7 @@ constexpr std::uint32_t kBatch = 1u << 18;
 // Squares of distances beyond this many box sizes overflow in float.
 constexpr double kFarthest = 1e15;
 constexpr float kAnyDistance = 3.4e38f;
+constexpr char kAnswering[] = "answering queries";
 constexpr std::uint32_t kNoHit = 0xffffffffu;
 
 /// The buffers of one call: filled from the host, read back to the host.
@@ -103,10 +105,15 @@ class Scene::Impl {
   Status make_packets(const MeshView& view);
   /// Error: the last update failed half-way.
   Status usable() const {
-    if (packets) return {};
+    if (packets && mesh.intact) return {};
     return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
   }
   Status make_room();
+  Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
+  Result<std::vector<ClosestPoint>> closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size);
+  Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls) const;
+  Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance) const;
+  Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
   Status write_queries(const ClosestBatch& batch, std::size_t padded) const;
   void record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups, const Buffer& table) const;
   Status read_closest(const ClosestBatch& batch, std::size_t padded, std::span<ClosestPoint> out) const;

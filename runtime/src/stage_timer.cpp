@@ -20,6 +20,7 @@ void Recorder::write_timestamp() {
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = kQueriesPerPool;
     VkQueryPool pool = VK_NULL_HANDLE;
+    timestamps_.reserve(timestamps_.size() + 1);  // so that no pool is lost
     const VkResult result = vk.vkCreateQueryPool(context_->device, &info, context_->allocation_callbacks, &pool);
     if (result != VK_SUCCESS) return fail(vulkan_error("vkCreateQueryPool", result));
     timestamps_.push_back(pool);
@@ -42,8 +43,9 @@ void Recorder::end_stages() {
   write_timestamp();
 }
 
-std::vector<StageTime> Recorder::stage_times() const {
-  if (timestamp_count_ < 2) return {};
+Result<std::vector<StageTime>> Recorder::stage_times() const {
+  std::vector<StageTime> times;
+  if (timestamp_count_ < 2) return times;
   std::vector<std::uint64_t> ticks(timestamps_.size() * kQueriesPerPool);
   for (std::size_t i = 0; i < timestamps_.size(); ++i) {
     const std::size_t first = i * kQueriesPerPool;
@@ -51,14 +53,13 @@ std::vector<StageTime> Recorder::stage_times() const {
     const VkResult result =
         context_->vk.vkGetQueryPoolResults(context_->device, timestamps_[i], 0, count, count * sizeof(std::uint64_t),
                                            ticks.data() + first, sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT);
-    if (result != VK_SUCCESS) return {};
+    if (result != VK_SUCCESS) return vulkan_error("vkGetQueryPoolResults", result);
   }
 
   const std::uint64_t mask = context_->timestamp_valid_bits >= 64
                                  ? ~std::uint64_t{0}
                                  : (std::uint64_t{1} << context_->timestamp_valid_bits) - 1;
   const double seconds_per_tick = static_cast<double>(context_->limits.timestampPeriod) * 1e-9;
-  std::vector<StageTime> times;
   for (std::size_t i = 0; i + 1 < timestamp_count_; ++i) {
     auto time = std::find_if(times.begin(), times.end(), [&](const StageTime& t) { return t.stage == stages_[i]; });
     if (time == times.end()) time = times.insert(times.end(), StageTime{stages_[i], 0.0});

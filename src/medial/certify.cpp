@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "mesh/parallel_for.h"
+
 namespace medial_vk {
 namespace {
 
@@ -194,10 +196,7 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
     for (std::size_t i = part * spheres.size() / count; i < (part + 1) * spheres.size() / count; ++i)
       passed[i] = certifier.certify_or_mend(spheres[i], nearby) ? 1 : 0;
   };
-  std::vector<std::thread> workers;
-  for (std::size_t part = 1; part < count; ++part) workers.emplace_back(certify_part, part);
-  certify_part(0);
-  for (std::thread& worker : workers) worker.join();
+  parallel_for(count, 1, certify_part);
 
   CertifyReport report;
   std::vector<MedialSphere> kept;

@@ -37,15 +37,15 @@ class Bvh {
   static constexpr std::uint32_t kMaxDepth = 48;
 
   /// Copies the corners of the triangles in leaf order. `threads` 0: as many as the machine has.
-  /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite).
+  /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
   /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
   /// triangles below it; which triangles that are, and the order of the leaves, stays. Triangle t of `mesh` takes the
   /// place of triangle t. All answers are as right as those of a new tree, and nearly as quick while triangles that
   /// were neighbours stay neighbours. Time linear in the triangles, `threads` as in build(), which does not show in
-  /// the result. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite); the
-  /// tree is then as it was.
+  /// the result. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite: the
+  /// tree is as it was), kOutOfMemory (it is of no use until a refit succeeds).
   Status refit(const MeshView& mesh, unsigned threads = 0);
 
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.

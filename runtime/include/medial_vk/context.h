@@ -8,6 +8,8 @@
 
 #include "medial_vk/result.h"
 
+struct VkAllocationCallbacks;  // of vulkan.h, which this header does not need
+
 namespace medial_vk {
 
 /// One physical device as Vulkan lists it.
@@ -18,7 +20,7 @@ struct DeviceDescription {
   std::string driver;  ///< Driver name and version.
   std::uint32_t api_version = 0;
   std::uint64_t memory_bytes = 0;  ///< Size of the largest device-local heap.
-  bool usable = false;             ///< Vulkan 1.2 and a compute queue.
+  bool usable = false;             ///< Vulkan 1.2, a compute queue and limits that are high enough.
   std::string why_not;             ///< If not usable: the reason.
 };
 
@@ -30,12 +32,16 @@ struct ContextOptions {
   bool validation = false;
   /// Folder of the pipeline cache. Empty: $XDG_CACHE_HOME/medial-vk, else $HOME/.cache/medial-vk, else none.
   std::string cache_folder;
+  /// Where Vulkan takes host memory from; null: where its driver likes to. Must stay valid until the context is gone,
+  /// and be callable from several threads at once (programs are made on all processors).
+  const VkAllocationCallbacks* allocation_callbacks = nullptr;
 };
 
-/// Owns everything Vulkan. Move-only. Not thread-safe: one context per thread, or a lock.
+/// Owns everything Vulkan. Move-only. Any number may be there at once, on any threads: they share nothing. One context,
+/// with the scenes on it, is for one thread at a time.
 class Context {
  public:
-  /// Errors: kNoDevice with what was found and why it will not do.
+  /// Errors: kNoDevice with what was found and why it will not do, kOutOfMemory.
   static Result<Context> create(const ContextOptions& options = {});
   static Result<std::vector<DeviceDescription>> list_devices();
 

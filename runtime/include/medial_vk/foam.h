@@ -52,7 +52,7 @@ class Foam {
   /// `query_error`: every sample's `nearest` is this close to the boundary, and the open ball around `query` with
   /// radius |query - nearest| - query_error holds no boundary point. Rounding of double is added to it: slack(). Time:
   /// about sites^2 + samples * hull facets; memory: linear. Errors: kUsage (no sample, a number that is not finite, a
-  /// radius that is not positive, a query outside).
+  /// radius that is not positive, a query outside), kOutOfMemory.
   static Result<Foam> build(std::span<const FoamSample> samples, const Ball& sphere, double query_error = 0);
   Foam(Foam&&) noexcept;
   Foam& operator=(Foam&&) noexcept;
@@ -110,7 +110,7 @@ struct SphereSampling {
 
 /// Algorithm 3 on spiral points, their opposites and the deep samples. A pair counts as different only if the ball at
 /// its far end is not empty by more than rounding and twice the query error: 'True' is certain.
-/// Errors: kUsage (a radius that is not positive, a wrong number of answers), and those of `nearest`.
+/// Errors: kUsage (a radius that is not positive, a wrong number of answers), kOutOfMemory, and those of `nearest`.
 Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
                                     const NearestPointsFunction& nearest);
 

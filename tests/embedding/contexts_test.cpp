@@ -1,0 +1,91 @@
+// Contexts come and go, many at once and many after each other: nothing grows.
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <vector>
+
+#include "context_impl.h"
+#include "medial_vk/context.h"
+#include "memory.h"
+#include "recorder.h"
+#include "support/device.h"
+#include "support/extraction.h"
+
+namespace medial_vk::test {
+namespace {
+
+/// Pages of this process in memory, in bytes, after the allocator has given back what it can.
+std::int64_t resident_bytes() {
+  malloc_trim(0);
+  std::int64_t total = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> total >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+/// Opens a device, makes a program and a buffer, fills the buffer on the device.
+void use_a_context() {
+  Context context = make_context();
+  Context::Impl& impl = context.impl();
+  const auto program = impl.program({"prepare_resolve", 1, 0, 0, 1, {}});
+  ASSERT_TRUE(program.ok()) << program.error().message;
+  Arena arena(impl);
+  const Result<Buffer> buffer = arena.create_buffer(4096, MemoryKind::kDevice, "a test");
+  ASSERT_TRUE(buffer.ok()) << buffer.error().message;
+  const auto ran = run_commands(impl, [&](Recorder& r) {
+    r.fill(buffer.value(), 0, 4096, 7);
+    return r.status();
+  });
+  ASSERT_TRUE(ran.ok()) << ran.error().message;
+}
+
+std::size_t cycles(std::size_t otherwise) {
+  const char* wanted = std::getenv("MEDIAL_VK_TEST_CYCLES");
+  return wanted != nullptr ? static_cast<std::size_t>(std::atoll(wanted)) : otherwise;
+}
+
+/// Bytes of growth a context, over `count` of them after a warm-up; prints how it went.
+double growth(std::size_t count) {
+  const std::size_t parts = 10, part = std::max<std::size_t>(1, count / parts);
+  for (std::size_t i = 0; i < part; ++i) use_a_context();
+  const std::int64_t start = resident_bytes();
+  std::cout << "KiB above the start, every " << part << " contexts:";
+  for (std::size_t i = 0; i < parts; ++i) {
+    for (std::size_t k = 0; k < part; ++k) use_a_context();
+    std::cout << " " << (resident_bytes() - start) / 1024;
+  }
+  std::cout << "\n";
+  return static_cast<double>(resident_bytes() - start) / static_cast<double>(parts * part);
+}
+
+class Contexts : public testing::Test {
+ protected:
+  void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
+};
+
+TEST_F(Contexts, LiveSideBySide) {
+  std::vector<Context> contexts;
+  for (int i = 0; i < 32; ++i) contexts.push_back(make_context());
+  for (Context& context : contexts) {
+    Arena arena(context.impl());
+    EXPECT_TRUE(arena.create_buffer(4096, MemoryKind::kDevice, "a test").ok());
+  }
+}
+
+TEST_F(Contexts, AThousandOfThemLeaveNothingBehind) {
+  const Context other = make_context();  // keeps the driver loaded: loading it takes far longer than all the rest
+  const double bytes = growth(cycles(1000));
+  EXPECT_LT(bytes, 1e9);
+}
+
+TEST_F(Contexts, ThatLoadTheDriverAnewLeaveNothingBehind) {
+  const double bytes = growth(cycles(50));
+  EXPECT_LT(bytes, 1e9);
+}
+
+}  // namespace
+}  // namespace medial_vk::test

@@ -1,0 +1,131 @@
+// Many contexts in one process, from many threads: nothing is shared, answers are those of one thread. The
+// ThreadSanitizer runs these (scripts/test --tsan).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "medial_vk/context.h"
+#include "medial_vk/extraction.h"
+#include "medial_vk/queries.h"
+#include "support/device.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+
+namespace medial_vk::test {
+namespace {
+
+constexpr std::size_t kThreads = 4;
+
+PreparedMesh solid(std::size_t i) {
+  Mesh mesh = make_box({1.0, 0.6 + 0.1 * static_cast<double>(i), 0.45});
+  rotate(mesh, {1, 2, 3}, 0.7);
+  return prepare(std::move(mesh));
+}
+
+ExtractionParameters small_job() {
+  ExtractionParameters parameters;
+  parameters.resolution = 8;
+  parameters.extra_levels = 1;
+  parameters.memory_budget = 32u << 20;
+  return parameters;
+}
+
+template <class T>
+void append_bytes(std::string& out, const T& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+/// Spheres and closest points as bytes; what went wrong if anything did.
+std::string work(Context& context, const PreparedMesh& mesh) {
+  std::string out;
+  const auto extraction = extract_medial_spheres(context, mesh.view(), small_job());
+  if (!extraction.ok()) return extraction.error().message;
+  for (const MedialSphere& s : extraction.value().spheres) {
+    append_bytes(out, s.centre);
+    append_bytes(out, s.radius);
+  }
+  Result<Scene> scene = Scene::create(context, mesh.view());
+  if (!scene.ok()) return scene.error().message;
+  std::vector<Point> points;
+  for (int i = 0; i < 5000; ++i) points.push_back({std::sin(0.37 * i), std::cos(0.61 * i), std::sin(0.83 * i)});
+  for (const std::size_t count : {std::size_t{100}, points.size()}) {
+    const auto closest = scene.value().closest_points(std::span(points).first(count));
+    if (!closest.ok()) return closest.error().message;
+    for (const ClosestPoint& c : closest.value()) append_bytes(out, c.distance);
+  }
+  return out;
+}
+
+class Threads : public testing::Test {
+ protected:
+  void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
+  static std::vector<std::string> one_after_the_other(const std::vector<PreparedMesh>& meshes) {
+    Context context = make_context();
+    std::vector<std::string> out;
+    for (const PreparedMesh& mesh : meshes) out.push_back(work(context, mesh));
+    return out;
+  }
+  static std::vector<PreparedMesh> solids() {
+    std::vector<PreparedMesh> out;
+    for (std::size_t i = 0; i < kThreads; ++i) out.push_back(solid(i));
+    return out;
+  }
+};
+
+TEST_F(Threads, WithAContextEachAnswerLikeOne) {
+  const std::vector<PreparedMesh> meshes = solids();
+  const std::vector<std::string> expected = one_after_the_other(meshes);
+  std::vector<std::string> found(kThreads);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < kThreads; ++i) {
+      threads.emplace_back([&, i] {
+        for (int round = 0; round < 2; ++round) {  // contexts come and go while others are at work
+          Context context = make_context();
+          found[i] = work(context, meshes[i]);
+        }
+      });
+    }
+  }
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    EXPECT_GT(expected[i].size(), 1000u) << expected[i];
+    EXPECT_TRUE(found[i] == expected[i]) << "thread " << i;
+  }
+}
+
+// Made by one thread, used by others in turn, destroyed by another.
+TEST_F(Threads, HandAContextOn) {
+  const std::vector<PreparedMesh> meshes = solids();
+  const std::vector<std::string> expected = one_after_the_other(meshes);
+  std::optional<Context> context;
+  std::thread([&] { context.emplace(make_context()); }).join();
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    std::string found;
+    std::thread([&] { found = work(*context, meshes[i]); }).join();
+    EXPECT_TRUE(found == expected[i]) << "thread " << i;
+  }
+  std::thread([&] { context.reset(); }).join();
+}
+
+TEST_F(Threads, ListAndOpenDevicesAtOnce) {
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    threads.emplace_back([i] {
+      for (int round = 0; round < 5; ++round) {
+        if (i % 2 == 0) {
+          EXPECT_TRUE(Context::list_devices().ok());
+        } else {
+          const Context context = make_context();
+          EXPECT_TRUE(context.device().usable);
+        }
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk::test

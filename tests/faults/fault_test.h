@@ -1,0 +1,133 @@
+// What the tests of faults share: small jobs with known answers, behind an interposer that can spoil them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "context_impl.h"
+#include "failing_new.h"
+#include "medial_vk/extraction.h"
+#include "medial_vk/queries.h"
+#include "support/device.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+#include "vulkan_interposer.h"
+
+namespace medial_vk::test {
+
+/// Equal answers have equal bytes: runs on one device are deterministic.
+template <class T>
+void append_bytes(std::string& out, const T& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+inline PreparedMesh small_box() {
+  Mesh mesh = make_box({1.0, 0.7, 0.45});
+  rotate(mesh, {1, 2, 3}, 0.7);
+  return prepare(std::move(mesh));
+}
+
+inline ExtractionParameters small_job(Mode mode) {
+  ExtractionParameters parameters;
+  parameters.mode = mode;
+  parameters.resolution = mode == Mode::kThesis ? 12 : 8;
+  parameters.extra_levels = 1;
+  parameters.samples = {60, 50, 40, 30};
+  parameters.memory_budget = 32u << 20;
+  return parameters;
+}
+
+/// All that is said about the solid, as bytes.
+inline std::string answer_of(const Extraction& extraction) {
+  std::string out;
+  for (const MedialSphere& s : extraction.spheres) {
+    append_bytes(out, s.centre);
+    append_bytes(out, s.radius);
+    append_bytes(out, s.spoke_a);
+    append_bytes(out, s.spoke_b);
+    append_bytes(out, s.flux);
+    append_bytes(out, s.voxel);
+  }
+  for (const UndecidedVoxel& v : extraction.undecided) append_bytes(out, v.voxel);
+  return out;
+}
+
+inline std::vector<Point> points_around(std::size_t count) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = 0.37 * static_cast<double>(i);
+    points.push_back({0.9 * std::sin(t), 0.8 * std::cos(1.7 * t), 0.7 * std::sin(2.3 * t)});
+  }
+  return points;
+}
+
+/// The answer as bytes, or the error.
+using Answer = Result<std::string>;
+using Job = std::function<Answer(Context&)>;
+
+inline Answer extract(Context& context, const PreparedMesh& mesh, Mode mode) {
+  const auto extraction = in_runtime([&] { return extract_medial_spheres(context, mesh.view(), small_job(mode)); });
+  if (!extraction.ok()) return extraction.error();
+  return answer_of(extraction.value());
+}
+
+/// Closest points by both ways, empty balls, winding numbers, flux.
+inline Answer ask_everything(Scene& scene) {
+  std::string out;
+  for (const std::size_t count : {50u, 4096u}) {
+    const std::vector<Point> points = points_around(count);
+    const auto closest = in_runtime([&] { return scene.closest_points(points); });
+    if (!closest.ok()) return closest.error();
+    for (const ClosestPoint& c : closest.value()) append_bytes(out, c.distance);
+  }
+  std::vector<Ball> balls;
+  for (const Point& p : points_around(20)) balls.push_back({p, 0.1});
+  const auto empty = in_runtime([&] { return scene.empty_balls(balls); });
+  if (!empty.ok()) return empty.error();
+  for (const std::uint8_t e : empty.value()) append_bytes(out, e);
+  const std::vector<Point> points = points_around(20);
+  const auto numbers = in_runtime([&] { return scene.winding_numbers(points); });
+  if (!numbers.ok()) return numbers.error();
+  for (const double n : numbers.value()) append_bytes(out, n);
+  const auto fluxes = in_runtime([&] { return scene.fluxes(balls, 20); });
+  if (!fluxes.ok()) return fluxes.error();
+  for (const FluxSample& f : fluxes.value()) append_bytes(out, f.flux);
+  return out;
+}
+
+inline Answer make_scene_and_ask(Context& context, const PreparedMesh& mesh) {
+  Result<Scene> scene = in_runtime([&] { return Scene::create(context, mesh.view()); });
+  if (!scene.ok()) return scene.error();
+  return ask_everything(scene.value());
+}
+
+/// With the interposer in place. Skipped without a device.
+class FaultTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    vulkan();
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    vulkan().set_profile({});
+  }
+  void TearDown() override {
+    vulkan().stop_failing();
+    vulkan().set_profile({});
+    EXPECT_EQ(vulkan().leaks(), "");
+  }
+  static VulkanInterposer& vulkan() { return VulkanInterposer::get(); }
+  static Result<Context> open() {
+    const ContextOptions options = {.device = "", .validation = false, .cache_folder = "/dev/null"};
+    return in_runtime([&] { return Context::create(options); });
+  }
+};
+
+}  // namespace medial_vk::test

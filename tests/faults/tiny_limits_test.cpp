@@ -1,0 +1,147 @@
+// Poor devices: the same spheres as on a good one, or one error that names what is missing.
+#include <gmock/gmock.h>
+
+#include "fault_test.h"
+#include "vulkan_minimum.h"
+
+namespace medial_vk::test {
+namespace {
+
+using testing::HasSubstr;
+
+class PoorDevice : public FaultTest {
+ protected:
+  /// The error of opening a device that looks like this; --list-devices says the same.
+  static Error refused(const DeviceProfile& profile) {
+    vulkan().set_profile(profile);
+    const Result<Context> context = open();
+    EXPECT_FALSE(context.ok());
+    if (context.ok()) return {};
+    EXPECT_EQ(context.error().code, ErrorCode::kNoDevice);
+    const auto devices = Context::list_devices();
+    EXPECT_TRUE(devices.ok());
+    for (const DeviceDescription& device : devices.value()) {
+      EXPECT_FALSE(device.usable);
+      EXPECT_THAT(context.error().message, HasSubstr(device.why_not));
+    }
+    return context.error();
+  }
+};
+
+TEST_F(PoorDevice, WithTheLeastThatVulkanAllowsIsRefusedByName) {
+  EXPECT_THAT(refused(minimum_profile(false)).message,
+              HasSubstr("its maxPerStageDescriptorStorageBuffers is 4, 16 are needed"));
+}
+
+TEST_F(PoorDevice, IsRefusedForEachRequiredLimit) {
+  for (const RequiredLimit& required : required_limits()) {
+    DeviceProfile profile;
+    profile.limits = [&required](VkPhysicalDeviceLimits& limits) { required.of(limits) = required.needed - 1; };
+    EXPECT_THAT(refused(profile).message,
+                HasSubstr(std::string(required.name) + " is " + std::to_string(required.needed - 1)));
+  }
+}
+
+TEST_F(PoorDevice, WithoutAComputeQueueIsRefused) {
+  DeviceProfile profile;
+  profile.no_compute = true;
+  EXPECT_THAT(refused(profile).message, HasSubstr("it has no compute queue"));
+}
+
+TEST_F(PoorDevice, OfAnOlderVulkanIsRefused) {
+  DeviceProfile profile;
+  profile.api_version = VK_API_VERSION_1_1;
+  EXPECT_THAT(refused(profile).message, HasSubstr("it has Vulkan 1.1.0, 1.2 is needed"));
+}
+
+TEST_F(PoorDevice, ThatDoesNotExistIsNotFound) {
+  DeviceProfile profile;
+  profile.no_devices = true;
+  EXPECT_THAT(refused(profile).message, HasSubstr("Vulkan lists no device"));
+}
+
+TEST_F(PoorDevice, WhoseListNeverEndsIsTakenAsItIs) {
+  DeviceProfile profile;
+  profile.never_complete = true;
+  vulkan().set_profile(profile);
+  const Result<Context> context = open();
+  EXPECT_TRUE(context.ok()) << context.error().message;
+}
+
+PreparedMesh torus(std::uint32_t around, std::uint32_t along) {
+  Mesh mesh = make_torus(1.0, 0.4, around, along);
+  rotate(mesh, {1, 2, 3}, 0.7);
+  return prepare(std::move(mesh));
+}
+
+std::vector<Answer> all_answers(Context& context) {
+  std::vector<Answer> answers;
+  for (const PreparedMesh& mesh : {small_box(), torus(30, 15)}) {
+    for (const Mode mode : {Mode::kCertified, Mode::kThesis}) answers.push_back(extract(context, mesh, mode));
+    answers.push_back(make_scene_and_ask(context, mesh));
+  }
+  return answers;
+}
+
+TEST_F(PoorDevice, WithNoMoreThanWhatIsRequiredGivesTheSameAnswers) {
+  std::vector<std::vector<Answer>> answers;
+  for (const bool poor : {false, true}) {
+    DeviceProfile profile = poor ? minimum_profile(true) : DeviceProfile{};
+    if (poor) {
+      // Below what Vulkan allows, so that a small mesh already has to be read through storage buffers.
+      profile.limits = [least = profile.limits](VkPhysicalDeviceLimits& limits) {
+        least(limits);
+        limits.maxTexelBufferElements = 1000;
+      };
+    }
+    vulkan().set_profile(profile);
+    vulkan().clear_usage();
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    answers.push_back(all_answers(context.value()));
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
+  }
+  for (std::size_t i = 0; i < answers[0].size(); ++i) {
+    ASSERT_TRUE(answers[0][i].ok()) << answers[0][i].error().message;
+    ASSERT_TRUE(answers[1][i].ok()) << answers[1][i].error().message;
+    EXPECT_GT(answers[0][i].value().size(), 0u);
+    EXPECT_TRUE(answers[1][i].value() == answers[0][i].value()) << "answer " << i;
+  }
+
+  // The table of requirements covers what is used.
+  const Usage usage = vulkan().usage();
+  const std::map<std::string, std::uint32_t> used = {{"maxPerStageDescriptorStorageBuffers", usage.storage_buffers},
+                                                     {"maxDescriptorSetStorageBuffers", usage.storage_buffers},
+                                                     {"maxPerStageDescriptorSampledImages", usage.texel_buffers},
+                                                     {"maxPerStageResources", usage.buffers},
+                                                     {"maxPushConstantsSize", usage.push_constant_bytes},
+                                                     {"maxComputeSharedMemorySize", usage.shared_bytes},
+                                                     {"maxComputeWorkGroupInvocations", usage.workgroup_size},
+                                                     {"maxComputeWorkGroupSize[0]", usage.workgroup_size}};
+  for (const RequiredLimit& required : required_limits())
+    if (used.contains(required.name)) {
+      EXPECT_LE(used.at(required.name), required.needed) << required.name;
+    }
+  EXPECT_EQ(usage.sets, 1u);
+  for (const auto& [name, count] : used) std::cout << name << " " << count << "\n";
+  std::cout << "allocations of device memory at one time " << usage.allocations << "\n";
+}
+
+// The least maxTexelBufferElements that Vulkan allows is too low for this mesh.
+TEST_F(PoorDevice, ReadsALargeMeshThroughStorageBuffers) {
+  const PreparedMesh mesh = torus(140, 64);
+  ASSERT_GT(4 * mesh.mesh.triangles.size(), 65536u);
+  std::vector<Answer> answers;
+  for (const bool poor : {false, true}) {
+    vulkan().set_profile(poor ? minimum_profile(true) : DeviceProfile{});
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    answers.push_back(make_scene_and_ask(context.value(), mesh));
+    ASSERT_TRUE(answers.back().ok()) << answers.back().error().message;
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
+  }
+  EXPECT_TRUE(answers[0].value() == answers[1].value());
+}
+
+}  // namespace
+}  // namespace medial_vk::test

@@ -1,0 +1,191 @@
+// Every call of Vulkan that can fail does so once, in every job: the job then ends with an error that says why, nothing
+// stays behind, and the context goes on to give right answers.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "fault_test.h"
+
+namespace medial_vk::test {
+namespace {
+
+constexpr Fault kMemoryFaults[] = {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory, Fault::kDeviceFull};
+
+ErrorCode expected_code(Fault fault) {
+  return fault == Fault::kDeviceLost ? ErrorCode::kInternal : ErrorCode::kOutOfMemory;
+}
+
+class VulkanFaults : public FaultTest {
+ protected:
+  /// Fails the first call, then the second, and so on until the job gets by with fewer calls. `fresh`: what a job
+  /// starts from; it may leave programs behind, but the first run has made them.
+  void fail_every_call(Fault fault, const std::string& name, const std::function<Answer()>& job,
+                       const std::function<void(std::uint64_t)>& afterwards) {
+    const Answer expected = job();
+    ASSERT_TRUE(expected.ok()) << expected.error().message;
+    const auto handles = vulkan().handles();
+    std::uint64_t failures = 0, survived = 0, k = 0;
+    std::set<std::string> calls;
+    for (bool failed = true; failed && !HasFailure();) {
+      vulkan().fail_call(++k, fault);
+      const Answer answer = job();
+      const std::string call = vulkan().stop_failing();
+      SCOPED_TRACE(name + ", " + fault_name(fault) + ", call " + std::to_string(k) + " (" + call + ")");
+      failed = !call.empty();
+      calls.insert(call);
+      if (answer.ok()) {
+        EXPECT_TRUE(answer.value() == expected.value());
+        survived += failed ? 1 : 0;
+      } else {
+        EXPECT_TRUE(failed);
+        EXPECT_EQ(answer.error().code, expected_code(fault)) << answer.error().message;
+        EXPECT_NE(answer.error().message, "");
+        ++failures;
+      }
+      EXPECT_EQ(vulkan().handles(), handles);
+      if (failed) afterwards(k);
+    }
+    EXPECT_GT(failures, 0u);
+    calls.erase("");
+    std::cout << name << ", " << fault_name(fault) << ": " << failures << " errors, " << survived << " survived, of "
+              << calls.size() << " functions\n";
+  }
+
+  /// Of a job on a context that stays, for all faults. Faults of memory: a scene beside it must still answer.
+  void fail_every_call_of(const std::string& name, const Job& job) {
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    const PreparedMesh mesh = small_box();
+    Scene beside = Scene::create(context.value(), mesh.view()).value();
+    const std::vector<Point> points = points_around(5);
+    const auto ask = [&] {
+      std::string out;
+      const auto closest = beside.closest_points(points);
+      EXPECT_TRUE(closest.ok()) << closest.error().message;
+      if (closest.ok())
+        for (const ClosestPoint& c : closest.value()) append_bytes(out, c.distance);
+      return out;
+    };
+    const std::string expected = ask();
+    const auto afterwards = [&](std::uint64_t) { EXPECT_TRUE(ask() == expected); };
+    for (const Fault fault : kMemoryFaults)
+      fail_every_call(
+          fault, name, [&] { return job(context.value()); }, afterwards);
+    fail_every_call(
+        Fault::kDeviceLost, name, [&] { return job(context.value()); }, [](std::uint64_t) {});
+  }
+};
+
+TEST_F(VulkanFaults, OfOpeningADevice) {
+  // Two small programs: what makes them is the same for all.
+  const std::set<ProgramKey> keys = {{"prepare_dispatch", 2, 0, 48, 1, {}}, {"prepare_resolve", 1, 0, 0, 1, {}}};
+  const auto job = [&]() -> Answer {
+    Result<Context> context = open();
+    if (!context.ok()) return context.error();
+    if (Status made = context.value().impl().make_programs(keys); !made.ok()) return made.error();
+    return std::string("made");
+  };
+  for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})
+    fail_every_call(fault, "opening a device", job, [](std::uint64_t) {});
+}
+
+TEST_F(VulkanFaults, OfListingDevices) {
+  for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory}) {
+    for (std::uint64_t k = 1;; ++k) {
+      vulkan().fail_call(k, fault);
+      const auto devices = Context::list_devices();
+      if (vulkan().stop_failing().empty()) break;
+      ASSERT_FALSE(devices.ok());
+      EXPECT_EQ(devices.error().code, ErrorCode::kOutOfMemory);
+      EXPECT_EQ(vulkan().leaks(), "");
+    }
+  }
+}
+
+TEST_F(VulkanFaults, OfQueries) {
+  const PreparedMesh mesh = small_box();
+  fail_every_call_of("queries", [&](Context& context) { return make_scene_and_ask(context, mesh); });
+}
+
+TEST_F(VulkanFaults, OfCertifiedExtraction) {
+  const PreparedMesh mesh = small_box();
+  fail_every_call_of("certified extraction",
+                     [&](Context& context) { return extract(context, mesh, Mode::kCertified); });
+}
+
+TEST_F(VulkanFaults, OfThesisExtraction) {
+  const PreparedMesh mesh = small_box();
+  fail_every_call_of("thesis extraction", [&](Context& context) { return extract(context, mesh, Mode::kThesis); });
+}
+
+// On a device whose memory the host does not see, where everything goes through staging buffers.
+TEST_F(VulkanFaults, OfAnUpdatedScene) {
+  DeviceProfile discrete;
+  discrete.split_memory = true;
+  vulkan().set_profile(discrete);
+  {
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    const PreparedMesh mesh = small_box();
+    PreparedMesh moved = mesh;
+    for (Point& p : moved.mesh.vertices) p[0] = 1.5 * p[0] + 0.25 * p[1];
+    Scene scene = Scene::create(context.value(), mesh.view()).value();
+    const std::string before = ask_everything(scene).value();
+    const auto job = [&]() -> Answer {
+      const Status updated = scene.update(moved.view());
+      // Afterwards: a scene that was left half-way must say so, and not answer for a mixture of two meshes.
+      const Answer now = ask_everything(scene);
+      if (!updated.ok()) {
+        EXPECT_TRUE(!now.ok() || now.value() == before);
+        return updated.error();
+      }
+      return now;
+    };
+    const auto back = [&](std::uint64_t) {
+      const Status updated = scene.update(mesh.view());
+      ASSERT_TRUE(updated.ok()) << updated.error().message;
+      const Answer now = ask_everything(scene);
+      ASSERT_TRUE(now.ok());
+      EXPECT_TRUE(now.value() == before);
+    };
+    // Handles come and go with what an update that failed has freed: only the last count is compared, by the fixture.
+    const std::string after = job().value();
+    for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory, Fault::kDeviceFull}) {
+      for (std::uint64_t k = 1; !HasFailure(); ++k) {
+        back(k);
+        vulkan().fail_call(k, fault);
+        const Answer answer = job();
+        const std::string call = vulkan().stop_failing();
+        SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
+        if (!answer.ok()) {
+          EXPECT_EQ(answer.error().code, ErrorCode::kOutOfMemory) << answer.error().message;
+        } else {
+          EXPECT_TRUE(answer.value() == after);
+        }
+        if (call.empty()) {
+          std::cout << "update of a scene, " << fault_name(fault) << ": " << k - 1 << " calls\n";
+          break;
+        }
+      }
+    }
+  }
+}
+
+// What is lost stays lost, and says so: no call hangs or answers.
+TEST_F(VulkanFaults, ALostDeviceIsNamed) {
+  Result<Context> context = open();
+  ASSERT_TRUE(context.ok());
+  const PreparedMesh mesh = small_box();
+  Scene scene = Scene::create(context.value(), mesh.view()).value();
+  vulkan().fail_call(1, Fault::kDeviceLost);
+  for (int i = 0; i < 2; ++i) {
+    const auto closest = scene.closest_points(points_around(5));
+    ASSERT_FALSE(closest.ok());
+    EXPECT_EQ(closest.error().code, ErrorCode::kInternal);
+    EXPECT_THAT(closest.error().message, testing::HasSubstr(context.value().device().name));
+    EXPECT_THAT(closest.error().message, testing::HasSubstr("was lost"));
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk::test

@@ -1,0 +1,105 @@
+// Stands between the runtime and Vulkan: makes the k-th call fail, counts what is created and not destroyed, and makes
+// a device look poorer than it is. It comes in through volk's entry point, so that the runtime needs no hook for it.
+#pragma once
+
+#include <volk.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace medial_vk::test {
+
+enum class Fault {
+  kNone,
+  kOutOfHostMemory,    // of one call
+  kOutOfDeviceMemory,  // of one call
+  kDeviceFull,         // from one vkAllocateMemory on, of all
+  kDeviceLost,         // from one submission, wait or query on, of all
+};
+
+const char* fault_name(Fault fault);
+
+/// What a device seems to be. What is empty is as it is.
+struct DeviceProfile {
+  bool no_devices = false;
+  bool no_compute = false;
+  bool never_complete = false;  // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
+  std::uint32_t api_version = 0;
+  std::function<void(VkPhysicalDeviceLimits&)> limits;
+  std::optional<VkDeviceSize> max_allocation_bytes;
+  std::optional<std::uint32_t> timestamp_valid_bits;
+  bool no_subgroup_operations = false;  // subgroups of one invocation, basic operations only
+  bool split_memory = false;  // two types: one that only the device sees, one that the host may map (discrete GPUs)
+};
+
+/// What programs and buffers have asked for at most, to compare with limits.
+struct Usage {
+  std::uint32_t storage_buffers = 0;
+  std::uint32_t texel_buffers = 0;
+  std::uint32_t buffers = 0;  // both, of one program
+  std::uint32_t push_constant_bytes = 0;
+  std::uint32_t workgroup_size = 0;
+  std::uint32_t shared_bytes = 0;
+  std::uint32_t sets = 0;
+  std::uint64_t allocations = 0;  // of device memory, at one time
+};
+
+/// One per process; in use from the first call of get() on.
+class VulkanInterposer {
+ public:
+  static VulkanInterposer& get();
+
+  /// The k-th call from now on that can fail in this way fails, k = 1, 2, ...
+  void fail_call(std::uint64_t k, Fault fault);
+  /// No faults any more; returns the name of the call that failed, empty if none did.
+  std::string stop_failing();
+  /// Calls since fail_call() that could have failed.
+  std::uint64_t calls() const { return calls_; }
+
+  /// Handles that are there, by type; those of a pool count with the pool.
+  std::map<std::string, std::int64_t> handles() const;
+  /// "VkBuffer: 3 more created than destroyed" for types that differ; empty: none does.
+  std::string leaks() const;
+
+  void set_profile(DeviceProfile profile);
+  const DeviceProfile& profile() const { return profile_; }
+  Usage usage() const;
+  void clear_usage();
+  /// Calls that were beyond the limits of the profile.
+  std::vector<std::string> violations() const;
+
+  // For the hooks.
+  VkResult next_result(const char* call, unsigned faults);
+  void created(const char* type);
+  void destroyed(const char* type);
+  void use(const std::function<void(Usage&)>& change);
+  void violation(std::string what);
+  VkPhysicalDeviceLimits limits{};  // as they were last reported
+  std::mutex buffers_mutex;
+  std::map<VkBuffer, VkDeviceSize> buffer_sizes;
+
+ private:
+  VulkanInterposer() = default;
+  mutable std::mutex mutex_;
+  std::atomic<std::uint64_t> calls_ = 0;
+  std::uint64_t fail_at_ = 0;
+  Fault fault_ = Fault::kNone;
+  std::string failed_;
+  std::map<std::string, std::int64_t> created_, destroyed_;
+  DeviceProfile profile_;
+  Usage usage_;
+  std::vector<std::string> violations_;
+};
+
+/// Is this thread inside a call of Vulkan now? What drivers allocate is not ours to fail.
+bool in_driver();
+/// The call it is in, if that can report that host memory has run out; else null.
+const char* fallible_call();
+
+}  // namespace medial_vk::test
