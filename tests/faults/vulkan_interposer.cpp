@@ -69,12 +69,12 @@ auto call_real(Args... args) {
 template <class Tag, class... Args>
 void look_at(Tag, Args...) {}
 
-#define MEDIAL_VK_TAG(call, faults, handle)        \
-  struct call##Tag {                               \
-    using Function = PFN_##call;                   \
-    static constexpr const char* kName = #call;    \
-    static constexpr unsigned kFaults = faults;    \
-    static constexpr const char* kHandle = handle; \
+#define MEDIAL_VK_TAG(call, faults, handle)                         \
+  struct call##Tag {                                                \
+    using Function = PFN_##call;                                    \
+    [[maybe_unused]] static constexpr const char* kName = #call;    \
+    [[maybe_unused]] static constexpr unsigned kFaults = faults;    \
+    [[maybe_unused]] static constexpr const char* kHandle = handle; \
   };
 
 // Calls that can fail, and what they create.
