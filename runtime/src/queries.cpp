@@ -9,6 +9,12 @@
 #include "spiral.h"
 
 namespace medial_vk {
+namespace {
+
+// One invocation adds up the samples of a sphere: lavapipe ends its loops silently after 65,535 iterations.
+constexpr std::uint32_t kMostFluxSamples = 60'000;
+
+}  // namespace
 
 Result<Scene> Scene::create(Context& context, const MeshView& mesh) {
   return catch_out_of_memory("making a scene", [&]() -> Result<Scene> {
@@ -150,8 +156,8 @@ Status Scene::Impl::fluxes(std::span<const Ball> spheres, std::size_t first, std
 
 Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
   if (Status ready = usable(); !ready.ok()) return ready.error();
-  if (samples == 0 || samples > kBatch) {
-    return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kBatch)};
+  if (samples == 0 || samples > kMostFluxSamples) {
+    return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kMostFluxSamples)};
   }
   std::vector<Texel> directions;
   for (const Point& d : spiral_points(samples)) {

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "context_impl.h"
@@ -14,10 +16,27 @@
 #include "memory.h"
 #include "recorder.h"
 #include "support/device.h"
-#include "support/extraction.h"
 
 namespace medial_vk::test {
 namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // what is freed stays in memory for a while: its size says nothing
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Measured on lavapipe (Mesa 22.3): six runs over 1,000 contexts, between -32 and 40 KiB, up and down; nine over 50
+/// that load the driver anew, at most 84 KiB. Three times the most: a quarter of a KiB a context of a thousand. A
+/// forgotten VkDevice costs tens of KiB, an object of Vulkan some hundred bytes.
+constexpr double kMostGrowth = 256 * 1024;
+
+/// Without the user's pipeline cache.
+Context make_context() {
+  Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
+  if (!context.ok()) throw std::runtime_error(context.error().message);
+  return std::move(context).value();
+}
 
 /// Pages of this process in memory, in bytes, after the allocator has given back what it can.
 std::int64_t resident_bytes() {
@@ -43,15 +62,11 @@ void use_a_context() {
   ASSERT_TRUE(ran.ok()) << ran.error().message;
 }
 
-std::size_t cycles(std::size_t otherwise) {
-  const char* wanted = std::getenv("MEDIAL_VK_TEST_CYCLES");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoll(wanted)) : otherwise;
-}
-
-/// Bytes of growth a context, over `count` of them after a warm-up; prints how it went.
+/// Bytes of growth over `count` contexts after a warm-up of 100: in a process that has done nothing yet, pools of the
+/// driver and of the allocator fill up over the first fifty. Prints how it went.
 double growth(std::size_t count) {
   const std::size_t parts = 10, part = std::max<std::size_t>(1, count / parts);
-  for (std::size_t i = 0; i < part; ++i) use_a_context();
+  for (std::size_t i = 0; i < (kSanitized ? 5u : 100u); ++i) use_a_context();
   const std::int64_t start = resident_bytes();
   std::cout << "KiB above the start, every " << part << " contexts:";
   for (std::size_t i = 0; i < parts; ++i) {
@@ -59,7 +74,7 @@ double growth(std::size_t count) {
     std::cout << " " << (resident_bytes() - start) / 1024;
   }
   std::cout << "\n";
-  return static_cast<double>(resident_bytes() - start) / static_cast<double>(parts * part);
+  return static_cast<double>(resident_bytes() - start);
 }
 
 class Contexts : public testing::Test {
@@ -78,13 +93,17 @@ TEST_F(Contexts, LiveSideBySide) {
 
 TEST_F(Contexts, AThousandOfThemLeaveNothingBehind) {
   const Context other = make_context();  // keeps the driver loaded: loading it takes far longer than all the rest
-  const double bytes = growth(cycles(1000));
-  EXPECT_LT(bytes, 1e9);
+  const double bytes = growth(kSanitized ? 20 : 1000);
+  if (!kSanitized) {
+    EXPECT_LT(bytes, kMostGrowth);
+  }
 }
 
 TEST_F(Contexts, ThatLoadTheDriverAnewLeaveNothingBehind) {
-  const double bytes = growth(cycles(50));
-  EXPECT_LT(bytes, 1e9);
+  const double bytes = growth(kSanitized ? 10 : 50);
+  if (!kSanitized) {
+    EXPECT_LT(bytes, kMostGrowth);
+  }
 }
 
 }  // namespace

@@ -4,26 +4,49 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/queries.h"
 #include "support/device.h"
-#include "support/extraction.h"
-#include "support/solids.h"
 
 namespace medial_vk::test {
 namespace {
 
 constexpr std::size_t kThreads = 4;
 
-PreparedMesh solid(std::size_t i) {
-  Mesh mesh = make_box({1.0, 0.6 + 0.1 * static_cast<double>(i), 0.45});
-  rotate(mesh, {1, 2, 3}, 0.7);
-  return prepare(std::move(mesh));
+/// A box, turned a little; borrowed arrays with their owner.
+struct Solid {
+  std::vector<Point> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> flags;
+  MeshView view() const { return {vertices, triangles, flags, true}; }
+};
+
+Solid solid(std::size_t i) {
+  const Point size = {1.0, 0.6 + 0.1 * static_cast<double>(i), 0.45};
+  Solid box;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const double x = (corner & 1u) != 0 ? size[0] : 0, y = (corner & 2u) != 0 ? size[1] : 0;
+    box.vertices.push_back({0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, (corner & 4u) != 0 ? size[2] : 0});
+  }
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  box.flags.assign(box.triangles.size(), kTrustedNormal);
+  return box;
+}
+
+/// Without the user's pipeline cache.
+Context make_context() {
+  Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
+  if (!context.ok()) throw std::runtime_error(context.error().message);
+  return std::move(context).value();
 }
 
 ExtractionParameters small_job() {
@@ -40,7 +63,7 @@ void append_bytes(std::string& out, const T& value) {
 }
 
 /// Spheres and closest points as bytes; what went wrong if anything did.
-std::string work(Context& context, const PreparedMesh& mesh) {
+std::string work(Context& context, const Solid& mesh) {
   std::string out;
   const auto extraction = extract_medial_spheres(context, mesh.view(), small_job());
   if (!extraction.ok()) return extraction.error().message;
@@ -63,21 +86,21 @@ std::string work(Context& context, const PreparedMesh& mesh) {
 class Threads : public testing::Test {
  protected:
   void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
-  static std::vector<std::string> one_after_the_other(const std::vector<PreparedMesh>& meshes) {
+  static std::vector<std::string> one_after_the_other(const std::vector<Solid>& meshes) {
     Context context = make_context();
     std::vector<std::string> out;
-    for (const PreparedMesh& mesh : meshes) out.push_back(work(context, mesh));
+    for (const Solid& mesh : meshes) out.push_back(work(context, mesh));
     return out;
   }
-  static std::vector<PreparedMesh> solids() {
-    std::vector<PreparedMesh> out;
+  static std::vector<Solid> solids() {
+    std::vector<Solid> out;
     for (std::size_t i = 0; i < kThreads; ++i) out.push_back(solid(i));
     return out;
   }
 };
 
 TEST_F(Threads, WithAContextEachAnswerLikeOne) {
-  const std::vector<PreparedMesh> meshes = solids();
+  const std::vector<Solid> meshes = solids();
   const std::vector<std::string> expected = one_after_the_other(meshes);
   std::vector<std::string> found(kThreads);
   {
@@ -99,7 +122,7 @@ TEST_F(Threads, WithAContextEachAnswerLikeOne) {
 
 // Made by one thread, used by others in turn, destroyed by another.
 TEST_F(Threads, HandAContextOn) {
-  const std::vector<PreparedMesh> meshes = solids();
+  const std::vector<Solid> meshes = solids();
   const std::vector<std::string> expected = one_after_the_other(meshes);
   std::optional<Context> context;
   std::thread([&] { context.emplace(make_context()); }).join();

@@ -1,6 +1,7 @@
 // What the tests of faults share: small jobs with known answers, behind an interposer that can spoil them.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -120,6 +121,7 @@ class FaultTest : public testing::Test {
   }
   void TearDown() override {
     vulkan().stop_failing();
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
     vulkan().set_profile({});
     EXPECT_EQ(vulkan().leaks(), "");
   }

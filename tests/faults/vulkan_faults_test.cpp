@@ -43,6 +43,7 @@ class VulkanFaults : public FaultTest {
         ++failures;
       }
       EXPECT_EQ(vulkan().handles(), handles);
+      EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
       if (failed) afterwards(k);
     }
     EXPECT_GT(failures, 0u);
@@ -87,6 +88,15 @@ TEST_F(VulkanFaults, OfOpeningADevice) {
   };
   for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})
     fail_every_call(fault, "opening a device", job, [](std::uint64_t) {});
+}
+
+TEST_F(VulkanFaults, ADeviceThatIsLostWhileItIsOpenedIsNoDevice) {
+  vulkan().fail_call(1, Fault::kDeviceLost);
+  const Result<Context> context = open();
+  EXPECT_EQ(vulkan().stop_failing(), "vkCreateDevice");
+  ASSERT_FALSE(context.ok());
+  EXPECT_EQ(context.error().code, ErrorCode::kNoDevice);
+  EXPECT_THAT(context.error().message, testing::HasSubstr("the device was lost"));
 }
 
 TEST_F(VulkanFaults, OfListingDevices) {

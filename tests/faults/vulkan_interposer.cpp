@@ -69,12 +69,12 @@ auto call_real(Args... args) {
 template <class Tag, class... Args>
 void look_at(Tag, Args...) {}
 
-#define MEDIAL_VK_TAG(call, faults, handle)        \
-  struct call##Tag {                               \
-    using Function = PFN_##call;                   \
-    static constexpr const char* kName = #call;    \
-    static constexpr unsigned kFaults = faults;    \
-    static constexpr const char* kHandle = handle; \
+#define MEDIAL_VK_TAG(call, faults, handle)                         \
+  struct call##Tag {                                                \
+    using Function = PFN_##call;                                    \
+    [[maybe_unused]] static constexpr const char* kName = #call;    \
+    [[maybe_unused]] static constexpr unsigned kFaults = faults;    \
+    [[maybe_unused]] static constexpr const char* kHandle = handle; \
   };
 
 // Calls that can fail, and what they create.
@@ -216,7 +216,10 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     const VkResult fault = self.next_result(Tag::kName, Tag::kFaults);
     constexpr bool kWaits = std::is_same_v<Tag, vkWaitForFencesTag> || std::is_same_v<Tag, vkDeviceWaitIdleTag>;
     // A device that is lost does nothing any more: let the real one finish first.
-    if (kWaits && fault == VK_ERROR_DEVICE_LOST) call_real<Tag>(args...);
+    if (kWaits && fault == VK_ERROR_DEVICE_LOST) {
+      call_real<Tag>(args...);
+      self.at_work = false;
+    }
     if (fault != VK_SUCCESS) return fault;
     look_at(Tag(), args...);
     VkResult result = VK_SUCCESS;
@@ -228,6 +231,8 @@ struct Hook<Tag, VkResult (*)(Args...)> {
       current_call = nullptr;
     }
     if (result != VK_SUCCESS) return result;
+    if (std::is_same_v<Tag, vkQueueSubmitTag>) self.at_work = true;
+    if (kWaits) self.at_work = false;
     if (Tag::kHandle != nullptr) self.created(Tag::kHandle);
     if constexpr (std::is_same_v<Tag, vkCreateBufferTag>) {
       const std::lock_guard lock(self.buffers_mutex);
@@ -248,7 +253,11 @@ struct Hook<Tag, void (*)(Args...)> {
   static void call(Args... args) {
     const InDriver inside;
     const auto all = std::make_tuple(args...);
-    if (std::get<sizeof...(Args) - 2>(all) != VK_NULL_HANDLE) VulkanInterposer::get().destroyed(Tag::kHandle);
+    VulkanInterposer& self = VulkanInterposer::get();
+    if (std::get<sizeof...(Args) - 2>(all) != VK_NULL_HANDLE) {
+      self.destroyed(Tag::kHandle);
+      if (self.at_work) self.violation(std::string(Tag::kName) + " while the device is at work");
+    }
     call_real<Tag>(args...);
   }
 };

@@ -71,7 +71,7 @@ class VulkanInterposer {
   const DeviceProfile& profile() const { return profile_; }
   Usage usage() const;
   void clear_usage();
-  /// Calls that were beyond the limits of the profile.
+  /// Calls that were beyond the limits of the profile, or destroyed something while the device was at work.
   std::vector<std::string> violations() const;
 
   // For the hooks.
@@ -80,7 +80,8 @@ class VulkanInterposer {
   void destroyed(const char* type);
   void use(const std::function<void(Usage&)>& change);
   void violation(std::string what);
-  VkPhysicalDeviceLimits limits{};  // as they were last reported
+  std::atomic<bool> at_work = false;  // something was submitted and not waited for
+  VkPhysicalDeviceLimits limits{};    // as they were last reported
   std::mutex buffers_mutex;
   std::map<VkBuffer, VkDeviceSize> buffer_sizes;
 

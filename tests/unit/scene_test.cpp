@@ -121,6 +121,16 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   EXPECT_EQ(queries.read_unresolved_total().value(), 20u);
 }
 
+// One invocation adds up all samples of a sphere; lavapipe would end its loop silently after 65,535 of them.
+TEST_F(SceneTest, TakesAsManyFluxSamplesAsItCanAddUp) {
+  const Mesh mesh = test::make_box({1.0, 0.7, 0.45});
+  Scene scene = Scene::create(*context_, view_of(mesh)).value();
+  const std::vector<Ball> spheres = {{{0.5, 0.35, 0.2}, 0.1}};
+  const double expected = scene.fluxes(spheres, 4000).value()[0].flux;
+  EXPECT_NEAR(scene.fluxes(spheres, 60000).value()[0].flux, expected, 1e-3);
+  EXPECT_EQ(scene.fluxes(spheres, 60001).error().code, ErrorCode::kUsage);
+}
+
 TEST(Spiral, SpreadsPointsEvenly) {
   for (const std::uint32_t count : {1u, 2u, 50u, 400u}) {
     const std::vector<Point> points = spiral_points(count);

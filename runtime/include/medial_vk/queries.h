@@ -64,7 +64,8 @@ class Scene {
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
   /// Generalised winding numbers (Jacobson et al. 2013), each within `tolerance` of the exact value.
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance = 0.05);
-  /// Average outward flux of the distance gradient through each ball's sphere, `samples` spiral points each.
+  /// Average outward flux of the distance gradient through each ball's sphere, `samples` spiral points each, 1 to
+  /// 60,000.
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
 
   class Impl;
