@@ -6,8 +6,7 @@
 // per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
 // triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
 //
-// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the nearest
-// triangle: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey
+// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the first witness: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey
 // no common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest
 // triangles tell it (docs/theory.md, "Outside").
 #include "lanes.glsl"
@@ -26,14 +25,14 @@ layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; }
 // Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and in the end
 // the cell's partner; what has been seen (kSeen*).
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
-// Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the nearest triangle.
+// Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the first witness.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
 const float kTurnSlack = 2e-6;
-const uint kWitnessSample = 128;  // contacts among which witnesses are sought, or twice as many
+const uint kWitnessSample = 128;  // most contacts among which witnesses are sought; of long lists at least half as many
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
 // One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
 const uint kSeenInFront = 2u, kSeenBehind = 4u;
@@ -109,8 +108,10 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
     TriangleTexels mine = load_triangle(mine_name);
     for (uint k = 0; k < kLanes; ++k) {
       uint list_entry = min(entry + k * stride, last);
+      // Both in all lanes: a choice between calls may be a branch, and shuffles need everybody.
       float d = squared_distance_to_triangle(p, triangle_of_lane(mine, list_entry, k));
-      best_name = d < best ? name_of_lane(mine_name, list_entry, k) : best_name;
+      uint name = name_of_lane(mine_name, list_entry, k);
+      best_name = d < best ? name : best_name;
       best = min(best, d);
     }
     entry += kLanes * stride;

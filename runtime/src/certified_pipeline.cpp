@@ -17,10 +17,10 @@ constexpr uint kTopCellsAlongSide = 8;
 constexpr uint kMostTreelets = 8192;
 constexpr uint kLeastTreelet = 16;
 
-// A dispatch over lists asks at most eight distances an entry. Lavapipe asks some 250 million a second on two cores:
-// with this many entries a dispatch takes 0.1 s or so, which bounds how long a stop takes. Other devices are a hundred
-// times as fast, and want as much work at a time as memory allows.
-constexpr std::uint64_t kMostEntriesOfCpu = 1 << 22, kMostCellsOfCpu = 1 << 16;
+// Kept cells that a piece of work should have on a CPU. There a dispatch over that many takes 0.1 s or so, which is how
+// long a stop takes; other devices are a hundred times as fast, and want as much work at a time as memory holds. An
+// aim, no limit: a top cell that has more takes longer.
+constexpr double kCellsAtOnceOfCpu = 40000;
 
 // Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
@@ -71,6 +71,18 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   return p;
 }
 
+// Neighbouring chunks hold similar amounts of medial surface, not equal ones.
+double CertifiedPipeline::aim() const {
+  constexpr double kFull = 0.6;
+  return context_->description.type == "cpu" ? std::min(kFull, kCellsAtOnceOfCpu / capacity_.cells) : kFull;
+}
+
+std::uint32_t CertifiedPipeline::likely_chunk() const {
+  const double kept = 6.0 * parameters_.resolution * parameters_.resolution;
+  const double share = std::min(1.0, aim() / 0.6 * capacity_.cells / kept);
+  return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
+}
+
 double CertifiedPipeline::cell_size(std::uint32_t level) const {
   return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(coarse_levels_) - static_cast<int>(level));
 }
@@ -81,14 +93,10 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   constexpr std::uint64_t kBytesPerCell = 1608, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
-  const bool is_cpu = context_->description.type == "cpu";
-  const std::uint64_t most_cells = is_cpu ? kMostCellsOfCpu : std::uint64_t{1} << 19;
-  // Never so few that a top cell, which may touch everything, does not fit.
-  const std::uint64_t most_entries =
-      is_cpu ? std::max(kMostEntriesOfCpu, std::uint64_t{8} * mesh_->triangle_count) : std::uint64_t{1} << 27;
-  const std::uint64_t cells = std::min(
-      {memory_budget * 45 / 100 / kBytesPerCell, limit / 256, most_cells, std::max<std::uint64_t>(8 * voxels, 4096)});
-  const std::uint64_t entries = std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, most_entries});
+  const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
+                                        std::max<std::uint64_t>(8 * voxels, 4096)});
+  const std::uint64_t entries =
+      std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
   capacity_.list_entries = static_cast<uint>(entries);
@@ -314,7 +322,8 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   gpu::StepConstants s = step;
   s.items_counter = extent.counter;
   s.items_multiplier = extent.multiplier;
-  s.first_item = extent.first;
+  // Opposites come packed, from all over the block of found points that the caller says.
+  s.first_item = source == Source::kOpposites ? step.first_item : extent.first;
   run_rounds(r,
              {"find_nearest",
               {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),

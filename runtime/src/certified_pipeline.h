@@ -45,12 +45,11 @@ class CertifiedPipeline {
   std::uint32_t largest_chunk() const {
     return std::max(1u, std::min(8 * capacity_.cells, 0xffffffffu / mesh_->triangle_count));
   }
-  /// A first guess of how many top cells fill the buffers: a solid keeps some six voxels per square of the resolution
-  /// (measured: 1 to 3 at the finest level, twice that below it).
-  std::uint32_t likely_chunk() const {
-    const double kept = 6.0 * parameters_.resolution * parameters_.resolution;
-    return std::max(1u, static_cast<std::uint32_t>(top_cells() * std::min(1.0, capacity_.cells / kept)));
-  }
+  /// Share of the buffers that a piece of work should fill.
+  double aim() const;
+  /// A first guess of how many top cells do so: a solid keeps some six voxels per square of the resolution (measured: 1
+  /// to 3 at the finest level, twice that below it).
+  std::uint32_t likely_chunk() const;
   std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
   double cell_size(std::uint32_t level) const;
   std::uint32_t narrowing_steps() const { return narrowing_steps_; }

@@ -77,9 +77,8 @@ class CertifiedRun {
     bool overflow = false;
   };
 
-  // Aims at buffers 60 % full: neighbouring chunks hold similar amounts of medial surface, not equal ones.
   std::uint32_t next_size(std::uint32_t count, const Fill& fill) const {
-    const double factor = std::clamp(0.6 / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
+    const double factor = std::clamp(pipeline_.aim() / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
     return std::clamp(static_cast<std::uint32_t>(count * factor), 1u,
                       std::min(kLargestChunk, pipeline_.largest_chunk()));
   }

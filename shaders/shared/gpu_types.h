@@ -32,7 +32,7 @@ struct Cell {
   uint flags;       // kCell*
   uint nearest;     // triangle nearest to the centre
   uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
-  uint partner;     // of the contacts that touch, the one whose sheet with the nearest passes the centre closest
+  uint partner;     // of the contacts that touch, one whose sheet with the nearest passes close to the centre
   uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kNoTriangle = 0xffffffffu;

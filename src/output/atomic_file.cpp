@@ -47,6 +47,8 @@ mode_t permissions_for(const std::string& target) {
 /// takes.
 std::string temporary_name(const std::string& target) { return folder_of(target) + "/.medial-vk.XXXXXX"; }
 
+std::string self_path(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -79,6 +81,8 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool may_be_unnam
   }
   const std::string folder = folder_of(file.target_);
   if (may_be_unnamed) file.descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  // It gets its name through /proc, which a jail may lack.
+  if (file.descriptor_ >= 0 && !may(self_path(file.descriptor_), F_OK)) ::close(std::exchange(file.descriptor_, -1));
   file.unnamed_ = file.descriptor_ >= 0;
   if (!file.unnamed_) {
     std::string name = temporary_name(file.target_);
@@ -132,7 +136,7 @@ Status AtomicFile::finish() {
 
 // A link cannot replace a file: where there is one, a name for the moment between the link and the rename.
 Status AtomicFile::name_it() {
-  const std::string self = fmt::format("/proc/self/fd/{}", descriptor_);
+  const std::string self = self_path(descriptor_);
   const auto link_to = [&](const std::string& name) {
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };

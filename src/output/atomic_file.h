@@ -1,5 +1,6 @@
 // Output files appear whole or not at all: a file in the same folder without a name (O_TMPFILE; under a temporary name
-// where there is no such thing), then a link or a rename. A process that is killed leaves nothing behind.
+// where there is no such thing), then a link or a rename. A process that is killed leaves nothing
+// behind (but for the moment between a link and the rename that replaces a file).
 #pragma once
 
 #include <span>

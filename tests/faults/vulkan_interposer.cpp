@@ -217,7 +217,8 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     constexpr bool kWaits = std::is_same_v<Tag, vkWaitForFencesTag> || std::is_same_v<Tag, vkDeviceWaitIdleTag>;
     // A device that is lost does nothing any more: let the real one finish first.
     if (kWaits && fault == VK_ERROR_DEVICE_LOST) {
-      call_real<Tag>(args...);
+      while (call_real<Tag>(args...) == VK_TIMEOUT) {
+      }
       self.at_work = false;
     }
     if (fault != VK_SUCCESS) return fault;
