@@ -1,25 +1,27 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// The contact lists of the top cells. The triangles come in treelets (consecutive leaves of the BVH with their box);
-// one workgroup per cell keeps the treelets that may hold the nearest triangle of some point of the cell's ball:
-// with U an upper bound of the distance from the centre to the mesh, those no farther than U + 2R.
-// Each lane looks at one run of treelets, so that lists are in order. Run twice: to count, then, without the cells that
+// The contact lists of the top cells, of clusters or of their triangles. One workgroup per cell keeps the clusters that
+// may hold the nearest triangle of some point of the cell's ball, by their boxes: with U an upper bound of the distance
+// from the centre to the mesh, those no farther than U + 2R. Each lane looks at one run of clusters, so that lists are in
+// order. Run twice: to count, then, without the cells that
 // lie outside, to write.
 #include "lanes.glsl"
 #include "step.glsl"
 
 layout(constant_id = 1) const bool kWrite = false;
 
-layout(set = 0, binding = 0) readonly buffer Treelets { Treelet treelets[]; };
+layout(set = 0, binding = 0) readonly buffer Clusters { Cluster clusters[]; };
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 2) buffer States { uvec4 states[]; };
 layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 5) writeonly buffer Lists { uint lists[]; };
 
-float nearest_in_box(vec3 p, Treelet t) { return length(max(max(t.lower.xyz - p, p - t.upper.xyz), vec3(0.0))); }
-float farthest_in_box(vec3 p, Treelet t) { return length(max(p - t.lower.xyz, t.upper.xyz - p)); }
+float nearest_in_box(vec3 p, Cluster c) { return length(max(max(c.lower.xyz - p, p - c.upper.xyz), vec3(0.0))); }
+float farthest_in_box(vec3 p, Cluster c) { return length(max(p - c.lower.xyz, c.upper.xyz - p)); }
+
+uint entries_of(Cluster c) { return step.lists_clusters != 0u ? 1u : c.count; }
 
 // Of eight lanes each; floats as bits, which are in the same order where they are positive.
 const uint kMostEights = kMostLanes / kLanes;
@@ -43,7 +45,7 @@ uvec2 count_all_lanes(uint mine) {
 void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
-  uint treelet_count = step.treelet_count;
+  uint cluster_count = step.cluster_count;
   bool exists = item < counters[kParents];
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);
@@ -53,9 +55,9 @@ void main() {
   }
   barrier();
   float bound = 3e38, clearance = bound;
-  for (uint i = lane; i < treelet_count; i += lanes) {
-    bound = min(bound, farthest_in_box(centre, treelets[i]));
-    clearance = min(clearance, nearest_in_box(centre, treelets[i]));
+  for (uint i = lane; i < cluster_count; i += lanes) {
+    bound = min(bound, farthest_in_box(centre, clusters[i]));
+    clearance = min(clearance, nearest_in_box(centre, clusters[i]));
   }
   bound = least_of_lanes(bound);
   clearance = least_of_lanes(clearance);
@@ -65,10 +67,10 @@ void main() {
   }
   barrier();
   float reach = uintBitsToFloat(least_bound) + 2.0 * step.list_radius + step.slack;
-  uint run = (treelet_count + lanes - 1u) / lanes;
-  uint begin = min(treelet_count, lane * run), end = min(treelet_count, begin + run);
+  uint run = (cluster_count + lanes - 1u) / lanes;
+  uint begin = min(cluster_count, lane * run), end = min(cluster_count, begin + run);
   uint count = 0;
-  for (uint i = begin; i < end; ++i) count += nearest_in_box(centre, treelets[i]) <= reach ? treelets[i].count : 0u;
+  for (uint i = begin; i < end; ++i) count += nearest_in_box(centre, clusters[i]) <= reach ? entries_of(clusters[i]) : 0u;
   uvec2 place = count_all_lanes(count);
   uint total = place.y;
   if (!exists) return;
@@ -86,8 +88,14 @@ void main() {
   }
   uint position = offset.y + place.x;
   for (uint i = begin; i < end; ++i) {
-    Treelet t = treelets[i];
-    if (nearest_in_box(centre, t) > reach) continue;
-    for (uint k = 0; k < t.count; ++k) lists[position++] = t.first + k;
+    Cluster c = clusters[i];
+    if (nearest_in_box(centre, c) > reach) continue;
+    uint entries = entries_of(c), first = step.lists_clusters != 0u ? i : c.first;
+    // Four an iteration: lavapipe counts them (DeviceMesh::kMostTriangles).
+    for (uint k = 0; k < entries; k += 4u) {
+      [[unroll]] for (uint j = 0; j < 4u; ++j)
+        if (k + j < entries) lists[position + k + j] = first + k + j;
+    }
+    position += entries;
   }
 }

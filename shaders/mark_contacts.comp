@@ -6,15 +6,17 @@
 // per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
 // triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
 //
-// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the first witness: a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey
-// no common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest
-// triangles tell it (docs/theory.md, "Outside").
+// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the first witness:
+// a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey no common
+// axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest triangles tell
+// it (docs/theory.md, "Outside").
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 12
 #include "triangles.glsl"
 #include "axis_test.glsl"
+#include "witness.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
@@ -31,53 +33,16 @@ layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // ke
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
-const float kTurnSlack = 2e-6;
-const uint kWitnessSample = 128;  // most contacts among which witnesses are sought; of long lists at least half as many
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
 // One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
 const uint kSeenInFront = 2u, kSeenBehind = 4u;
 
-// A triangle that others are compared with. Any will do; good ones are near the centre, or near the point of the ball
-// opposite to that: where a sheet passes, the two lie on its two sides.
-struct Witness {
-  uint name;
-  float distance;
-  vec3 direction;
-  float clear_distance, square_sum, square_slope;  // is_contact
-  float to_corner[8];  // distances from the corners of the cube
-};
-
 Witness witness_of(vec3 centre, uint name) {
   TriangleTexels texels = load_triangle(name);
-  Witness w;
-  w.name = name;
-  vec3 v = vector_to_triangle(centre, texels);
-  w.distance = length(v);
-  w.direction = unit_or_zero(v);
-  float radius = step.list_radius;
-  // dist(m, w) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
-  bool far = w.distance > radius;
-  w.clear_distance = w.distance + 6.0 * step.slack + (far ? radius * radius / (2.0 * w.distance) : 0.0);
-  w.square_sum = radius * radius * (far ? 2.0 + kTurnSlack : 4.0);
-  w.square_slope = radius * radius * (far ? 2.0 : 0.0);
+  Witness w = witness_at(name, vector_to_triangle(centre, texels));
   [[unroll]] for (uint k = 0; k < 8u; ++k)
     w.to_corner[k] = sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), texels));
   return w;
-}
-
-// Lemma A for the ball of the list: may t, at distance d in direction g from the centre, be nearest to a point of it?
-// Asked of squares: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
-bool is_contact(Witness w, float d, vec3 g) {
-  float excess = d - w.clear_distance;
-  return excess <= 0.0 || excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
-}
-
-// Lemma A for the cube: at some corner x_k, D_t - g_t.x_k <= dist(x_k, witness).
-bool touches_cube(Witness w, float d, vec3 h) {
-  float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
-  bool touches = false;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) touches = touches || w.to_corner[k] + dot(h, corner_sign(k)) >= limit;
-  return touches;
 }
 
 // The triangle that lane k of the eight has loaded, from entry `list_entry`.
@@ -124,11 +89,6 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
 uint sides_seen(float depth, bool trusted) {
   float clear = 4.0 * step.slack;
   return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
-}
-
-bool is_in_grid(uvec3 coordinates) {
-  return step.depth > 0u ||
-         all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
 }
 
 // What becomes of a child, once all contacts have been seen.
@@ -230,7 +190,8 @@ void main() {
   axes[item] = axis;
   nearest[item] = first;
   if (!is_last) return;
-  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + 2u * (parent.list_count / (1u + parent.list_count / kWitnessSample))));
+  uint sampled = parent.list_count / (1u + parent.list_count / kWitnessSample);
+  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + 2u * sampled));
   if (is_in_grid(coordinates))
     settle(item, centre, parent.flags, first.y, uintBitsToFloat(first.x), count, axis.w);
   else

@@ -14,8 +14,8 @@ using gpu::uint;
 
 constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
 constexpr uint kTopCellsAlongSide = 8;
-constexpr uint kMostTreelets = 8192;
-constexpr uint kLeastTreelet = 16;
+// Contact lists hold clusters as long as a cell's ball is this much larger than half of them.
+constexpr double kCellPerCluster = 1.0;
 
 // Kept cells that a piece of work should have on a CPU. There a dispatch over that many takes 0.1 s or so, which is how
 // long a stop takes; other devices are a hundred times as fast, and want as much work at a time as memory holds. An
@@ -66,8 +66,11 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   p.narrowing_steps_ =
       steps_to_narrow(2 * (kHalfDiagonal + parameters.epsilon), 0.8 * parameters.epsilon * sine * sine);
   p.rounds_ = divide_up(mesh.triangle_count, gpu::kEntriesPerRound);
+  while (p.clustered_levels_ < p.coarse_levels_ &&
+         kHalfDiagonal * p.cell_size(p.clustered_levels_) >= kCellPerCluster * mesh.cluster_radius) {
+    ++p.clustered_levels_;
+  }
   if (Status s = p.allocate(parameters.memory_budget); !s.ok()) return s.error();
-  if (Status s = p.upload_treelets(); !s.ok()) return s.error();
   return p;
 }
 
@@ -81,6 +84,12 @@ std::uint32_t CertifiedPipeline::likely_chunk() const {
   const double kept = 6.0 * parameters_.resolution * parameters_.resolution;
   const double share = std::min(1.0, aim() / 0.6 * capacity_.cells / kept);
   return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
+}
+
+// Each takes an iteration, and one for every eight of its triangles.
+std::uint32_t CertifiedPipeline::clusters_per_round() const {
+  const uint iterations = 1 + divide_up(mesh_->most_in_cluster, kEightLanes);
+  return std::max(32u, gpu::kEntriesPerRound / iterations / 32 * 32);
 }
 
 double CertifiedPipeline::cell_size(std::uint32_t level) const {
@@ -154,25 +163,6 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   return {};
 }
 
-Status CertifiedPipeline::upload_treelets() {
-  const auto least = std::max(kLeastTreelet, divide_up(mesh_->triangle_count, kMostTreelets / 2));
-  std::vector<gpu::Treelet> treelets;
-  for (const LeafRange& range : mesh_->leaf_ranges(least)) {
-    gpu::Treelet t{};
-    t.lower = {range.lower[0], range.lower[1], range.lower[2], 0};
-    t.upper = {range.upper[0], range.upper[1], range.upper[2], 0};
-    t.first = range.first;
-    t.count = range.count;
-    treelets.push_back(t);
-  }
-  treelet_count_ = static_cast<uint>(treelets.size());
-  Result<Buffer> buffer =
-      arena_.create_buffer(treelets.size() * sizeof(gpu::Treelet), MemoryKind::kDevice, "boxes of runs of triangles");
-  if (!buffer.ok()) return buffer.error();
-  treelets_ = buffer.value();
-  return upload(*context_, treelets_, std::as_bytes(std::span<const gpu::Treelet>(treelets)));
-}
-
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
   const double voxel = 1.0 / parameters_.resolution, epsilon = parameters_.epsilon * voxel;
   const double size = cell_size(level);
@@ -208,7 +198,9 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   // At the finest level lines are asked among the contacts that touch: they reach 2 epsilon beyond the voxel.
   step.touch_half_side =
       level == coarse_levels_ ? static_cast<float>(size / 2 + 2 * epsilon + 4 * kCentreError) : step.half_side;
-  step.treelet_count = treelet_count_;
+  step.cluster_count = mesh_->cluster_count;
+  step.lists_clusters = level < clustered_levels_ ? 1u : 0u;
+  step.clusters_per_round = clusters_per_round();
   step.lines_per_cell = gpu::kLinesPerCell;
   return step;
 }

@@ -78,7 +78,7 @@ class CertifiedPipeline {
   enum class Source : std::uint32_t { kLineEnds, kSections, kGrownEnds, kSphere, kOpposites };
 
   Status allocate(std::uint64_t memory_budget);
-  Status upload_treelets();
+  std::uint32_t clusters_per_round() const;
   gpu::StepConstants level_constants(std::uint32_t level) const;
 
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
@@ -87,6 +87,12 @@ class CertifiedPipeline {
   void clear_counter(Recorder& r, std::uint32_t counter);
   void start_level(Recorder& r, std::uint32_t source, bool same_level = false);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
+  void decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  // The entries whose bits `first_masks` has come first in a child's list.
+  void write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& first_masks,
+                      bool finest);
+  // The same where lists are of clusters; `expands`: the children's will be of triangles.
+  void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool expands);
   // One line for every cell. What it does not settle goes to `left`.
   void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
@@ -147,12 +153,12 @@ class CertifiedPipeline {
   std::array<std::uint32_t, 3> grid_{};      // finest voxels
   std::array<std::uint32_t, 3> top_grid_{};  // top cells
   std::uint32_t coarse_levels_ = 0;          // levels of children above the finest one
+  std::uint32_t clustered_levels_ = 0;       // of these, the first ones, whose parents have lists of clusters
   std::uint32_t narrowing_steps_ = 0;
   std::uint32_t rounds_ = 1;
-  std::uint32_t treelet_count_ = 0;
   std::uint32_t next_argument_ = 0;
 
-  Buffer treelets_, counters_, counters_readback_, arguments_;
+  Buffer counters_, counters_readback_, arguments_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;

@@ -16,7 +16,10 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     const uint target = finest ? 2 : 1 - parents;
     const LevelBuffers buffers{&cells_[parents], &lists_[lists], &cells_[target], &lists_[target]};
     const gpu::StepConstants step = level_constants(level);
-    record_children(r, step, buffers, finest);
+    if (level < clustered_levels_)
+      record_clustered_children(r, step, buffers, level + 1 == clustered_levels_);
+    else
+      record_children(r, step, buffers, finest);
     if (finest) {
       record_first_search(r, step, buffers, cells_[1]);
       const LevelBuffers left{nullptr, nullptr, &cells_[1], &lists_[2]};
@@ -60,13 +63,13 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
-  const Kernel count_entries{
-      "gather_contacts",
-      {treelets_.range(), counters_.range(), states_.range(), offsets_.range(), cells_[0].range(), lists_[0].range()},
-      Reads::kNoMesh,
-      {0},
-      kGatherLanes,
-      Lanes::kEight};
+  const Kernel count_entries{"gather_contacts",
+                             {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
+                              cells_[0].range(), lists_[0].range()},
+                             Reads::kNoMesh,
+                             {0},
+                             kGatherLanes,
+                             Lanes::kEight};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
   const Extent groups{gpu::kParents, kGatherLanes};
@@ -117,24 +120,69 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
         nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range()},
        Reads::kTriangles},
       {gpu::kOpen}, step);
+  decide_sides_and_make_room(r, step, level);
+  if (finest) {  // every finest voxel that is kept gets a slot
+    r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
+    r.barrier();
+  }
+  write_children(r, step, level, touch_masks_, finest);
+}
+
+void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
+                                                   const LevelBuffers& level) {
   run(r,
       side_kernel("decide_side",
                   {counters_.range(), level.parents->range(), nearest_.range(), states_.range(), asked_.range()}),
       {gpu::kAsked}, step);
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
-  if (finest) {  // every finest voxel that is kept gets a slot
-    r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
-    r.barrier();
-  }
+}
+
+void CertifiedPipeline::write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
+                                       const Buffer& first_masks, bool finest) {
   run_rounds(r,
              {"write_children",
               {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
-               touch_masks_.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
+               first_masks.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
                level.lists->range(), counts_.range(), winners_.range(), verdicts_.range(), reasons_.range()},
               Reads::kNoMesh,
               {finest ? 1u : 0u}},
-             children, step);
+             {gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step);
+}
+
+void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepConstants& step,
+                                                  const LevelBuffers& level, bool expands) {
+  begin_stage(r, "dismissal");
+  const Extent children{gpu::kParents, 8};
+  clear_counter(r, gpu::kAsked);
+  run(r,
+      {"mark_clusters",
+       {mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
+        nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
+       Reads::kNoMesh,
+       {expands ? 1u : 0u},
+       64,
+       Lanes::kEight},
+      children, step);
+  decide_sides_and_make_room(r, step, level);
+  if (!expands) {
+    write_children(r, step, level, masks_, false);
+    return;
+  }
+  Extent lanes{gpu::kParents, 8 * kEightLanes, 1, 0, 0xffffffffu, gpu::kLongestParentList};
+  gpu::StepConstants s = step;
+  for (s.first_entry = 0; s.first_entry < mesh_->cluster_count; s.first_entry += s.clusters_per_round) {
+    run(r,
+        {"expand_clusters",
+         {mesh_->triangles.range(), mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(),
+          counters_.range(), masks_.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
+          level.lists->range(), counts_.range()},
+         Reads::kTriangles,
+         {},
+         kEightLanes,
+         Lanes::kEight},
+        lanes, s);
+  }
 }
 
 void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,

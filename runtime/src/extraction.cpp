@@ -34,6 +34,7 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
     sum.levels[level].contacts += s[gpu::kContactCount];
     sum.levels[level].found += s[gpu::kFoundCount];
     sum.levels[level].lines += s[gpu::kLineCount];
+    sum.levels[level].cluster_tests += s[gpu::kClusterTestCount];
     sum.levels[level].triangle_tests += s[gpu::kTestCount] + (std::uint64_t{s[gpu::kTestCount + 1]} << 32);
   }
   sum.found += c[gpu::kFound];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "clusters.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "mesh_links.h"
@@ -25,14 +26,9 @@ Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> byt
   return upload(context, buffer, bytes);
 }
 
-FloatBox join(const FloatBox& a, const FloatBox& b) {
-  FloatBox out;
-  for (int k = 0; k < 3; ++k) {
-    out.lower[k] = std::min(a.lower[k], b.lower[k]);
-    out.upper[k] = std::max(a.upper[k], b.upper[k]);
-  }
-  return out;
-}
+constexpr std::uint32_t kMostClusters = 8192;
+constexpr std::uint32_t kTrianglesOfCluster = 16;
+constexpr std::uint32_t kMostTrianglesOfCluster = 4096;  // kMostTriangles says why
 
 }  // namespace
 
@@ -69,6 +65,7 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
   if (Status status = upload_mesh(context, mesh); !status.ok()) return status;
   if (linked_vertices_ != 0) {
     if (Status status = upload_links(context, mesh); !status.ok()) return status;
+    if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
   }
   intact = true;
   return {};
@@ -122,6 +119,7 @@ Status DeviceMesh::create_views() {
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
   if (Status status = upload_links(context, mesh); !status.ok()) return status;
+  if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
   linked_vertices_ = mesh.vertices.size();
   return {};
 }
@@ -134,39 +132,16 @@ Status DeviceMesh::upload_links(Context::Impl& context, const MeshView& mesh) {
   return fill(context, arena_, std::as_bytes(std::span(cones.corners)), "spokes to vertices", corner_cones);
 }
 
-// Subtrees of at most `least` triangles, in leaf order, joined until there are enough.
-std::vector<LeafRange> DeviceMesh::leaf_ranges(std::uint32_t least) const {
-  const UnitTransform to_unit_box = {lower, longest};
-  const std::vector<BvhNode>& nodes = bvh_.nodes();
-  std::vector<std::uint32_t> sizes(nodes.size());
-  for (std::size_t i = nodes.size(); i-- > 0;) {
-    sizes[i] = nodes[i].count != 0 ? nodes[i].count : sizes[nodes[i].first] + sizes[nodes[i].first + 1];
+Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh) {
+  const std::vector<gpu::Cluster> made =
+      make_clusters(bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
+  cluster_count = static_cast<std::uint32_t>(made.size());
+  most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
+  cluster_radius = median_radius(made);
+  if (most_in_cluster > kMostTrianglesOfCluster) {
+    return Error{ErrorCode::kOutOfMemory, "the mesh's triangles are too unevenly spread for the device code"};
   }
-  std::vector<LeafRange> ranges;
-  bool open = false;  // the last range may take more
-  std::vector<std::uint32_t> pending = {0};
-  std::uint32_t position = 0;
-  while (!pending.empty()) {
-    const std::uint32_t i = pending.back();
-    pending.pop_back();
-    if (nodes[i].count == 0 && sizes[i] > least) {
-      pending.push_back(nodes[i].first + 1);
-      pending.push_back(nodes[i].first);
-      continue;
-    }
-    const FloatBox box = float_box(nodes[i].box, to_unit_box);
-    if (!open) {
-      ranges.push_back({box.lower, box.upper, position, 0});
-    } else {
-      const FloatBox both = join({ranges.back().lower, ranges.back().upper}, box);
-      ranges.back().lower = both.lower;
-      ranges.back().upper = both.upper;
-    }
-    position += sizes[i];
-    ranges.back().count += sizes[i];
-    open = ranges.back().count < least;
-  }
-  return ranges;
+  return fill(context, arena_, std::as_bytes(std::span(made)), "clusters of triangles", clusters);
 }
 
 Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }

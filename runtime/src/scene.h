@@ -16,22 +16,13 @@
 
 namespace medial_vk {
 
-/// A run of triangles that are neighbours in leaf order, and a box around them in the unit box, rounded outwards.
-struct LeafRange {
-  std::array<float, 3> lower;
-  std::array<float, 3> upper;
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-};
-
 /// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
-  /// A workgroup of 256 lanes can list them all within lavapipe's 65,535 loop iterations (gather_contacts.comp): each
-  /// lane at most 16 of the 4,096 or fewer treelets, of less than 2 n / 4096 triangles. Positions travel as floats in
-  /// the tree's texels, exact up to 2^24.
+  /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 writes the triangles of at
+  /// most 32 clusters (gather_contacts.comp): of 4,096 each, four an iteration, 32,768 of lavapipe's 65,535 iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
@@ -46,11 +37,9 @@ struct DeviceMesh {
   /// until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(Context::Impl& context, const MeshView& mesh);
 
-  /// Adds what the dismissal by pairs asks about edges and vertices; `mesh` as given to create(). Error: kOutOfMemory.
+  /// Adds what the certified extraction asks besides triangles: clusters of them, and for the dismissal by pairs edges
+  /// and vertices. `mesh` as given to create(). Error: kOutOfMemory.
   Status add_links(Context::Impl& context, const MeshView& mesh);
-
-  /// Cuts the leaf order into runs of at least `least` triangles (if there are as many) and fewer than twice that.
-  std::vector<LeafRange> leaf_ranges(std::uint32_t least) const;
 
   /// Of the Bvh whose leaf order `order` is.
   const std::vector<BvhNode>& tree_nodes() const { return bvh_.nodes(); }
@@ -70,6 +59,8 @@ struct DeviceMesh {
   /// add_links().
   Buffer triangle_links;
   Buffer corner_cones;
+  /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links().
+  Buffer clusters;
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
   /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
   bool use_texels = true;
@@ -78,7 +69,9 @@ struct DeviceMesh {
   bool has_untrusted = true;  // some triangle's normal proves nothing
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;  // inner nodes of the tree
-  Point lower = {0, 0, 0};       // of the box around all triangles, input units
+  std::uint32_t cluster_count = 0, most_in_cluster = 0;
+  float cluster_radius = 0;  // median, in the unit box
+  Point lower = {0, 0, 0};   // of the box around all triangles, input units
   Point upper = {0, 0, 0};
   double longest = 0;                // longest side of that box
   std::vector<std::uint32_t> order;  // triangle_info on the host
@@ -89,6 +82,7 @@ struct DeviceMesh {
   Status upload_mesh(Context::Impl& context, const MeshView& mesh);
   Status create_views();
   Status upload_links(Context::Impl& context, const MeshView& mesh);
+  Status upload_clusters(Context::Impl& context, const MeshView& mesh);
 
   Arena arena_;
   Bvh bvh_;                          // input units

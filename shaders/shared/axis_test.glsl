@@ -6,13 +6,7 @@
 #ifndef MEDIAL_VK_AXIS_TEST_GLSL
 #define MEDIAL_VK_AXIS_TEST_GLSL
 
-// The threshold of the object angle; where the radius may pass its own, smaller angles count too. Less rounding:
-// directions are wrong by up to about slack / D, and a cosine by kAxisSlack.
-float dismissal_angle(float nearest_distance) {
-  bool deep = nearest_distance + step.circumradius + step.slack >= step.radius;
-  return (deep ? min(step.deep_angle, step.angle) : step.angle) - 1e-5;
-}
-const float kAxisSlack = 1e-6;
+#include "dismissal.glsl"
 
 // The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: none).
 struct Obedience {
@@ -40,11 +34,6 @@ bool incompatible(Obedience a, Obedience b) {
          !cones_meet(a.normal, a.by_normal, b.direction, b.by_direction) &&
          !cones_meet(a.direction, a.by_direction, b.normal, b.by_normal) &&
          !cones_meet(a.direction, a.by_direction, b.direction, b.by_direction);
-}
-
-// Whether a kept cell must ask on which side of the boundary it lies: its ball does not meet that, and no ancestor knew.
-bool must_ask_side(uint flags, float nearest_distance) {
-  return (flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.epsilon + step.slack;
 }
 
 #endif

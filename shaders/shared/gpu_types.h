@@ -6,6 +6,7 @@
 #ifdef __cplusplus
 #include <cstdint>
 #define MEDIAL_VK_GPU_CONSTANT constexpr uint
+#define MEDIAL_VK_GPU_CONSTANT_FLOAT constexpr float
 namespace medial_vk::gpu {
 using uint = std::uint32_t;
 struct alignas(16) vec4 {
@@ -19,6 +20,7 @@ struct alignas(8) uvec2 {
 };
 #else
 #define MEDIAL_VK_GPU_CONSTANT const uint
+#define MEDIAL_VK_GPU_CONSTANT_FLOAT const float
 #endif
 
 // A cube of the grid that may hold salient medial points, and where its contact list is. Coordinates count cells of
@@ -93,12 +95,19 @@ MEDIAL_VK_GPU_CONSTANT kNearAngle = 1u;
 MEDIAL_VK_GPU_CONSTANT kAtBoundary = 2u;
 MEDIAL_VK_GPU_CONSTANT kOtherReason = 3u;
 
-// A run of triangles that are neighbours in leaf order, and the box around them.
-struct Treelet {
-  vec4 lower;
+// A run of triangles that are neighbours in leaf order, with bounds of where they are and where they face. All of them
+// lie in the box and in the cylinder.
+struct Cluster {
+  vec4 lower;   // of the box
   vec4 upper;
-  uint first, count, padding_0, padding_1;
+  vec4 centre;  // of the cylinder; w: its radius
+  vec4 axis;    // unit; w: cosine of the angle that no normal is farther from it, or kNoCone
+  vec4 point;   // on the boundary
+  float half_height;  // of the cylinder
+  float sin_tilt;     // sine of that angle
+  uint first, count;
 };
+MEDIAL_VK_GPU_CONSTANT_FLOAT kNoCone = -2.0f;  // some normal is not trusted, or they turn by a right angle
 
 // What every kernel of the certified pipeline gets as push constants (at most 128 bytes). Lengths are fractions of the
 // longest side of the bounding box.
@@ -128,7 +137,9 @@ struct StepConstants {
   uint settles;                 // 1: cells that can only hide what is near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
-  uint treelet_count;
+  uint cluster_count;
+  uint lists_clusters;          // 1: the parents' lists are of clusters, not of triangles
+  uint clusters_per_round;      // entries of such lists that are expanded in one dispatch
   uint lines_per_cell;          // seeds that are proposed for a cell
   uint classifies;              // 1: pairs are asked after the search, not before
 };
@@ -183,6 +194,7 @@ MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 8u;
 MEDIAL_VK_GPU_CONSTANT kVisitedCount = 0u, kKeptCount = 1u, kContactCount = 2u, kFoundCount = 3u;
 MEDIAL_VK_GPU_CONSTANT kLineCount = 4u;         // lines narrowed
 MEDIAL_VK_GPU_CONSTANT kTestCount = 5u;         // distances from points to triangles: low word, high word
+MEDIAL_VK_GPU_CONSTANT kClusterTestCount = 7u;  // distances from points to clusters
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
 MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 8u * 24u;
 

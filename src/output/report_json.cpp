@@ -81,7 +81,8 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
                     {"contacts", level.contacts},
                     {"found", level.found},
                     {"lines", level.lines},
-                    {"triangle_tests", level.triangle_tests}});
+                    {"triangle_tests", level.triangle_tests},
+                    {"cluster_tests", level.cluster_tests}});
   }
   return json;
 }

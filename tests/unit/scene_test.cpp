@@ -45,37 +45,6 @@ TEST_F(SceneTest, UnitBox) {
   EXPECT_NEAR(device.to_unit(back)[1], 0.5, 1e-15);
 }
 
-TEST_F(SceneTest, LeafRangesCoverTheMeshInOrder) {
-  const Mesh mesh = rotated_torus();
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
-  for (const std::uint32_t least : {1u, 8u, 16u, 100u, count, 10 * count}) {
-    SCOPED_TRACE(least);
-    std::uint32_t next = 0;
-    const std::vector<LeafRange> ranges = device.leaf_ranges(least);
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-      const LeafRange& range = ranges[i];
-      EXPECT_EQ(range.first, next);
-      EXPECT_LT(range.count, 2 * std::max(least, DeviceMesh::kLeafSize));
-      if (i + 1 < ranges.size()) {
-        EXPECT_GE(range.count, least);
-      }
-      next += range.count;
-      for (std::uint32_t t = range.first; t < next; ++t) {
-        for (const std::uint32_t v : mesh.triangles[device.order[t]]) {
-          const Point corner = device.to_unit(mesh.vertices[v]);
-          for (int k = 0; k < 3; ++k) {
-            EXPECT_LE(range.lower[k], corner[k]);
-            EXPECT_GE(range.upper[k], corner[k]);
-          }
-        }
-      }
-    }
-    EXPECT_EQ(next, count);
-  }
-}
-
-// Where a mesh has more texels than the device allows in a view, kernels read storage buffers: the same answers.
 TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;

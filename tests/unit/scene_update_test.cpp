@@ -114,23 +114,6 @@ TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
   }
 }
 
-TEST_F(SceneUpdate, CoversTheMovedMeshByLeafRanges) {
-  const Mesh mesh = deformed(torus());
-  DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(torus())).value();
-  ASSERT_TRUE(device.update(context_->impl(), view_of(mesh)).ok());
-  for (const LeafRange& range : device.leaf_ranges(16)) {
-    for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
-      for (const std::uint32_t v : mesh.triangles[device.order[t]]) {
-        const Point corner = device.to_unit(mesh.vertices[v]);
-        for (int k = 0; k < 3; ++k) {
-          EXPECT_LE(range.lower[k], corner[k]);
-          EXPECT_GE(range.upper[k], corner[k]);
-        }
-      }
-    }
-  }
-}
-
 TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
   Context::Impl& context = context_->impl();
   const Mesh mesh = torus();

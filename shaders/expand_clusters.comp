@@ -1,0 +1,91 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
+// Writes the kept children of parents whose lists are of clusters, with lists of triangles: those of the contacts'
+// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child). One workgroup of eight
+// lanes per child.
+#include "lanes.glsl"
+#include "step.glsl"
+#define TRIANGLE_STORAGE_BINDING 0
+#define TRIANGLE_TEXEL_BINDING 12
+#include "triangles.glsl"
+#include "witness.glsl"
+
+layout(set = 0, binding = 1) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = 0, binding = 2) readonly buffer Parents { Cell parents[]; };
+layout(set = 0, binding = 3) readonly buffer ParentLists { uint parent_lists[]; };
+layout(set = 0, binding = 4) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 5) readonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 6) readonly buffer States { uvec4 states[]; };
+layout(set = 0, binding = 7) readonly buffer Offsets { uvec4 offsets[]; };
+layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };  // y: cluster of the first witness
+layout(set = 0, binding = 9) writeonly buffer Cells { Cell cells[]; };
+layout(set = 0, binding = 10) buffer Lists { uint lists[]; };
+layout(set = 0, binding = 11) buffer Counts { uvec4 counts[]; };  // x: between rounds, entries so far; z: cluster of the second
+
+// The triangle of a cluster that is nearest to p, the same in all lanes.
+uint nearest_of_cluster(vec3 p, uint name, uint lane) {
+  uint first = clusters[name].first, last = first + clusters[name].count - 1u;
+  uint best_name = first;
+  float best = 3e38;
+  for (uint t = first;; t += kLanes) {
+    uint mine = min(t + lane, last);
+    float d = squared_distance_to_triangle(p, load_triangle(mine));
+    best_name = d < best ? mine : best_name;
+    best = min(best, d);
+    if (t + kLanes > last) break;
+  }
+  uint chosen = first_lane_with(best == least_of_lanes(best));
+  return or_of_lanes(lane == chosen ? best_name : 0u);
+}
+
+Witness witness_of(vec3 centre, uint triangle) {
+  return witness_at(triangle, vector_to_triangle(centre, load_triangle(triangle)));
+}
+
+void main() {
+  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint lane = gl_LocalInvocationID.x;
+  if (item >= 8u * counters[kParents]) return;
+  uvec4 state = states[item];
+  Cell parent = parents[item / 8];
+  if (state.x == 0u || step.first_entry >= parent.list_count) return;
+  uvec4 offset = offsets[item];
+  uvec3 coordinates = child_coordinates(parent, item % 8);
+  vec3 centre = cell_centre(coordinates);
+  Witness front = witness_of(centre, nearest_of_cluster(centre, nearest[item].y, lane));
+  Witness back =
+      witness_of(centre, nearest_of_cluster(centre - step.circumradius * front.direction, counts[item].z, lane));
+  uint word_count = (parent.list_count + 31u) / 32u;
+  uint base = 8u * parent.word_begin + (item % 8) * word_count;
+  uint begin = step.first_entry == 0u ? 0u : counts[item].x;
+  uint position = begin, tests = 0u;
+  uint end = min(word_count, (step.first_entry + step.clusters_per_round) / 32u);
+  for (uint w = step.first_entry / 32u; w < end; ++w) {
+    uint word = masks[base + w];
+    while (word != 0u) {
+      Cluster c = clusters[parent_lists[parent.list_begin + 32u * w + uint(findLSB(word))]];
+      for (uint k = 0u; k < c.count; k += kLanes) {
+        uint t = c.first + min(k + lane, c.count - 1u);
+        vec3 v = vector_to_triangle(centre, load_triangle(t));
+        float d = length(v);
+        vec3 g = v / max(d, 1e-30);
+        bool contact = k + lane < c.count && is_contact(front, d, g) && is_contact(back, d, g);
+        uvec2 place = count_lanes(contact ? 1u : 0u);
+        if (contact) lists[offset.y + position + place.x] = t;
+        position += place.y;
+      }
+      tests += c.count;
+      word &= word - 1u;
+    }
+  }
+  if (lane != 0u) return;
+  counts[item].x = position;
+  // All that there is so far: the last round completes it.
+  cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
+                         state.w, front.name, 0u, kNoTriangle, 0u);
+  atomicMax(counters[kLongestCellList], position);
+  if (step.first_entry == 0u) COUNT(kKeptCount, 1u);
+  COUNT(kContactCount, position - begin);
+  COUNT_TESTS(tests);
+}

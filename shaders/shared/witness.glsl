@@ -1,0 +1,53 @@
+// Lemma A (docs/theory.md): who may hold the nearest boundary point of some point of a cell? Whatever is compared with
+// is a witness: any part of the boundary will do. Good ones are near the centre of the cell, or near the point of its
+// ball opposite to that: where a sheet passes, the two lie on its two sides. Include step.glsl before.
+#ifndef MEDIAL_VK_WITNESS_GLSL
+#define MEDIAL_VK_WITNESS_GLSL
+
+const float kTurnSlack = 2e-6;
+const uint kWitnessSample = 128;  // most entries among which witnesses are sought; of long lists at least half as many
+
+struct Witness {
+  uint name;
+  float distance;
+  vec3 direction;
+  float clear_distance, square_sum, square_slope;  // is_contact
+  float to_corner[8];  // distances from the corners of the cube, where the cube is asked
+};
+
+// `v`: from the centre to its nearest point.
+Witness witness_at(uint name, vec3 v) {
+  Witness w;
+  w.name = name;
+  w.distance = length(v);
+  w.direction = unit_or_zero(v);
+  float radius = step.list_radius;
+  // dist(m, w) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
+  bool far = w.distance > radius;
+  w.clear_distance = w.distance + 6.0 * step.slack + (far ? radius * radius / (2.0 * w.distance) : 0.0);
+  w.square_sum = radius * radius * (far ? 2.0 + kTurnSlack : 4.0);
+  w.square_slope = radius * radius * (far ? 2.0 : 0.0);
+  return w;
+}
+
+// Lemma A for the ball of the list: may a convex set at distance d in direction g from the centre be nearest to a point
+// of it? Asked of squares: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
+bool is_contact(Witness w, float d, vec3 g) {
+  float excess = d - w.clear_distance;
+  return excess <= 0.0 || excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
+}
+
+// Lemma A for the cube, h = g times half its side: at some corner x_k, D - g.x_k <= dist(x_k, witness).
+bool touches_cube(Witness w, float d, vec3 h) {
+  float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
+  bool touches = false;
+  [[unroll]] for (uint k = 0; k < 8u; ++k) touches = touches || w.to_corner[k] + dot(h, corner_sign(k)) >= limit;
+  return touches;
+}
+
+bool is_in_grid(uvec3 coordinates) {
+  return step.depth > 0u ||
+         all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
+}
+
+#endif

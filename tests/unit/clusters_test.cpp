@@ -1,0 +1,131 @@
+// Clusters of triangles: they part the leaf order, and their bounds hold, also of a mesh that has moved.
+#include "clusters.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "point_math.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
+
+Mesh torus() {
+  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
+  test::rotate(mesh, {1, 2, 3}, 0.7);
+  return mesh;
+}
+
+Mesh bent(Mesh mesh) {
+  for (Point& p : mesh.vertices) {
+    const double angle = 0.4 * p[0];
+    p = {7 + 1.7 * p[0], p[1] * std::cos(angle) - p[2] * std::sin(angle),
+         p[1] * std::sin(angle) + p[2] * std::cos(angle)};
+  }
+  return mesh;
+}
+
+UnitTransform unit_box_of(const Bvh& bvh) {
+  const BvhBox& box = bvh.nodes()[0].box;
+  const Point sides = box.upper - box.lower;
+  return {box.lower, std::max({sides[0], sides[1], sides[2]})};
+}
+
+Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
+
+// Of float numbers that stand for double ones in the unit box.
+constexpr double kRounding = 1e-7;
+
+void expect_holds(const gpu::Cluster& c, const std::array<Point, 3>& corners) {
+  for (const Point& p : corners) {
+    const Point from_centre = p - xyz(c.centre);
+    const double along = dot(from_centre, xyz(c.axis));
+    EXPECT_LE(std::abs(along), double{c.half_height});
+    EXPECT_LE(length(from_centre - along * xyz(c.axis)), double{c.centre.w});
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LE(xyz(c.lower)[k], p[k]);
+      EXPECT_GE(xyz(c.upper)[k], p[k]);
+    }
+  }
+  const Point normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  EXPECT_GE(dot(normal, xyz(c.axis)), double{c.axis.w} * length(normal) * (1 - kRounding));
+  EXPECT_NEAR(double{c.axis.w} * double{c.axis.w} + double{c.sin_tilt} * double{c.sin_tilt}, 1, 4 * kRounding);
+}
+
+std::array<Point, 3> unit_corners(const Bvh& bvh, const UnitTransform& to_unit, std::uint32_t position) {
+  std::array<Point, 3> corners = bvh.corners()[position];
+  for (Point& p : corners) p = to_unit(p);
+  return corners;
+}
+
+void expect_bounds_hold(const Bvh& bvh) {
+  const UnitTransform to_unit = unit_box_of(bvh);
+  const std::vector<std::uint8_t> trusted(bvh.corners().size(), kTrustedNormal);
+  const std::vector<gpu::Cluster> clusters = make_clusters(bvh, to_unit, trusted, 16, 8192);
+  std::uint32_t position = 0;
+  for (const gpu::Cluster& c : clusters) {
+    EXPECT_EQ(c.first, position);
+    ASSERT_GE(c.count, 1u);
+    EXPECT_LE(c.count, 16u);
+    double nearest = 1;  // of the cluster's point to the planes of its triangles
+    for (; position < c.first + c.count; ++position) {
+      const std::array<Point, 3> corners = unit_corners(bvh, to_unit, position);
+      expect_holds(c, corners);
+      const Point centroid = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+      nearest = std::min(nearest, length(xyz(c.point) - centroid));
+    }
+    EXPECT_LE(nearest, 2 * kRounding) << "the point is not on the boundary";
+  }
+  EXPECT_EQ(position, bvh.corners().size());
+}
+
+TEST(Clusters, PartTheLeavesAndBoundThem) {
+  const Mesh mesh = torus();
+  expect_bounds_hold(Bvh::build(view_of(mesh), 4).value());
+}
+
+TEST(Clusters, BoundAMeshThatHasMoved) {
+  const Mesh before = torus(), after = bent(before);
+  Bvh bvh = Bvh::build(view_of(before), 4).value();
+  ASSERT_TRUE(bvh.refit(view_of(after)).ok());
+  expect_bounds_hold(bvh);
+}
+
+TEST(Clusters, AnUntrustedNormalFitsNoCone) {
+  const Mesh mesh = torus();
+  const Bvh bvh = Bvh::build(view_of(mesh), 4).value();
+  std::vector<std::uint8_t> flags(mesh.triangles.size(), kTrustedNormal);
+  flags[77] = 0;
+  for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), flags, 16, 8192)) {
+    const auto first = bvh.order().begin() + c.first;
+    const bool holds_it = std::find(first, first + c.count, 77u) != first + c.count;
+    EXPECT_EQ(c.axis.w == gpu::kNoCone, holds_it);
+  }
+  for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), {}, 16, 8192)) EXPECT_EQ(c.axis.w, gpu::kNoCone);
+}
+
+TEST(Clusters, GrowUntilThereAreFewEnough) {
+  const Bvh bvh = Bvh::build(view_of(torus()), 4).value();
+  const auto number = [&](std::uint32_t most) { return make_clusters(bvh, unit_box_of(bvh), {}, 16, most).size(); };
+  const std::size_t all = number(8192);
+  EXPECT_GE(all, 3600u / 16);
+  EXPECT_LT(number(100), all);
+  EXPECT_LE(number(100), 100u);
+  EXPECT_EQ(number(1), 1u);
+}
+
+TEST(Clusters, TheMedianRadiusIsInTheMiddle) {
+  std::vector<gpu::Cluster> clusters(3);
+  clusters[0].centre.w = 5;
+  clusters[1].centre.w = 1;
+  clusters[2].centre.w = 2;
+  EXPECT_EQ(median_radius(clusters), 2);
+  EXPECT_EQ(median_radius({}), 0);
+}
+
+}  // namespace
+}  // namespace medial_vk
