@@ -1,13 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Does the accepted end of a line lie in the solid? Asked where its cell does not know: next to the boundary, and
-// everywhere if the mesh is open. Inside is where the winding number is at least 1/2; where the error bound leaves that
-// open, the line is given up and the voxel stays undecided.
+// Does the accepted end of a line lie in the solid? Asked where its cell does not know: next to the boundary, and around
+// the open edges of a mesh. Inside is where the winding number is at least 1/2; where the error bound leaves that open,
+// the line is given up and the voxel stays undecided.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
-#define TRIANGLE_TEXEL_BINDING 5
-#define TREE_TEXEL_BINDING 6
+#define TRIANGLE_TEXEL_BINDING 6
+#define TREE_TEXEL_BINDING 7
 #include "triangles.glsl"
 #include "tree.glsl"
 #include "winding.glsl"
@@ -15,19 +15,26 @@
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 5) readonly buffer OpenEdges { OpenEdge open_edges[]; };
+#include "closure.glsl"
 
-const float kRounding = 1e-4;  // of the sum of solid angles in float
+bool is_inside(vec3 point) {
+  bool listed = step.open_edges <= kMostOpenEdges;
+  float tolerance = 0.3;  // most points are clear at once; where open edges are listed, all are
+  Winding w;
+  for (uint attempt = 0;; ++attempt) {
+    w = winding_number(point, tolerance);
+    if (listed || attempt == 2u || abs(w.number - 0.5) > w.bound + kSumRounding) break;
+    tolerance *= 0.1;
+  }
+  if (!w.complete) return false;
+  if (!listed) return w.number - 0.5 >= w.bound + kSumRounding;
+  return exact_winding_number(w.number, closure_at(point, 0.0)) - 0.5 >= closure_rounding();
+}
 
 void main() {
   if (invocation_index() >= counters[kAsked]) return;
   uint index = asked[invocation_index()];
   vec3 point = lines[index].accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
-  float tolerance = 0.3;  // most points are clear at once; on a closed mesh all are
-  Winding w;
-  for (uint attempt = 0;; ++attempt) {
-    w = winding_number(point, tolerance);
-    if (attempt == 2u || abs(w.number - 0.5) > w.bound + kRounding) break;
-    tolerance *= 0.1;
-  }
-  if (!w.complete || w.number - 0.5 < w.bound + kRounding) lines[index].accepted = 0u;
+  if (!is_inside(point)) lines[index].accepted = 0u;
 }

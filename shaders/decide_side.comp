@@ -6,14 +6,17 @@
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
-#define TRIANGLE_TEXEL_BINDING 7
-#define TREE_TEXEL_BINDING 8
+#define TRIANGLE_TEXEL_BINDING 8
+#define TREE_TEXEL_BINDING 9
 #include "triangles.glsl"
 #include "tree.glsl"
 #include "winding.glsl"
-#include "cell_side.glsl"
 
 layout(constant_id = 1) const bool kTop = false;
+
+layout(set = 0, binding = 7) readonly buffer OpenEdges { OpenEdge open_edges[]; };
+#include "closure.glsl"
+#include "cell_side.glsl"
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };
@@ -36,7 +39,7 @@ void main() {
     clearance = uintBitsToFloat(nearest[item].x);
   }
   // Lines reach epsilon beyond the ball of their cell.
-  uint side = side_of_ball(centre, step.circumradius + step.epsilon, clearance - step.slack, step.closed != 0u);
+  uint side = side_of_ball(centre, step.circumradius + step.epsilon, clearance - step.slack);
   if (side == kSideInside) states[item].w |= kCellInside;
   if (side == kSideOutside) states[item] = uvec4(0);
 }

@@ -2,36 +2,39 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // The nearest triangle, among the contacts of a cell, of points in that cell.
-// An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them.
-// Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one before.
+// An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
+// of a line, or a group of flux samples.
+// Points of a line ask only the contacts that find_line_ends.comp has left of it. Lists longer than kEntriesPerRound take
+// several rounds; each goes on from the result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 9
+#define TRIANGLE_TEXEL_BINDING 10
 #include "triangles.glsl"
 
 layout(constant_id = 1) const uint kSource = 0;
-const uint kLineEnds = 0, kSections = 1, kGrownEnds = 2, kSphere = 3, kOpposites = 4;
+const uint kSections = 0, kGrownEnds = 1, kSamples = 2;
 layout(constant_id = 2) const uint kPointsPerLane = 8;
-layout(constant_id = 3) const uint kPointsPerItem = 8;
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // line ends, or samples of a sphere
+layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // flux samples, or opposites of them
 layout(set = 0, binding = 5) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
-layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites of flux samples
+layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites
+layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line
+
+const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
+
+const uint kGroupsPerSphere = kFluxSamples / kFluxGroup;
 
 uint cell_of(uint item) {
-  if (kSource == kLineEnds) return item / step.lines_per_cell;
-  if (kSource == kSphere) return found[step.first_item + item].cell;
-  if (kSource == kOpposites) return found[step.first_item + item / (kFluxSamples / kFluxGroup)].cell;
-  return lines[item].cell;
+  return kIsLine ? lines[item].cell : found[(step.first_item + item) / kGroupsPerSphere].cell;
 }
 
 vec3 point_of(uint item, uint index) {
-  if (kSource == kLineEnds || kSource == kSphere || kSource == kOpposites) return points[kPointsPerItem * item + index].xyz;
+  if (!kIsLine) return points[kPointsPerLane * item + index].xyz;
   if (kSource == kSections) {
     float share = float(index + 1) / float(kSectionsPerLine + 1);
     return mix(lines[item].p.xyz, lines[item].q.xyz, share);
@@ -41,42 +44,67 @@ vec3 point_of(uint item, uint index) {
                     : lines[item].q.xyz - step.epsilon * lines[item].toward_q.xyz;
 }
 
+vec3 point[kPointsPerLane];
+float best[kPointsPerLane];
+uint triangle[kPointsPerLane];
+
+void ask(uint t, bool counts) {
+  TriangleTexels texels = load_triangle(t);
+  [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
+    float d = squared_distance_to_triangle(point[k], texels);
+    bool nearer = counts && d < best[k];
+    best[k] = nearer ? d : best[k];
+    triangle[k] = nearer ? t : triangle[k];
+  }
+}
+
+// The entries whose bits are set; an iteration for each, and one for each word. Returns how many there are.
+uint ask_masked(Cell cell, uint base, uint begin, uint end) {
+  uint w = begin / 32u, last_word = (end - 1u) / 32u, word = masks[base + w], count = 0u;
+  for (;;) {
+    bool counts = word != 0u;
+    uint bit = counts ? uint(findLSB(word)) : 0u;
+    ask(lists[cell.list_begin + 32u * w + bit], counts);
+    count += counts ? 1u : 0u;
+    word &= word - 1u;
+    bool next = word == 0u;
+    w += next ? 1u : 0u;
+    word = next && w <= last_word ? masks[base + w] : word;
+    if (w > last_word) return count;
+  }
+}
+
+void ask_all(Cell cell, uint entry, uint end) {
+  for (;;) {
+    ask(lists[cell.list_begin + entry], true);
+    if (++entry >= end) break;
+  }
+}
+
 void main() {
-  uint lanes_per_item = kPointsPerItem / kPointsPerLane;
-  uint index = invocation_index();
-  uint item = index / lanes_per_item;
-  uint before = kSource == kOpposites ? 0u : step.first_item;
-  if (before + item >= counters[step.items_counter] * step.items_multiplier) return;
-  if (kSource == kOpposites) item = asked[item];
-  uint first_point = (index % lanes_per_item) * kPointsPerLane;
+  uint item = invocation_index();
+  // Groups of opposites come packed, from all over the block of spheres that the caller says.
+  bool is_packed = !kIsLine && step.items_counter == kAsked;
+  if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
+  if (is_packed) item = asked[item];
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
-  bool is_line = kSource == kLineEnds || kSource == kSections || kSource == kGrownEnds;
-  uint list_count = is_line ? line_list_count(cell) : cell.list_count;
+  uint list_count = kIsLine ? line_list_count(cell) : cell.list_count;
   if (entry >= list_count) return;
-  if (kSource == kLineEnds && points[2 * item].w < 0.0) return;  // no line
 
-  vec3 point[kPointsPerLane];
-  float best[kPointsPerLane];
-  uint triangle[kPointsPerLane];
-  uint result = item * kPointsPerItem + first_point;
+  uint result = item * kPointsPerLane;
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
-    point[k] = point_of(item, first_point + k);
+    point[k] = point_of(item, k);
     uvec2 so_far = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[result + k];
     best[k] = uintBitsToFloat(so_far.x);
     triangle[k] = so_far.y;
   }
   uint end = min(list_count, entry + kEntriesPerRound);
-  for (;;) {
-    uint t = lists[cell.list_begin + entry];
-    TriangleTexels texels = load_triangle(t);
-    [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
-      float d = squared_distance_to_triangle(point[k], texels);
-      bool nearer = d < best[k];
-      best[k] = nearer ? d : best[k];
-      triangle[k] = nearer ? t : triangle[k];
-    }
-    if (++entry >= end) break;
+  if (kIsLine) {
+    uint asked_count = ask_masked(cell, line_mask_begin(cell, lines[item].seed), entry, end);
+    COUNT_TESTS(kPointsPerLane * asked_count);
+  } else {
+    ask_all(cell, entry, end);
   }
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) nearest[result + k] = uvec2(floatBitsToUint(best[k]), triangle[k]);
 }

@@ -21,7 +21,7 @@ layout(set = 0, binding = 5) writeonly buffer Lists { uint lists[]; };
 float nearest_in_box(vec3 p, Cluster c) { return length(max(max(c.lower.xyz - p, p - c.upper.xyz), vec3(0.0))); }
 float farthest_in_box(vec3 p, Cluster c) { return length(max(p - c.lower.xyz, c.upper.xyz - p)); }
 
-uint entries_of(Cluster c) { return step.lists_clusters != 0u ? 1u : c.count; }
+uint entries_of(Cluster c) { return step.lists != kListsTriangles ? 1u : c.count; }
 
 // Of eight lanes each; floats as bits, which are in the same order where they are positive.
 const uint kMostEights = kMostLanes / kLanes;
@@ -90,7 +90,7 @@ void main() {
   for (uint i = begin; i < end; ++i) {
     Cluster c = clusters[i];
     if (nearest_in_box(centre, c) > reach) continue;
-    uint entries = entries_of(c), first = step.lists_clusters != 0u ? i : c.first;
+    uint entries = entries_of(c), first = step.lists != kListsTriangles ? i : c.first;
     // Four an iteration: lavapipe counts them (DeviceMesh::kMostTriangles).
     for (uint k = 0; k < entries; k += 4u) {
       [[unroll]] for (uint j = 0; j < 4u; ++j)

@@ -10,9 +10,6 @@
 #include "cluster.glsl"
 #include "dismissal.glsl"
 
-// The children's lists will be of triangles (expand_clusters.comp): room is made for all of them.
-layout(constant_id = 1) const bool kExpands = false;
-
 layout(set = 0, binding = 0) readonly buffer Clusters { Cluster clusters[]; };
 layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
@@ -75,11 +72,12 @@ struct Tally {
 
 Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, uint base) {
   Tally tally = Tally(0u, 0u, 3e38, vec3(0.0), true, true);
+  bool expands = step.lists == kListsExpanded;  // then room is made for all triangles of the clusters
   uint word = 0u, touch_word = 0u, last = parent.list_begin + parent.list_count - 1u;
   for (uint entry = 0u;;) {
     uint next = parent.list_begin + entry;
     ClusterBounds mine = bounds_of(lists[min(next + child, last)]);
-    [[unroll]] for (uint k = 0; k < 8u; ++k) {
+    for (uint k = 0; k < 8u; ++k) {
       ClusterBounds bounds = bounds_of_lane(mine, min(next + k, last), k);
       vec3 v = vector_to_cluster(centre, bounds);
       float d = length(v);
@@ -90,7 +88,7 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
       uint bit = 1u << (entry + k & 31u);
       word |= contact ? bit : 0u;
       touch_word |= touches ? bit : 0u;
-      tally.entries += contact ? kExpands ? uint(bounds.rest.z) : 1u : 0u;
+      tally.entries += contact ? expands ? uint(bounds.rest.z) : 1u : 0u;
       tally.axis += touches ? bounds.axis.xyz : vec3(0.0);
       tally.clearance = contact ? min(tally.clearance, d) : tally.clearance;
       float side = side_of_cluster(centre, bounds);
@@ -125,7 +123,7 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
     uint next = parent.list_begin + entry;
     if ((entry & 31u) == 0u) touches = touch_masks[base + entry / 32u];
     ClusterBounds mine = bounds_of(lists[min(next + child, last)]);
-    [[unroll]] for (uint k = 0; k < 8u; ++k) {
+    for (uint k = 0; k < 8u; ++k) {
       ClusterBounds bounds = bounds_of_lane(mine, min(next + k, last), k);
       float by_normal = least_cosine_of_normals(axis, bounds);
       vec3 g;
@@ -171,7 +169,7 @@ void main() {
   bool exists = is_in_grid(coordinates), is_empty = !exists;
   uint flags = parent.flags & kCellInside;
   bool asks_side = must_ask_side(flags, tally.clearance);
-  if (asks_side && step.closed != 0u) {
+  if (asks_side && step.open_edges == 0u) {
     flags |= tally.behind ? kCellInside : 0u;
     is_empty = is_empty || tally.in_front;
     asks_side = !tally.behind;

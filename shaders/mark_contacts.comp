@@ -100,7 +100,7 @@ void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, fl
   uint flags = parent_flags & kCellInside;
   if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
   bool asks = must_ask_side(flags, nearest_distance);
-  if (asks && step.closed != 0u) {
+  if (asks && step.open_edges == 0u) {
     bool inside = (count.w & kSeenInFront) == 0u, outside = (count.w & kSeenBehind) == 0u;
     flags |= inside ? kCellInside : 0u;
     is_empty = is_empty || outside;

@@ -27,7 +27,6 @@ void main() {
   }
   uint cell = index / step.lines_per_cell;
   COUNT(kLineCount, 1u);
-  COUNT_TESTS((kSectionsPerLine * step.narrowing_steps + 2u) * line_list_count(cells[cell]));  // and the grown ends
   lines[offsets[index].x] = Line(vec4(p, length(a)), vec4(q, length(b)), vec4(unit_or_zero(a), 0.0),
-                                 vec4(unit_or_zero(b), 0.0), cell, cells[cell].voxel, 0u, 0u);
+                                 vec4(unit_or_zero(b), 0.0), cell, cells[cell].voxel, 0u, index % step.lines_per_cell);
 }

@@ -43,6 +43,6 @@ void main() {
   bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
   // What an open mesh says of a cell rests on an assumption: its points are asked one by one.
-  bool inside = step.closed != 0u && (cell.flags & kCellInside) != 0u;
+  bool inside = step.open_edges <= kMostOpenEdges && (cell.flags & kCellInside) != 0u;
   if ((p || q) && !inside) asked[atomicAdd(counters[kAsked], 1u)] = index;
 }

@@ -190,7 +190,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.voxels_per_cell = below ? 1u : 1u << (coarse_levels_ - level);
   step.depth = below ? level - coarse_levels_ : 0u;
   step.level = level;
-  step.closed = mesh_->closed ? 1u : 0u;
+  step.open_edges = mesh_->open_edge_count;
   step.narrowing_steps = narrowing_steps_;
   step.settles = below && size < kSettleSize ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
@@ -199,7 +199,9 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.touch_half_side =
       level == coarse_levels_ ? static_cast<float>(size / 2 + 2 * epsilon + 4 * kCentreError) : step.half_side;
   step.cluster_count = mesh_->cluster_count;
-  step.lists_clusters = level < clustered_levels_ ? 1u : 0u;
+  step.lists = level >= clustered_levels_       ? gpu::kListsTriangles
+               : level + 1 == clustered_levels_ ? gpu::kListsExpanded
+                                                : gpu::kListsClusters;
   step.clusters_per_round = clusters_per_round();
   step.lines_per_cell = gpu::kLinesPerCell;
   return step;
@@ -282,6 +284,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
 
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
   buffers.insert(buffers.begin(), {mesh_->triangles.range(), mesh_->tree.range()});
+  buffers.push_back(mesh_->open_edges.range());
   return {shader, std::move(buffers), Reads::kTree};
 }
 
@@ -300,28 +303,19 @@ void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step,
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                                      const Buffer& cells, const Buffer& lists, const Buffer& points,
                                      const Buffer& nearest) {
-  struct Shape {
-    uint per_lane, per_item;
-  };
-  constexpr Shape kShapes[] = {{2, 2}, {8, 8}, {2, 2}, {8, gpu::kFluxSamples}, {8, 8}};
-  const Shape shape = kShapes[static_cast<uint>(source)];
+  constexpr uint kPointsPerLane[] = {gpu::kSectionsPerLine, 2, gpu::kFluxGroup};
+  const uint points_per_lane = kPointsPerLane[static_cast<uint>(source)];
   Extent lanes = extent;
-  lanes.multiplier *= shape.per_item / shape.per_lane;
-  lanes.first *= shape.per_item / shape.per_lane;
-  if (lanes.limit != 0xffffffffu) lanes.limit *= shape.per_item / shape.per_lane;
-  // Proposed lines are counted where they are proposed: most seeds have none.
-  lanes.queries = source == Source::kLineEnds ? 0 : shape.per_lane;
+  lanes.queries = points_per_lane;
   gpu::StepConstants s = step;
   s.items_counter = extent.counter;
   s.items_multiplier = extent.multiplier;
-  // Opposites come packed, from all over the block of found points that the caller says.
-  s.first_item = source == Source::kOpposites ? step.first_item : extent.first;
   run_rounds(r,
              {"find_nearest",
               {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),
-               lines_.range(), result_.range(), nearest.range(), asked_.range()},
+               lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range()},
               Reads::kTriangles,
-              {static_cast<uint>(source), shape.per_lane, shape.per_item}},
+              {static_cast<uint>(source), points_per_lane}},
              lanes, s);
 }
 

@@ -75,7 +75,7 @@ class CertifiedPipeline {
     const Buffer* cells;
     const Buffer* lists;
   };
-  enum class Source : std::uint32_t { kLineEnds, kSections, kGrownEnds, kSphere, kOpposites };
+  enum class Source : std::uint32_t { kSections, kGrownEnds, kSamples };
 
   Status allocate(std::uint64_t memory_budget);
   std::uint32_t clusters_per_round() const;
@@ -91,8 +91,8 @@ class CertifiedPipeline {
   // The entries whose bits `first_masks` has come first in a child's list.
   void write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& first_masks,
                       bool finest);
-  // The same where lists are of clusters; `expands`: the children's will be of triangles.
-  void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool expands);
+  // The same where lists are of clusters.
+  void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // One line for every cell. What it does not settle goes to `left`.
   void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
@@ -135,7 +135,7 @@ class CertifiedPipeline {
   void run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step);
   // The same once for every round that the longest list may need.
   void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step);
-  // A kernel that asks winding numbers: the tree's buffers follow its own.
+  // A kernel that asks winding numbers: the tree comes before its own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
   // The pairs of carriers of every cell, before its search or after (step.classifies).
   void judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);

@@ -17,7 +17,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
     const LevelBuffers buffers{&cells_[parents], &lists_[lists], &cells_[target], &lists_[target]};
     const gpu::StepConstants step = level_constants(level);
     if (level < clustered_levels_)
-      record_clustered_children(r, step, buffers, level + 1 == clustered_levels_);
+      record_clustered_children(r, step, buffers);
     else
       record_children(r, step, buffers, finest);
     if (finest) {
@@ -151,7 +151,7 @@ void CertifiedPipeline::write_children(Recorder& r, const gpu::StepConstants& st
 }
 
 void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepConstants& step,
-                                                  const LevelBuffers& level, bool expands) {
+                                                  const LevelBuffers& level) {
   begin_stage(r, "dismissal");
   const Extent children{gpu::kParents, 8};
   clear_counter(r, gpu::kAsked);
@@ -160,12 +160,12 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
        {mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
         nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
        Reads::kNoMesh,
-       {expands ? 1u : 0u},
+       {},
        64,
        Lanes::kEight},
       children, step);
   decide_sides_and_make_room(r, step, level);
-  if (!expands) {
+  if (step.lists == gpu::kListsClusters) {
     write_children(r, step, level, masks_, false);
     return;
   }
@@ -216,8 +216,13 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
 
 void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent seeds{gpu::kCells, step.lines_per_cell};
-  find_nearest(r, Source::kLineEnds, {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step,
-               *level.cells, *level.lists, points_, nearest_);
+  // Their queries are counted where they are proposed: most seeds have none.
+  run_rounds(r,
+             {"find_line_ends",
+              {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), points_.range(),
+               nearest_.range(), masks_.range()},
+              Reads::kTriangles},
+             {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step);
   run(r,
       {"keep_turning",
        {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range()},
@@ -306,7 +311,12 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   const Extent samples{gpu::kFound, gpu::kFluxSamples, 1, first * gpu::kFluxSamples,
                        capacity_.flux_block * gpu::kFluxSamples};
   run(r, {"place_samples", {counters_.range(), result_.range(), samples_.range()}}, samples, step);
-  find_nearest(r, Source::kSphere, points, step, cells_[2], lists_[2], samples_, sample_nearest_);
+  constexpr uint kGroups = gpu::kFluxSamples / gpu::kFluxGroup;
+  gpu::StepConstants of_groups = step;
+  of_groups.first_item = first * kGroups;
+  find_nearest(r, Source::kSamples,
+               {gpu::kFound, kGroups, 1, first * kGroups, capacity_.flux_block * kGroups, gpu::kNoCounter}, of_groups,
+               cells_[2], lists_[2], samples_, sample_nearest_);
   clear_counter(r, gpu::kAsked);
   run(r,
       {"choose_opposites",
@@ -314,7 +324,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
         opposites_.range(), flux_tallies_.range(), asked_.range()},
        Reads::kTriangles},
       points, step);
-  find_nearest(r, Source::kOpposites, {gpu::kAsked}, step, cells_[2], lists_[2], opposites_, opposite_nearest_);
+  find_nearest(r, Source::kSamples, {gpu::kAsked}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
   run(r,
       {"measure_flux",
        {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),

@@ -8,6 +8,7 @@
 #include "context_impl.h"
 #include "device_tree.h"
 #include "mesh_links.h"
+#include "open_edges.h"
 #include "point_math.h"
 
 namespace medial_vk {
@@ -15,10 +16,10 @@ namespace {
 
 static_assert(gpu::kStackSize == Bvh::kMaxDepth);
 
-/// Uploads to `buffer`, which is created if there is none yet.
+/// Uploads to `buffer`, which is created if there is none yet, or too small a one.
 Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes, const char* purpose,
             Buffer& buffer) {
-  if (buffer.handle == VK_NULL_HANDLE) {
+  if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
     Result<Buffer> created = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);
     if (!created.ok()) return created.error();
     buffer = created.value();
@@ -66,6 +67,7 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
   if (linked_vertices_ != 0) {
     if (Status status = upload_links(context, mesh); !status.ok()) return status;
     if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
+    if (Status status = upload_open_edges(context, mesh); !status.ok()) return status;
   }
   intact = true;
   return {};
@@ -120,6 +122,7 @@ Status DeviceMesh::create_views() {
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
   if (Status status = upload_links(context, mesh); !status.ok()) return status;
   if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
+  if (Status status = upload_open_edges(context, mesh); !status.ok()) return status;
   linked_vertices_ = mesh.vertices.size();
   return {};
 }
@@ -142,6 +145,14 @@ Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh)
     return Error{ErrorCode::kOutOfMemory, "the mesh's triangles are too unevenly spread for the device code"};
   }
   return fill(context, arena_, std::as_bytes(std::span(made)), "clusters of triangles", clusters);
+}
+
+Status DeviceMesh::upload_open_edges(Context::Impl& context, const MeshView& mesh) {
+  std::vector<gpu::OpenEdge> edges;
+  if (!mesh.closed) edges = make_open_edges(mesh, {lower, longest});
+  open_edge_count = static_cast<std::uint32_t>(edges.size());
+  if (edges.empty() || edges.size() > gpu::kMostOpenEdges) edges.assign(1, {});
+  return fill(context, arena_, std::as_bytes(std::span(edges)), "open edges", open_edges);
 }
 
 Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }

@@ -37,8 +37,8 @@ struct DeviceMesh {
   /// until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(Context::Impl& context, const MeshView& mesh);
 
-  /// Adds what the certified extraction asks besides triangles: clusters of them, and for the dismissal by pairs edges
-  /// and vertices. `mesh` as given to create(). Error: kOutOfMemory.
+  /// Adds what the certified extraction asks besides triangles: clusters of them, open edges, and for the dismissal by
+  /// pairs edges and vertices. `mesh` as given to create(). Error: kOutOfMemory.
   Status add_links(Context::Impl& context, const MeshView& mesh);
 
   /// Of the Bvh whose leaf order `order` is.
@@ -61,6 +61,8 @@ struct DeviceMesh {
   Buffer corner_cones;
   /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links().
   Buffer clusters;
+  /// gpu::OpenEdge; at least one, which may not count; null until add_links().
+  Buffer open_edges;
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
   /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
   bool use_texels = true;
@@ -70,8 +72,9 @@ struct DeviceMesh {
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;  // inner nodes of the tree
   std::uint32_t cluster_count = 0, most_in_cluster = 0;
-  float cluster_radius = 0;  // median, in the unit box
-  Point lower = {0, 0, 0};   // of the box around all triangles, input units
+  std::uint32_t open_edge_count = 0;  // of all, listed or not (gpu::kMostOpenEdges)
+  float cluster_radius = 0;           // median, in the unit box
+  Point lower = {0, 0, 0};            // of the box around all triangles, input units
   Point upper = {0, 0, 0};
   double longest = 0;                // longest side of that box
   std::vector<std::uint32_t> order;  // triangle_info on the host
@@ -82,6 +85,7 @@ struct DeviceMesh {
   Status upload_mesh(Context::Impl& context, const MeshView& mesh);
   Status create_views();
   Status upload_links(Context::Impl& context, const MeshView& mesh);
+  Status upload_open_edges(Context::Impl& context, const MeshView& mesh);
   Status upload_clusters(Context::Impl& context, const MeshView& mesh);
 
   Arena arena_;

@@ -1,22 +1,17 @@
-// On which side of the boundary a whole ball lies that does not meet it. Include winding.glsl before.
+// On which side of the boundary a whole ball lies that does not meet it. Include winding.glsl and closure.glsl before.
 //
-// On a closed mesh the winding number is constant on the ball. On an open mesh it is harmonic there, and Harnack's
-// inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at most
+// On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than closure.glsl
+// says. Of meshes with too many open edges for that, only this is known: the winding number is harmonic on the ball, and
+// Harnack's inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at most
 // R (R + r) / (R - r)^2 times its value at c. It is used for w + kSpill (outside) and 1 + kSpill - w (inside), which are
-// positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about open meshes (docs/theory.md).
+// positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about such meshes (docs/theory.md).
 #ifndef MEDIAL_VK_CELL_SIDE_GLSL
 #define MEDIAL_VK_CELL_SIDE_GLSL
 
 const uint kSideUnknown = 0u, kSideInside = 1u, kSideOutside = 2u;
 const float kSpill = 0.05;
 
-// `clearance`: a lower bound of the distance from the centre to the boundary.
-uint side_of_ball(vec3 centre, float radius, float clearance, bool closed) {
-  if (clearance <= radius) return kSideUnknown;
-  if (closed) {
-    Winding w = winding_number(centre, 0.4);
-    return !w.complete ? kSideUnknown : w.number >= 0.5 ? kSideInside : kSideOutside;
-  }
+uint side_by_harnack(vec3 centre, float radius, float clearance) {
   float gap = clearance - radius;
   float harnack = clearance * (clearance + radius) / (gap * gap);
   for (float tolerance = 0.2; tolerance > 0.01; tolerance *= 0.2) {
@@ -29,6 +24,18 @@ uint side_of_ball(vec3 centre, float radius, float clearance, bool closed) {
     if (below > 0.0 && below * harnack < 0.5 + kSpill) return kSideInside;
   }
   return kSideUnknown;
+}
+
+// `clearance`: a lower bound of the distance from the centre to the boundary.
+uint side_of_ball(vec3 centre, float radius, float clearance) {
+  if (clearance <= radius) return kSideUnknown;
+  if (step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
+  Closure closure = closure_at(centre, radius);
+  Winding w = winding_number(centre, 0.4);
+  if (!w.complete) return kSideUnknown;
+  float number = exact_winding_number(w.number, closure);
+  float change = step.open_edges == 0u ? 0.0 : radius * closure.slope + closure_rounding();
+  return number - change >= 0.5 ? kSideInside : number + change < 0.5 ? kSideOutside : kSideUnknown;
 }
 
 #endif

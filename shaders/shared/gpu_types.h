@@ -52,7 +52,7 @@ struct Line {
   uint cell;
   uint voxel;
   uint accepted;  // 0 no, 1 by its end p, 2 by its end q
-  uint padding;
+  uint seed;      // which of its cell's
 };
 
 // A medial point of a finest voxel, in the unit box.
@@ -109,6 +109,14 @@ struct Cluster {
 };
 MEDIAL_VK_GPU_CONSTANT_FLOAT kNoCone = -2.0f;  // some normal is not trusted, or they turn by a right angle
 
+// An edge that the triangles of an open mesh run along from `to` to `from` more often than back.
+struct OpenEdge {
+  vec4 from;  // w: how much more often
+  vec4 to;
+  vec4 apex;  // the triangle (from, to, apex) closes the mesh here
+};
+MEDIAL_VK_GPU_CONSTANT kMostOpenEdges = 16384u;  // of a mesh that is closed in this way
+
 // What every kernel of the certified pipeline gets as push constants (at most 128 bytes). Lengths are fractions of the
 // longest side of the bounding box.
 struct StepConstants {
@@ -131,18 +139,22 @@ struct StepConstants {
   uint items_multiplier;        // items per count
   uint first_item;              // offset of this dispatch's items
   uint level;                   // index into the statistics
-  uint closed;                  // 1: inside and outside can be decided for whole cells
+  uint open_edges;              // 0: the mesh is closed; above kMostOpenEdges: they are not listed
   uint last_level;              // 1: what is kept now stays undecided
   uint narrowing_steps;         // of every line
   uint settles;                 // 1: cells that can only hide what is near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint cluster_count;
-  uint lists_clusters;          // 1: the parents' lists are of clusters, not of triangles
+  uint lists;                   // kLists*: what the parents' lists hold
   uint clusters_per_round;      // entries of such lists that are expanded in one dispatch
   uint lines_per_cell;          // seeds that are proposed for a cell
   uint classifies;              // 1: pairs are asked after the search, not before
 };
+
+MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;
+MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and so do those of the children
+MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children will hold triangles
 
 // What became of a finest voxel (bits).
 MEDIAL_VK_GPU_CONSTANT kVerdictFound = 1u;

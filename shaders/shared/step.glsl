@@ -22,6 +22,11 @@ uint invocation_index() {
 // Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
 uint line_list_count(Cell cell) { return step.depth == 0u ? cell.touching : cell.list_count; }
 
+// Masks of a cell's list, one for each of its seeds of lines: where those of its children are later.
+uint line_mask_begin(Cell cell, uint seed) {
+  return 8u * cell.word_begin + seed * ((line_list_count(cell) + 31u) / 32u);
+}
+
 // Children are numbered 0 to 7: bit 0 is x, bit 1 is y, bit 2 is z.
 uvec3 child_coordinates(Cell parent, uint child) {
   return 2 * uvec3(parent.x, parent.y, parent.z) + uvec3(child & 1u, (child >> 1) & 1u, child >> 2);

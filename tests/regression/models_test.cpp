@@ -33,8 +33,7 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
     EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never taken without saying so";
   }
   ExtractionParameters parameters;
-  // Open boundaries cannot be dismissed near their rims, and their sides are asked point by point: several times
-  // slower.
+  // Next to open edges nothing can be dismissed, and voxels are subdivided to the end: several times slower.
   parameters.resolution = GetParam().closed ? 160 : 80;
   Context context = test::make_context();
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
