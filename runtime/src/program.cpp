@@ -1,8 +1,6 @@
 #include "program.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <span>
@@ -178,13 +176,7 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
   std::vector<OwnedProgram> made(missing.size());
   std::vector<Status> status(missing.size());
   parallel_blocks(missing.size(), 1, thread_count(0), [&](std::size_t i, std::size_t) {
-    auto t0 = std::chrono::steady_clock::now();
     Result<OwnedProgram> program = build_program(*missing[i]);
-    if (getenv("PT"))
-      std::fprintf(stderr, "%.2f %s %u %zu\n",
-                   std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - t0).count(),
-                   missing[i]->shader.c_str(), missing[i]->constants.empty() ? 0 : missing[i]->constants[0],
-                   size(missing[i]));
     if (program.ok())
       made[i] = std::move(program.value());
     else
