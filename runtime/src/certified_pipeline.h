@@ -110,7 +110,7 @@ class CertifiedPipeline {
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
   // Of a workgroup that gathers the contacts of a top cell: each lane writes its share of a list within lavapipe's
   // 65,535 loop iterations, whatever the mesh (DeviceMesh::kMostTriangles).
-  static constexpr std::uint32_t kGatherLanes = 256;
+  static constexpr std::uint32_t kGatherLanes = 64;
   static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup for one cell
   // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
   enum class Lanes : std::uint32_t { kAlone, kEight };

@@ -65,7 +65,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.first_item = first;
   const Kernel count_entries{"gather_contacts",
                              {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
-                              cells_[0].range(), lists_[0].range()},
+                              nearest_.range(), cells_[0].range(), lists_[0].range()},
                              Reads::kNoMesh,
                              {0},
                              kGatherLanes,

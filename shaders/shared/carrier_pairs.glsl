@@ -54,12 +54,13 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   float slack = 4.0 * (at_a.foot.w + at_b.foot.w) +
                 (1.0 + 2.0 * excess) * distance_slack(min(a.w, b.w), box.circumradius);
   vec4 mixture = a + share * ab;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) {
+  bool wide = false;
+  for (uint k = 0; k < 8u; ++k) {
     vec3 x = box.half_sides * corner_sign(k);
     vec3 chord = apart + project(span_a, x) - project(span_b, x);
-    if (length(chord) + slack >= 2.0 * sine * (mixture.w - dot(mixture.xyz, x) - bend - slack)) return true;
+    wide = wide || length(chord) + slack >= 2.0 * sine * (mixture.w - dot(mixture.xyz, x) - bend - slack);
   }
-  return false;
+  return wide;
 }
 
 // Corners of a carrier: edges repeat one, vertices two.

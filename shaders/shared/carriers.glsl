@@ -167,7 +167,7 @@ void rank_carriers(uint lane) {
       uint first = kLanes * b;
       float theirs = carrier_nearest[first + lane].w;
       uint their_name = carrier_name[first + lane];
-      [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+      for (uint k = 0; k < kLanes; ++k) {
 #ifdef LOCKSTEP
         float other = from_lane(theirs, k);
         uint other_name = from_lane(their_name, k);
