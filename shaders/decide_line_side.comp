@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Does the accepted end of a line lie in the solid? Asked where its cell does not know: next to the boundary, and around
-// the open edges of a mesh. Inside is where the winding number is at least 1/2; where the error bound leaves that open,
-// the line is given up and the voxel stays undecided.
+// Does the accepted end of a line lie in the solid? Asked where its cell does not know: next to the boundary, and
+// around the open edges of a mesh. Inside is where the winding number is at least 1/2; where the error bound leaves that
+// open, the line is given up and the voxel stays undecided.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
@@ -18,18 +18,21 @@ layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
 layout(set = 0, binding = 5) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "closure.glsl"
 
-bool is_inside(vec3 point) {
-  bool listed = step.open_edges <= kMostOpenEdges;
-  float tolerance = 0.3;  // most points are clear at once; where open edges are listed, all are
+bool is_inside_by_tree(vec3 point) {
+  float tolerance = 0.3;  // most points are clear at once
   Winding w;
   for (uint attempt = 0;; ++attempt) {
     w = winding_number(point, tolerance);
-    if (listed || attempt == 2u || abs(w.number - 0.5) > w.bound + kSumRounding) break;
+    if (attempt == 2u || abs(w.number - 0.5) > w.bound + kSumRounding) break;
     tolerance *= 0.1;
   }
-  if (!w.complete) return false;
-  if (!listed) return w.number - 0.5 >= w.bound + kSumRounding;
-  return exact_winding_number(w.number, closure_at(point, 0.0)) - 0.5 >= closure_rounding();
+  return w.complete && w.number - 0.5 >= w.bound + kSumRounding;
+}
+
+bool is_inside(vec3 point) {
+  if (step.open_edges > kMostOpenEdges) return is_inside_by_tree(point);
+  Winding w = exact_winding_number(winding_number(point, kRoughTolerance), closure_at(point, 0.0));
+  return w.complete && w.number - 0.5 >= w.bound;
 }
 
 void main() {

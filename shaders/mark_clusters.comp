@@ -3,7 +3,7 @@
 #extension GL_EXT_control_flow_attributes : enable
 // What mark_contacts.comp does, where cells are large and lists are of clusters: which of a parent's clusters may hold
 // contacts of each child (Lemma A with two witnesses), and which children that suffices to dismiss. One invocation per
-// parent and child; the eight children of a parent walk one list together.
+// parent and child, one workgroup per parent: its eight children walk one list together.
 #include "lanes.glsl"
 #include "step.glsl"
 #include "witness.glsl"
@@ -154,7 +154,7 @@ bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, 
 
 void main() {
   uint item = invocation_index();
-  if (item >= 8u * counters[kParents]) return;
+  if (item >= 8u * counters[kParents]) return;  // all of the workgroup
   Cell parent = parents[item / 8];
   uint child = item % 8;
   uvec3 coordinates = child_coordinates(parent, child);

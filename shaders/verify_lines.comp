@@ -42,7 +42,7 @@ void main() {
   bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, 2 * index, turn);
   bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
-  // What an open mesh says of a cell rests on an assumption: its points are asked one by one.
+  // Where open edges are not listed, sides of cells rest on an assumption: points are asked one by one.
   bool inside = step.open_edges <= kMostOpenEdges && (cell.flags & kCellInside) != 0u;
   if ((p || q) && !inside) asked[atomicAdd(counters[kAsked], 1u)] = index;
 }

@@ -109,7 +109,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
   capacity_.list_entries = static_cast<uint>(entries);
-  capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u);
+  capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u) / 64 * 64;  // whole workgroups
   const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;
   const VkDeviceSize words = entries / 32 + c;
   const VkDeviceSize scanned = 8 * c;

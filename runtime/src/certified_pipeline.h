@@ -108,9 +108,9 @@ class CertifiedPipeline {
   // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
   // texel views follow its buffers.
   enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
-  // Of a workgroup that gathers the contacts of a top cell: each lane writes its share of a list within lavapipe's
-  // 65,535 loop iterations, whatever the mesh (DeviceMesh::kMostTriangles).
-  static constexpr std::uint32_t kGatherLanes = 64;
+  // Of a workgroup that gathers the contacts of a top cell. Few lanes start quickly; where lists are of triangles each
+  // writes its share within lavapipe's 65,535 loop iterations, whatever the mesh (DeviceMesh::kMostTriangles).
+  static constexpr std::uint32_t kGatherLanes = 64, kGatherLanesForTriangles = 256;
   static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup for one cell
   // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
   enum class Lanes : std::uint32_t { kAlone, kEight };

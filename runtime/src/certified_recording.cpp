@@ -63,16 +63,17 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
+  const std::uint32_t lanes = step.lists == gpu::kListsTriangles ? kGatherLanesForTriangles : kGatherLanes;
   const Kernel count_entries{"gather_contacts",
                              {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
                               nearest_.range(), cells_[0].range(), lists_[0].range()},
                              Reads::kNoMesh,
                              {0},
-                             kGatherLanes,
+                             lanes,
                              Lanes::kEight};
   Kernel write_entries = count_entries;
   write_entries.constants = {1};
-  const Extent groups{gpu::kParents, kGatherLanes};
+  const Extent groups{gpu::kParents, lanes};
   run(r, count_entries, groups, step);
   Kernel side = side_kernel("decide_side",
                             {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});
@@ -161,7 +162,7 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
         nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
        Reads::kNoMesh,
        {},
-       64,
+       kEightLanes,
        Lanes::kEight},
       children, step);
   decide_sides_and_make_room(r, step, level);

@@ -22,7 +22,6 @@ Point unit_or_zero(const Point& v) {
 
 struct Run {
   std::uint32_t first = 0, count = 0;
-  BvhBox box;
 };
 
 // The largest subtrees of at most `most` triangles, in leaf order.
@@ -43,10 +42,37 @@ std::vector<Run> make_runs(const Bvh& bvh, std::uint32_t most) {
       pending.push_back(nodes[i].first);
       continue;
     }
-    runs.push_back({position, sizes[i], nodes[i].box});
+    runs.push_back({position, sizes[i]});
     position += sizes[i];
   }
   return runs;
+}
+
+// The leaf order cut into `count` runs as long as each other, whatever the tree is like.
+std::vector<Run> make_equal_runs(std::uint32_t triangles, std::uint32_t count) {
+  const std::uint32_t length = (triangles + count - 1) / count;
+  std::vector<Run> runs;
+  for (std::uint32_t first = 0; first < triangles; first += length)
+    runs.push_back({first, std::min(length, triangles - first)});
+  return runs;
+}
+
+// Subtrees twice as large, or four times, and so on, until there are few enough.
+std::vector<Run> make_few_runs(const Bvh& bvh, std::uint32_t most_triangles, std::uint32_t most_clusters) {
+  constexpr std::uint32_t kTooLarge = 4096;  // triangles: DeviceMesh::kMostTriangles says why
+  for (std::uint32_t most = most_triangles; most <= kTooLarge; most *= 2) {
+    std::vector<Run> runs = make_runs(bvh, most);
+    if (runs.size() <= most_clusters) return runs;
+  }
+  return make_equal_runs(static_cast<std::uint32_t>(bvh.corners().size()), most_clusters);
+}
+
+BvhBox box_of(const Run& run, const Bvh& bvh) {
+  BvhBox box{bvh.corners()[run.first][0], bvh.corners()[run.first][0]};
+  for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+    for (const Point& p : bvh.corners()[i]) box = {least(box.lower, p), greatest(box.upper, p)};
+  }
+  return box;
 }
 
 // Of the triangles of one run, in double.
@@ -74,10 +100,6 @@ Point mean_normal(const Facets& facets) {
   for (const auto& c : facets.corners) sum = sum + cross(c[1] - c[0], c[2] - c[0]);
   const Point mean = unit_or_zero(sum);
   return dot(mean, mean) > 0 ? mean : Point{0, 0, 1};
-}
-
-gpu::vec4 rounded(const Point& p, double w) {
-  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
 }
 
 // The axis as the device has it: all bounds are of that.
@@ -109,7 +131,7 @@ void put_cylinder(const Facets& facets, const Point& axis, gpu::Cluster& cluster
       radius = std::max(radius, length(p - centre - along * axis));
     }
   }
-  cluster.centre = rounded(centre, radius + kRoundingOfLength);
+  cluster.centre = to_vec4(centre, radius + kRoundingOfLength);
   cluster.half_height = static_cast<float>(half_height + kRoundingOfLength);
 }
 
@@ -119,7 +141,7 @@ void put_cone(const Facets& facets, const Point& axis, gpu::Cluster& cluster) {
   for (const Point& n : facets.normals) tilt = std::max(tilt, std::atan2(length(cross(n, axis)), dot(n, axis)));
   tilt += kRoundingOfAngle;
   const bool fits = facets.trusted && tilt < std::acos(0.0);
-  cluster.axis = rounded(axis, fits ? std::cos(tilt) : gpu::kNoCone);
+  cluster.axis = to_vec4(axis, fits ? std::cos(tilt) : gpu::kNoCone);
   cluster.sin_tilt = static_cast<float>(fits ? std::sin(tilt) : 1);
 }
 
@@ -141,13 +163,13 @@ gpu::Cluster make_cluster(const Run& run, const Bvh& bvh, const UnitTransform& t
   const Facets facets = facets_of(run, bvh, to_unit, flags);
   const Point axis = as_float(mean_normal(facets));
   gpu::Cluster cluster{};
-  const FloatBox box = float_box(run.box, to_unit);
+  const FloatBox box = float_box(box_of(run, bvh), to_unit);
   cluster.lower = {box.lower[0], box.lower[1], box.lower[2], 0};
   cluster.upper = {box.upper[0], box.upper[1], box.upper[2], 0};
   put_cylinder(facets, axis, cluster);
   put_cone(facets, axis, cluster);
   const auto& c = cluster.centre;
-  cluster.point = rounded(point_on_boundary(facets, {double{c.x}, double{c.y}, double{c.z}}), 0);
+  cluster.point = to_vec4(point_on_boundary(facets, {double{c.x}, double{c.y}, double{c.z}}), 0);
   cluster.first = run.first;
   cluster.count = run.count;
   return cluster;
@@ -158,8 +180,7 @@ gpu::Cluster make_cluster(const Run& run, const Bvh& bvh, const UnitTransform& t
 std::vector<gpu::Cluster> make_clusters(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags, std::uint32_t most_triangles,
                                         std::uint32_t most_clusters) {
-  std::vector<Run> runs = make_runs(bvh, most_triangles);
-  while (runs.size() > most_clusters) runs = make_runs(bvh, most_triangles *= 2);
+  const std::vector<Run> runs = make_few_runs(bvh, most_triangles, most_clusters);
   std::vector<gpu::Cluster> clusters(runs.size());
   parallel_blocks(runs.size(), 64, thread_count(0), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) clusters[i] = make_cluster(runs[i], bvh, to_unit, flags);

@@ -12,8 +12,8 @@
 namespace medial_vk {
 
 /// The largest subtrees of `bvh` of at most `most_triangles` (at least 1; twice that, or four times, and so on, where
-/// there would be more than `most_clusters` of them) in leaf order, in the unit box, with all bounds rounded outwards.
-/// `flags` as MeshView::flags.
+/// there would be more than `most_clusters` of them; if subtrees of 4,096 are still too many, runs of equal length) in
+/// leaf order, in the unit box, with all bounds rounded outwards. `flags` as MeshView::flags.
 std::vector<gpu::Cluster> make_clusters(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags, std::uint32_t most_triangles,
                                         std::uint32_t most_clusters);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu_types.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/mesh_view.h"
 
@@ -21,6 +22,11 @@ struct UnitTransform {
     return {(p[0] - lower[0]) / longest, (p[1] - lower[1]) / longest, (p[2] - lower[2]) / longest};
   }
 };
+
+/// Rounded to float.
+inline gpu::vec4 to_vec4(const Point& p, double w) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
+}
 
 /// A box in the unit box, rounded outwards so far that it holds the float triangles too.
 struct FloatBox {

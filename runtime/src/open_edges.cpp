@@ -21,7 +21,7 @@ std::vector<DirectedEdge> directed_edges(const MeshView& mesh) {
   for (const Triangle& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+      if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
     }
   }
   std::ranges::sort(edges, {}, [](const DirectedEdge& e) { return std::pair(e.low, e.high); });
@@ -61,14 +61,13 @@ class Parts {
   std::map<std::uint32_t, std::uint32_t> parents_;
 };
 
-gpu::vec4 rounded(const Point& p, double w) {
-  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
-}
-
 }  // namespace
 
-std::vector<gpu::OpenEdge> make_open_edges(const MeshView& mesh, const UnitTransform& to_unit) {
+OpenEdges find_open_edges(const MeshView& mesh, const UnitTransform& to_unit, std::uint32_t most) {
   const std::vector<Surplus> edges = surpluses(mesh);
+  OpenEdges out;
+  out.count = static_cast<std::uint32_t>(edges.size());
+  if (out.count > most) return out;
   Parts parts;
   for (const Surplus& e : edges) parts.unite(e.from, e.to);
   struct Mean {
@@ -81,12 +80,11 @@ std::vector<gpu::OpenEdge> make_open_edges(const MeshView& mesh, const UnitTrans
     mean.sum = mean.sum + to_unit(mesh.vertices[e.from]) + to_unit(mesh.vertices[e.to]);
     mean.count += 2;
   }
-  std::vector<gpu::OpenEdge> out;
   for (const Surplus& e : edges) {
     const Mean& mean = apexes[parts.root(e.from)];
     // The triangle that closes the mesh runs back.
-    out.push_back({rounded(to_unit(mesh.vertices[e.to]), e.times), rounded(to_unit(mesh.vertices[e.from]), 0),
-                   rounded((1 / mean.count) * mean.sum, 0)});
+    out.listed.push_back({to_vec4(to_unit(mesh.vertices[e.to]), e.times), to_vec4(to_unit(mesh.vertices[e.from]), 0),
+                          to_vec4((1 / mean.count) * mean.sum, 0)});
   }
   return out;
 }

@@ -29,7 +29,6 @@ Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> byt
 
 constexpr std::uint32_t kMostClusters = 8192;
 constexpr std::uint32_t kTrianglesOfCluster = 16;
-constexpr std::uint32_t kMostTrianglesOfCluster = 4096;  // kMostTriangles says why
 
 }  // namespace
 
@@ -141,18 +140,15 @@ Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh)
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
-  if (most_in_cluster > kMostTrianglesOfCluster) {
-    return Error{ErrorCode::kOutOfMemory, "the mesh's triangles are too unevenly spread for the device code"};
-  }
   return fill(context, arena_, std::as_bytes(std::span(made)), "clusters of triangles", clusters);
 }
 
 Status DeviceMesh::upload_open_edges(Context::Impl& context, const MeshView& mesh) {
-  std::vector<gpu::OpenEdge> edges;
-  if (!mesh.closed) edges = make_open_edges(mesh, {lower, longest});
-  open_edge_count = static_cast<std::uint32_t>(edges.size());
-  if (edges.empty() || edges.size() > gpu::kMostOpenEdges) edges.assign(1, {});
-  return fill(context, arena_, std::as_bytes(std::span(edges)), "open edges", open_edges);
+  OpenEdges edges;
+  if (!mesh.closed) edges = find_open_edges(mesh, {lower, longest}, gpu::kMostOpenEdges);
+  open_edge_count = edges.count;
+  if (edges.listed.empty()) edges.listed.resize(1);
+  return fill(context, arena_, std::as_bytes(std::span(edges.listed)), "open edges", open_edges);
 }
 
 Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }

@@ -31,10 +31,10 @@ struct DeviceMesh {
 
   /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
   /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
-  /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with lower, upper,
-  /// longest, closed or has_untrusted must be recorded anew. Errors: kInvalidMesh (another number of triangles or
-  /// vertices, an index out of range, a coordinate that is not finite: all stays as it was; no extent: not intact
-  /// until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
+  /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with what is known
+  /// of the mesh as a whole (closed, open_edge_count and so on) must be recorded anew. Errors: kInvalidMesh (another
+  /// number of triangles or vertices, an index out of range, a coordinate that is not finite: all stays as it was; no
+  /// extent: not intact until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(Context::Impl& context, const MeshView& mesh);
 
   /// Adds what the certified extraction asks besides triangles: clusters of them, open edges, and for the dismissal by

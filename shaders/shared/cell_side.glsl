@@ -1,10 +1,10 @@
 // On which side of the boundary a whole ball lies that does not meet it. Include winding.glsl and closure.glsl before.
 //
 // On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than closure.glsl
-// says. Of meshes with too many open edges for that, only this is known: the winding number is harmonic on the ball, and
-// Harnack's inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at most
-// R (R + r) / (R - r)^2 times its value at c. It is used for w + kSpill (outside) and 1 + kSpill - w (inside), which are
-// positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about such meshes (docs/theory.md).
+// says. Of meshes with too many open edges for that, only this is known: the winding number is harmonic on the ball,
+// and Harnack's inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at
+// most R (R + r) / (R - r)^2 times its value at c. It is used for w + kSpill (outside) and 1 + kSpill - w (inside),
+// which are positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about such meshes (docs/theory.md).
 #ifndef MEDIAL_VK_CELL_SIDE_GLSL
 #define MEDIAL_VK_CELL_SIDE_GLSL
 
@@ -31,11 +31,10 @@ uint side_of_ball(vec3 centre, float radius, float clearance) {
   if (clearance <= radius) return kSideUnknown;
   if (step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
   Closure closure = closure_at(centre, radius);
-  Winding w = winding_number(centre, 0.4);
+  Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
   if (!w.complete) return kSideUnknown;
-  float number = exact_winding_number(w.number, closure);
-  float change = step.open_edges == 0u ? 0.0 : radius * closure.slope + closure_rounding();
-  return number - change >= 0.5 ? kSideInside : number + change < 0.5 ? kSideOutside : kSideUnknown;
+  float change = w.bound + radius * closure.slope;
+  return w.number - change >= 0.5 ? kSideInside : w.number + change < 0.5 ? kSideOutside : kSideUnknown;
 }
 
 #endif

@@ -5,40 +5,58 @@
 #ifndef MEDIAL_VK_CLOSURE_GLSL
 #define MEDIAL_VK_CLOSURE_GLSL
 
-// Of a sum of solid angles in float, over 4 pi: of those near the point, and for each of the others.
-const float kSumRounding = 1e-4, kTermRounding = 3e-7;
+const float kSumRounding = 1e-4;  // of the sum of solid angles in a walk of the tree, over 4 pi
+// Of one solid angle over 4 pi (docs/theory.md, "Rounding"): where its tangent is ill-conditioned, and of atan itself,
+// which Vulkan allows 4096 units in the last place.
+const float kTangentRounding = 2.4e-7, kAtanRounding = 2.5e-4;
 
 struct Closure {
   float number;  // winding number of the triangles that close the mesh
+  float error;   // of it, up to a whole number
   float slope;   // within the radius that was asked, the winding number of the mesh changes no faster
 };
+
+// As winding_of_triangle, with a bound of its error. In the triangle's plane it is 0 or 1/2, and which of +1/2 and -1/2
+// does not matter here; on an edge, where all of it is lost, the bound is as large as that.
+vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
+  vec3 a = e.from.xyz - p, b = e.to.xyz - p, c = e.apex.xyz - p;
+  float la = length(a), lb = length(b), lc = length(c), product = la * lb * lc;
+  float volume = dot(a, cross(e.to.xyz - e.from.xyz, e.apex.xyz - e.from.xyz));
+  float spread = product + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  float size = length(vec2(volume, spread));
+  float scale = product + la * length(e.to.xyz - e.from.xyz) * length(e.apex.xyz - e.from.xyz);
+  float number = size > 0.0 ? 2.0 * atan(volume, spread) / kFourPi : 0.0;
+  return vec2(number, abs(number) * kAtanRounding + min(kTangentRounding * scale / max(size, 1e-30), 1.0));
+}
 
 // The gradient of the solid angle of a surface depends on its boundary alone (the law of Biot and Savart): it is at most
 // the integral of 1 / |x - l|^2 along the boundary.
 Closure closure_at(vec3 p, float radius) {
-  Closure sum = Closure(0.0, 0.0);
+  Closure sum = Closure(0.0, 0.0, 0.0);
   uint count = step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
   for (uint i = 0u; i < count; ++i) {
     OpenEdge e = open_edges[i];
-    vec3 edge = e.to.xyz - e.from.xyz;
-    TriangleTexels t;
-    t.a = vec4(e.from.xyz, 0.0);
-    t.ab = vec4(edge, 0.0);
-    t.ac = vec4(e.apex.xyz - e.from.xyz, 0.0);
-    t.normal = vec4(0.0);
-    sum.number += e.from.w * winding_of_triangle(p, t);
-    vec3 v = p - e.from.xyz;
+    vec2 part = winding_of_closing_triangle(p, e);
+    sum.number += e.from.w * part.x;
+    sum.error += e.from.w * part.y;
+    vec3 edge = e.to.xyz - e.from.xyz, v = p - e.from.xyz;
     float squared = dot(edge, edge);
     float gap = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge) - radius - step.slack;
     sum.slope += gap > 0.0 ? e.from.w * sqrt(squared) / (gap * gap) : 1e30;
   }
+  sum.error += 1.2e-7 * float(count);  // of the additions: terms are at most 1/2
   sum.slope /= kFourPi;
   return sum;
 }
 
-// `rough`: the winding number of the mesh, wrong by less than 1/2.
-float exact_winding_number(float rough, Closure closure) { return round(rough + closure.number) - closure.number; }
+// The winding number of the mesh, from a rough one; `bound` is a large number if the two do not agree on a whole one.
+Winding exact_winding_number(Winding rough, Closure closure) {
+  float all = rough.number + closure.number, whole = round(all);
+  bool agree = abs(all - whole) <= rough.bound + kSumRounding + closure.error;
+  return Winding(whole - closure.number, agree ? closure.error : 1e3, rough.complete);
+}
 
-float closure_rounding() { return kSumRounding + kTermRounding * float(step.open_edges); }
+// Wrong by less than 1/4, so that an error of the sum by 1/2 is seen.
+const float kRoughTolerance = 0.2;
 
 #endif

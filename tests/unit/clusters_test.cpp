@@ -71,7 +71,7 @@ void expect_bounds_hold(const Bvh& bvh) {
     EXPECT_EQ(c.first, position);
     ASSERT_GE(c.count, 1u);
     EXPECT_LE(c.count, 16u);
-    double nearest = 1;  // of the cluster's point to the planes of its triangles
+    double nearest = 1;  // of the centroids to the cluster's point
     for (; position < c.first + c.count; ++position) {
       const std::array<Point, 3> corners = unit_corners(bvh, to_unit, position);
       expect_holds(c, corners);
@@ -115,7 +115,26 @@ TEST(Clusters, GrowUntilThereAreFewEnough) {
   EXPECT_GE(all, 3600u / 16);
   EXPECT_LT(number(100), all);
   EXPECT_LE(number(100), 100u);
-  EXPECT_EQ(number(1), 1u);
+  EXPECT_EQ(number(1), 1u);  // 3,600 triangles are one subtree of at most 4,096
+}
+
+TEST(Clusters, AreRunsOfEqualLengthWhereSubtreesAreTooMany) {
+  const Mesh mesh = test::make_torus(1.0, 0.4, 100, 100);
+  const Bvh bvh = Bvh::build(view_of(mesh), 4).value();
+  const auto clusters = make_clusters(bvh, unit_box_of(bvh), {}, 16, 3);
+  ASSERT_EQ(clusters.size(), 3u);  // 20,000 triangles: subtrees of 4,096 are more
+  EXPECT_EQ(clusters[0].count, 6667u);
+  EXPECT_EQ(clusters[2].first + clusters[2].count, 20000u);
+  for (const gpu::Cluster& c : clusters) {
+    for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+      for (const Point& p : unit_corners(bvh, unit_box_of(bvh), i)) {
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_LE(xyz(c.lower)[k], p[k]);
+          EXPECT_GE(xyz(c.upper)[k], p[k]);
+        }
+      }
+    }
+  }
 }
 
 TEST(Clusters, TheMedianRadiusIsInTheMiddle) {

@@ -13,13 +13,11 @@
 namespace medial_vk {
 namespace {
 
-TEST(Lanes, SharedMemoryGivesTheSameAsShuffles) {
-  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  Mesh solid = test::make_l_shape(1.0, 0.4, 0.5);
+void expect_the_same(Mesh solid, std::uint32_t resolution) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
   ExtractionParameters parameters;
-  parameters.resolution = 30;
+  parameters.resolution = resolution;
   Context context = test::make_context();
   if (!context.impl().has_lockstep_lanes) GTEST_SKIP() << "the device has no lanes in lockstep";
   const Extraction shuffled = test::extract_on_device(context, mesh, parameters).extraction;
@@ -34,6 +32,16 @@ TEST(Lanes, SharedMemoryGivesTheSameAsShuffles) {
   ASSERT_EQ(shuffled.counters.levels.size(), shared.counters.levels.size());
   for (std::size_t level = 0; level < shared.counters.levels.size(); ++level)
     EXPECT_EQ(shuffled.counters.levels[level].kept, shared.counters.levels[level].kept) << "level " << level;
+}
+
+TEST(Lanes, SharedMemoryGivesTheSameAsShuffles) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(test::make_l_shape(1.0, 0.4, 0.5), 30);
+}
+
+TEST(Lanes, SharedMemoryGivesTheSameWhereListsHoldClusters) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(test::make_torus(1.0, 0.4, 80, 160, 0.5), 65);
 }
 
 }  // namespace

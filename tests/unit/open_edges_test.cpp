@@ -17,7 +17,9 @@ namespace {
 
 MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, false}; }
 
-std::vector<gpu::OpenEdge> open_edges_of(const Mesh& mesh) { return make_open_edges(view_of(mesh), {{0, 0, 0}, 1}); }
+std::vector<gpu::OpenEdge> open_edges_of(const Mesh& mesh) {
+  return find_open_edges(view_of(mesh), {{0, 0, 0}, 1}, 1000).listed;
+}
 
 Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
@@ -95,10 +97,24 @@ TEST(OpenEdges, EveryHoleHasItsApex) {
   expect_whole(mesh);
 }
 
+TEST(OpenEdges, AreCountedWhereTheyAreTooManyToList) {
+  Mesh mesh = box();
+  mesh.triangles.pop_back();
+  const OpenEdges edges = find_open_edges(view_of(mesh), {}, 2);
+  EXPECT_EQ(edges.count, 3u);
+  EXPECT_TRUE(edges.listed.empty());
+}
+
+TEST(OpenEdges, AnEdgeFromAVertexToItselfIsNone) {
+  Mesh mesh = box();
+  mesh.triangles.push_back({1, 1, 2});
+  EXPECT_TRUE(open_edges_of(mesh).empty());
+}
+
 TEST(OpenEdges, LieInTheUnitBox) {
   Mesh mesh = box();
   mesh.triangles.pop_back();
-  for (const gpu::OpenEdge& e : make_open_edges(view_of(mesh), {{-1, -1, -1}, 4})) {
+  for (const gpu::OpenEdge& e : find_open_edges(view_of(mesh), {{-1, -1, -1}, 4}, 1000).listed) {
     EXPECT_GE(e.from.x, 0.25f);
     EXPECT_LE(e.from.x, 0.5f);
   }
