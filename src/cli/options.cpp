@@ -233,24 +233,30 @@ Status parse_into(CLI::App& app, std::vector<std::string> arguments, Options& op
 }  // namespace
 
 /// The application writes to `options`, so the two stay together and in place.
-struct OptionParser::Declared {
-  CLI::App app;
+struct OptionParser::Declared : CLI::App {
   Options options;
+
+  /// CLI11 forgets the line before by itself, but not if that one ended with an error, and never the order of its
+  /// options, a list that grows from line to line.
+  void forget() {
+    clear();
+    parse_order_.clear();
+    options = Options();
+  }
 };
 
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
-  declared_->app.set_help_flag();  // Help is text of our own.
-  declared_->app.allow_extras();   // Reported here, with a suggestion.
-  declare(declared_->app, declared_->options);
+  declared_->set_help_flag();  // Help is text of our own.
+  declared_->allow_extras();   // Reported here, with a suggestion.
+  declare(*declared_, declared_->options);
 }
 
 OptionParser::~OptionParser() = default;
 
 Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
-  auto& [app, options] = *declared_;
-  app.clear();  // CLI11 does so by itself only after a line that it has read to the end.
-  options = Options();
-  if (Status status = parse_into(app, arguments, options); !status) return status.error();
+  declared_->forget();
+  Options& options = declared_->options;
+  if (Status status = parse_into(*declared_, arguments, options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();
   return options;

@@ -61,6 +61,7 @@ TEST(ReportJson, HoldsEveryDocumentedKey) {
                           "reoriented_faces",
                           "intersecting_faces",
                           "intersections_known",
+                          "sides_known",
                           "signed_volume",
                           "lower",
                           "upper",
