@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <new>
 
@@ -47,10 +48,8 @@ bool looks_like_ascii_stl(std::string_view bytes) {
 bool looks_like_obj(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, 65536), '#', true);
   const std::string_view word = scanner.word_across_lines();
-  for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "s", "f", "mtllib", "usemtl"}) {
-    if (word == keyword) return true;
-  }
-  return false;
+  constexpr std::string_view kKeywords[] = {"v", "vn", "vt", "o", "g", "s", "f", "mtllib", "usemtl"};
+  return std::ranges::find(kKeywords, word) != std::end(kKeywords);
 }
 
 Result<Mesh> read_by_content(std::string_view bytes, const std::string& name) {
