@@ -115,6 +115,20 @@ TEST(ReportTables, ColumnsAreAligned) {
             "longer  1,000\n");
 }
 
+TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
+  DeviceDescription good, poor;
+  good.name = "Some GPU";
+  good.usable = true;
+  good.memory_bytes = 8ull << 30;
+  poor.index = 1;
+  poor.name = "Old GPU";
+  poor.why_not = "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed";
+  const std::string table = cli::device_table({good, poor});
+  EXPECT_THAT(table, HasSubstr("8.0 GiB"));
+  EXPECT_THAT(table, HasSubstr("yes\n"));
+  EXPECT_THAT(table, HasSubstr("no: its maxPerStageDescriptorStorageBuffers is 4, 16 are needed\n"));
+}
+
 TEST(ReportTables, CertificateNamesTheFirstFailure) {
   reference::Certificate certificate;
   certificate.lines = {{"centre inside", 10, 0, 0, "", ""}, {"radius", 10, 2, 0.5, "voxels", "ball 3 at (1, 2, 3)"}};
