@@ -69,7 +69,7 @@ double Sides::change(double way, double rim_gap) const {
 Sides::Known Sides::ask(const Vector3d& p, double empty, double tolerance) const {
   const double winding = winding_number(tree_, p, tolerance);
   const double rim_gap = rim_ ? rim_->closest(p).distance : 0;
-  const Known known = {p, empty, rim_gap, winding - tolerance, winding + tolerance};
+  Known known = {p, empty, rim_gap, winding - tolerance, winding + tolerance};
   memory_[next_++ % memory_.size()] = known;
   return known;
 }

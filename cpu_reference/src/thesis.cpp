@@ -82,6 +82,7 @@ class Thesis {
 
   /// Algorithm 2.
   bool salient_medial_point(const Vector3i& voxel, const Vector3d& centre, double flux) {
+    // NOLINTNEXTLINE(readability-use-anyofallof): it also keeps the point.
     for (const Vector3d& direction : spirals_.back()) {
       const Vector3d phi = centre + grid_.voxel_size * direction;
       const Closest nearest = closest_(phi);

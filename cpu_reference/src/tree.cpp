@@ -34,7 +34,7 @@ Tree::Tree(const Mesh& mesh) {
     const double length = cross.norm();
     normals_.push_back(length > 0 ? Vector3d(cross / length) : Vector3d::Zero());
     areas_.push_back(length / 2);
-    centroids.push_back((a + b + c) / 3);
+    centroids.emplace_back((a + b + c) / 3);
   }
   order_.resize(n);
   std::iota(order_.begin(), order_.end(), 0);

@@ -86,10 +86,12 @@ double Tree::winding_number_by_moments(const Vector3d& p, double opening, double
 // The sum of area / d^2 over a mesh is about 4 pi per layer seen from p, so the errors add up to about
 // 3 opening^2 / (1 - opening)^4 per layer; the first opening allows for two layers or so.
 double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
-  for (double opening = 0.3 * std::sqrt(tolerance); opening > 1e-3; opening *= 0.6) {
+  double opening = 0.3 * std::sqrt(tolerance);
+  while (opening > 1e-3) {
     double error;
     const double sum = tree.winding_number_by_moments(p, opening, error);
     if (error <= tolerance) return sum;
+    opening *= 0.6;
   }
   return winding_number(tree, p);
 }

@@ -51,7 +51,7 @@ Status Context::Impl::initialize(const ContextOptions& options) {
     timestamp_valid_bits = selected.value().timestamp_valid_bits;
     description = std::move(selected.value().description);
     query_properties();
-    if (const Status made = create_device(); !made.ok()) return made;
+    if (Status made = create_device(); !made.ok()) return made;
   }
   return open_pipeline_cache(options.cache_folder);
 }

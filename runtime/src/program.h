@@ -21,7 +21,7 @@ struct ProgramKey {
   std::uint32_t workgroup_size = 64;     // specialization constant 0
   std::vector<std::uint32_t> constants;  // specialization constants 1, 2, ...
 
-  auto operator<=>(const ProgramKey&) const = default;
+  auto operator<=>(const ProgramKey&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 /// What follows the name of a shader that reads the mesh (cmake/EmbedShaders.cmake).

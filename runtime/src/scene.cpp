@@ -30,14 +30,26 @@ Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> byt
 constexpr std::uint32_t kMostClusters = 8192;
 constexpr std::uint32_t kTrianglesOfCluster = 16;
 
+/// Before anything is built. The triangles are the largest of the buffers that grow with the mesh.
+Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
+  constexpr std::size_t kBytes = kTexelsPerTriangle * sizeof(Texel);
+  const std::string mesh = "the mesh has " + std::to_string(triangles) + " triangles, ";
+  if (triangles > DeviceMesh::kMostTriangles) {
+    return Error{ErrorCode::kOutOfMemory,
+                 mesh + "the device code addresses " + std::to_string(DeviceMesh::kMostTriangles)};
+  }
+  const std::size_t most = limits.maxStorageBufferRange / kBytes;
+  if (triangles <= most) return {};
+  return Error{ErrorCode::kOutOfMemory, mesh + "this device takes " + std::to_string(most) + " at most: of " +
+                                            std::to_string(kBytes) + " bytes each, its kernels see " +
+                                            std::to_string(limits.maxStorageBufferRange) +
+                                            " in a buffer (maxStorageBufferRange)"};
+}
+
 }  // namespace
 
 Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh) {
-  if (mesh.triangles.size() > kMostTriangles) {
-    return Error{ErrorCode::kOutOfMemory, "the mesh has " + std::to_string(mesh.triangles.size()) +
-                                              " triangles, the device code addresses " +
-                                              std::to_string(kMostTriangles)};
-  }
+  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
   Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
   if (!bvh.ok()) return bvh.error();
   DeviceMesh device(context);

@@ -8,7 +8,7 @@
 namespace medial_vk {
 
 /// As extract_medial_spheres() with Mode::kThesis, whose errors it has. The parameters have been checked.
-Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& mesh, const ExtractionParameters& parameters,
+Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
                                   StopWatch& watch);
 
 }  // namespace medial_vk

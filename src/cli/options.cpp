@@ -110,24 +110,23 @@ void declare(CLI::App& app, Options& options) {
   add.action("-h,--help", Action::kHelp, options.action);
 }
 
-/// Insertions, deletions and replacements that turn one word into the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+/// Insertions, deletions and replacements that turn one word into the other, or `limit` if they are not fewer.
+std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t limit) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i + 1);
+    std::size_t least = row[0];
     for (std::size_t j = 0; j < b.size(); ++j) {
       const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
       diagonal = row[j + 1];
       row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+      least = std::min(least, row[j + 1]);
     }
+    if (least >= limit) return limit;  // rows never get smaller
   }
-  return row.back();
-}
-
-/// At least so many edits turn one word into the other.
-std::size_t difference_of_lengths(const std::string& a, const std::string& b) {
-  return std::max(a.size(), b.size()) - std::min(a.size(), b.size());
+  return std::min(row.back(), limit);
 }
 
 /// "; did you mean --resolution?" if there is an option close to the unknown one, else nothing.
@@ -138,8 +137,7 @@ std::string suggestion(const CLI::App& app, const std::string& unknown) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& known : option->get_lnames()) {
       const std::string full = "--" + known;
-      if (difference_of_lengths(name, full) >= best_distance) continue;
-      const std::size_t distance = edit_distance(name, full);
+      const std::size_t distance = edit_distance(name, full, best_distance);
       if (distance < best_distance) {
         best_distance = distance;
         best = known;
@@ -234,16 +232,36 @@ Status parse_into(CLI::App& app, std::vector<std::string> arguments, Options& op
 
 }  // namespace
 
-Result<Options> parse_options(const std::vector<std::string>& arguments) {
-  CLI::App app;
-  app.set_help_flag();  // Help is text of our own.
-  app.allow_extras();   // Reported here, with a suggestion.
+/// The application writes to `options`, so the two stay together and in place.
+struct OptionParser::Declared : CLI::App {
   Options options;
-  declare(app, options);
-  if (Status status = parse_into(app, arguments, options); !status) return status.error();
+
+  /// CLI11 forgets the line before by itself, but not if that one ended with an error, and never the order of its
+  /// options, a list that grows from line to line.
+  void forget() {
+    clear();
+    parse_order_.clear();
+    options = Options();
+  }
+};
+
+OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
+  declared_->set_help_flag();  // Help is text of our own.
+  declared_->allow_extras();   // Reported here, with a suggestion.
+  declare(*declared_, declared_->options);
+}
+
+OptionParser::~OptionParser() = default;
+
+Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
+  declared_->forget();
+  Options& options = declared_->options;
+  if (Status status = parse_into(*declared_, arguments, options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();
   return options;
 }
+
+Result<Options> parse_options(const std::vector<std::string>& arguments) { return OptionParser().parse(arguments); }
 
 }  // namespace medial_vk::cli

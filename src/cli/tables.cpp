@@ -44,6 +44,7 @@ std::string format_table(const std::vector<Column>& columns, const std::vector<R
 
 std::string device_table(const std::vector<DeviceDescription>& devices) {
   std::vector<Row> rows;
+  rows.reserve(devices.size());
   for (const DeviceDescription& device : devices) {
     rows.push_back({std::to_string(device.index), device.name, device.type, memory_size(device.memory_bytes),
                     device.driver, device.usable ? "yes" : "no: " + device.why_not});

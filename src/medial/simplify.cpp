@@ -49,7 +49,7 @@ std::uint64_t simplify_spheres(double epsilon, std::vector<MedialSphere>& sphere
   std::size_t end = 0;  // Kept spheres move to the front, in order.
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     if (near_kept(spheres[i], spheres, kept, epsilon * epsilon)) continue;
-    if (end != i) spheres[end] = std::move(spheres[i]);
+    if (end != i) spheres[end] = spheres[i];
     kept.emplace(spheres[end].voxel, end);
     ++end;
   }

@@ -21,7 +21,7 @@ class FanCounter {
       group_[i] = i;
       const Triangle& t = mesh_.triangles[around[i]];
       for (int k = 0; k < 3; ++k) {
-        if (t[k] == vertex || t[(k + 1) % 3] == vertex) sides_.push_back({topology_.edge_of(around[i], k), i});
+        if (t[k] == vertex || t[(k + 1) % 3] == vertex) sides_.emplace_back(topology_.edge_of(around[i], k), i);
       }
     }
     std::sort(sides_.begin(), sides_.end());

@@ -46,6 +46,7 @@ struct MeshReport {
   bool closed = false;                      ///< No open edge, orientation cancels on every edge.
   std::uint64_t faces_within = 0;           ///< Faces with the inside on both sides.
   std::uint64_t faces_without = 0;          ///< Faces with the outside on both sides.
+  bool sides_known = true;                  ///< False if these two were looked for among a part of the faces only.
   std::uint64_t trusted_triangles = 0;      ///< With kTrustedNormal.
   double signed_volume = 0;                 ///< Input units cubed; of an open mesh: as if coned to the box centre.
   Point lower = {0, 0, 0};

@@ -28,7 +28,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   /// Index of the property with one of these names; -1: none.
-  int find(std::string_view name, std::string_view other_name = {}) const;
+  int find(std::string_view wanted, std::string_view other_name = {}) const;
   /// The fewest bytes one of these can take, lists being empty.
   std::uint64_t smallest_size(PlyFormat format) const;
 };

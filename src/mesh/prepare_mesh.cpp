@@ -82,6 +82,7 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
     if (volumes.parts > volumes.parts_rounding) return {};
     return invalid("the mesh encloses nothing: it is closed, but its volume is 0");
   }
+  if (!sides.known) return {};
   constexpr float kClear = 0.01f;  // well above the error of the winding numbers; a flat sheet has 0
   for (const float beside : sides.beside) {
     if (beside > kClear) return {};
@@ -123,6 +124,7 @@ Result<PreparedMesh> prepare(Mesh mesh) {
   report.intersecting_faces = intersections.count;
   report.intersections_known = intersections.known;
   const Sidedness sides = decide_sides(clean, topology, tree, parts, report.closed, intersections);
+  report.sides_known = sides.known;
   report.reoriented_components = sides.turned_components;
   report.reoriented_faces =
       report.minority_faces + sides.turned_faces + (report.inside_out ? report.triangles : std::uint64_t{0});

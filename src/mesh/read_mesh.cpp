@@ -1,11 +1,13 @@
 // Which reader a file needs, and its bytes.
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <new>
 
@@ -46,10 +48,8 @@ bool looks_like_ascii_stl(std::string_view bytes) {
 bool looks_like_obj(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, 65536), '#', true);
   const std::string_view word = scanner.word_across_lines();
-  for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "s", "f", "mtllib", "usemtl"}) {
-    if (word == keyword) return true;
-  }
-  return false;
+  constexpr std::string_view kKeywords[] = {"v", "vn", "vt", "o", "g", "s", "f", "mtllib", "usemtl"};
+  return std::ranges::find(kKeywords, word) != std::end(kKeywords);
 }
 
 Result<Mesh> read_by_content(std::string_view bytes, const std::string& name) {
@@ -67,21 +67,37 @@ Result<Mesh> read_by_content(std::string_view bytes, const std::string& name) {
   return file_error(name, "neither content nor extension is that of an OBJ, PLY, STL or OFF file");
 }
 
-Result<std::string> read_bytes(const std::string& path) {
-  const bool from_stdin = path == "-";
+Error too_long(const std::string& name, std::uint64_t most_bytes) {
+  const std::uint64_t mebibytes = most_bytes >> 20;
+  return file_error(name, fmt::format("longer than {} MiB, the most that is read", mebibytes));
+}
+
+/// The length of a regular file; 0 for streams and devices, which do not tell.
+std::uint64_t told_length(std::FILE* file) {
+  struct stat status = {};
+  if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+Result<std::string> read_bytes(const std::string& path, const std::string& name, std::uint64_t most_bytes) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      from_stdin ? stdin : std::fopen(path.c_str(), "rb"),
+      path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
       [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
-  if (!file) return file_error(path, fmt::format("cannot open: {}", std::strerror(errno)));
+  if (!file) return file_error(name, fmt::format("cannot open: {}", std::strerror(errno)));
+  const std::uint64_t told = told_length(file.get());
+  if (told > most_bytes) return too_long(name, most_bytes);
   std::string bytes;
+  // One byte more shows that the file has ended, or that it goes on.
+  const auto grow = [&](std::uint64_t size) { bytes.resize(std::min(std::max(size, told), most_bytes) + 1); };
   std::size_t used = 0;
   for (;;) {
-    if (bytes.size() - used < (1u << 16)) bytes.resize(std::max<std::size_t>(1u << 20, bytes.size() * 2));
+    if (used == bytes.size()) grow(std::max<std::size_t>(1u << 20, bytes.size() * 2));
     const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
     used += got;
+    if (used > most_bytes) return too_long(name, most_bytes);
     if (got == 0) break;
   }
-  if (std::ferror(file.get())) return file_error(path, fmt::format("cannot read: {}", std::strerror(errno)));
+  if (std::ferror(file.get())) return file_error(name, fmt::format("cannot read: {}", std::strerror(errno)));
   bytes.resize(used);
   return bytes;
 }
@@ -104,13 +120,14 @@ Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name) {
   }
 }
 
-Result<Mesh> read_mesh(const std::string& path) {
+Result<Mesh> read_mesh(const std::string& path, std::uint64_t most_bytes) {
+  const std::string name = path == "-" ? "standard input" : path;
   try {
-    const Result<std::string> bytes = read_bytes(path);
+    const Result<std::string> bytes = read_bytes(path, name, most_bytes);
     if (!bytes.ok()) return bytes.error();
-    return parse_mesh(bytes.value(), path == "-" ? "standard input" : path);
+    return parse_mesh(bytes.value(), name);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, fmt::format("{}: not enough memory to read it", path)};
+    return Error{ErrorCode::kOutOfMemory, fmt::format("{}: not enough memory to read it", name)};
   }
 }
 

@@ -1,5 +1,7 @@
 #include "mesh/sidedness.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -74,18 +76,44 @@ class SideFinder {
   /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.
   static float half_integer(double w) { return static_cast<float>(std::floor(w) + 0.5); }
 
+  /// Where all groups of triangles overlap, one value takes a look at every triangle, and all of them the square of
+  /// their number. So each block of the tree has an allowance, which it spends evenly over its triangles; those left
+  /// over stay unknown. A block's work does not depend on other blocks, nor the result on the number of threads.
   void evaluate(const std::vector<std::uint32_t>& triangles) {
     const WindingTree winding(tree_);
-    // By place: neighbours in the tree take the same way through it.
     std::vector<bool> wanted(mesh_.triangles.size(), false);
     for (const std::uint32_t t : triangles) wanted[t] = true;
-    parallel_for(tree_.order.size(), 256, [&](std::size_t place) {
-      const std::uint32_t t = tree_.order[place];
-      if (!wanted[t]) return;
-      const double w = winding.beside(static_cast<std::uint32_t>(place));
-      // A crossed triangle has no one value.
-      sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
+    const std::size_t places = tree_.order.size();
+    // At most so many blocks: the last look of each may exceed its allowance by all triangles.
+    constexpr std::size_t kMostBlocks = 1024;
+    const std::size_t block = std::max<std::size_t>(256, (places + kMostBlocks - 1) / kMostBlocks);
+    const std::size_t blocks = (places + block - 1) / block;
+    // Looks at a triangle, some seconds in all and more for larger meshes. Ordinary meshes take 70 to 500 a value.
+    constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
+    const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
+    std::atomic<bool> complete = true;
+    parallel_for(blocks, 1, [&](std::size_t i) {
+      if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, places), allowance)) complete = false;
     });
+    sides_.known = sides_.known && complete;
+  }
+
+  /// By place: neighbours in the tree take the same way through it. False if the allowance was used up.
+  bool evaluate_block(const WindingTree& winding, const std::vector<bool>& wanted, std::size_t first, std::size_t last,
+                      std::uint64_t allowance) {
+    std::uint64_t cost = 0;
+    constexpr std::size_t kPasses = 16;
+    for (std::size_t pass = 0; pass < kPasses; ++pass) {
+      for (std::size_t place = first + pass; place < last; place += kPasses) {
+        const std::uint32_t t = tree_.order[place];
+        if (!wanted[t]) continue;
+        if (cost > allowance) return false;
+        const double w = winding.beside(static_cast<std::uint32_t>(place), cost);
+        // A crossed triangle has no one value.
+        sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
+      }
+    }
+    return true;
   }
 
   bool turn_components(const std::vector<std::uint32_t>& triangles) {
@@ -97,6 +125,7 @@ class SideFinder {
     std::vector<Vote> votes(parts_.components);
     for (const std::uint32_t t : triangles) {
       Vote& vote = votes[parts_.component_of[t]];
+      if (std::isnan(sides_.beside[t])) continue;
       vote.area += area_[t];
       if (sides_.beside[t] > kClear) vote.for_it += area_[t];
       if (sides_.beside[t] < -kClear) vote.against += area_[t];

@@ -1,6 +1,8 @@
 // Proofs that two triangles are disjoint: a plane that separates them, with a gap that rounding cannot make up. A
 // separating axis may be any vector, so only the projections onto it have to be bounded, not the way it was found; and
 // where no axis is found, the answer is "not proven".
+#include <algorithm>
+
 #include "mesh/point_ops.h"
 #include "mesh/self_intersections.h"
 
@@ -64,13 +66,10 @@ bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3
       if (separates(cross(s, t))) return true;
     }
   }
-  for (const Point& s : a_sides) {
-    if (separates(cross(a_normal, s))) return true;
-  }
-  for (const Point& s : b_sides) {
-    if (separates(cross(b_normal, s))) return true;
-  }
-  return false;
+  const auto upright = [&](const Point& normal) {
+    return [&](const Point& side) { return separates(cross(normal, side)); };
+  };
+  return std::ranges::any_of(a_sides, upright(a_normal)) || std::ranges::any_of(b_sides, upright(b_normal));
 }
 
 bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2, const Point& b1, const Point& b2) {

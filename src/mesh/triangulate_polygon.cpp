@@ -162,10 +162,8 @@ class EarClipper {
     const Point2& p = points_[j];
     const Point2& left = p == a ? b : p == b ? c : a;  // the triangle's wedge at p, counter-clockwise from here
     const Point2& right = p == a ? c : p == b ? a : b;
-    for (const std::uint32_t k : {previous_[j], next_[j]}) {
-      if (area_of(p, left, points_[k]) > 0 && area_of(p, points_[k], right) > 0) return true;
-    }
-    return false;
+    const auto between = [&](const Point2& to) { return area_of(p, left, to) > 0 && area_of(p, to, right) > 0; };
+    return between(points_[previous_[j]]) || between(points_[next_[j]]);
   }
 
   std::vector<Point2> points_;

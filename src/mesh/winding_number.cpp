@@ -91,7 +91,7 @@ WindingTree::WindingTree(const TriangleTree& tree) : tree_(tree), nodes_(tree.no
   }
 }
 
-double WindingTree::sum(const Point& p, std::uint32_t without) const {
+double WindingTree::sum(const Point& p, std::uint32_t without, std::uint64_t& cost) const {
   if (nodes_.empty()) return 0;
   double far = 0, near = 0;
   constexpr std::size_t kDepth = 128;  // 95 levels at most, see TriangleTree
@@ -111,6 +111,7 @@ double WindingTree::sum(const Point& p, std::uint32_t without) const {
                            r[2] * (m[6] * r[0] + m[7] * r[1] + m[8] * r[2]);
       far += (dot(e.area, r) + trace - 3 * along / squared) / (squared * std::sqrt(squared));
     } else if (e.is_leaf) {
+      cost += e.count;
       for (std::uint32_t place = e.first; place < e.first + e.count; ++place) {
         if (place != without) near += triangle_winding(tree_.corners[place], p);
       }
@@ -122,6 +123,8 @@ double WindingTree::sum(const Point& p, std::uint32_t without) const {
   return far / (4 * std::numbers::pi) + near;
 }
 
-double WindingTree::beside(std::uint32_t place) const { return sum(centroid(tree_.corners[place]), place); }
+double WindingTree::beside(std::uint32_t place, std::uint64_t& cost) const {
+  return sum(centroid(tree_.corners[place]), place, cost);
+}
 
 }  // namespace medial_vk

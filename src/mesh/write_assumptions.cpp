@@ -79,6 +79,10 @@ void write_assumptions(MeshReport& r) {
   if (!r.intersections_known) {
     say("Too many triangles lie close together to look for all crossings: no normal is relied on.");
   }
+  if (!r.sides_known) {
+    say("Too many triangles lie close together to look at both sides of each: normals of those left out are not "
+        "relied on.");
+  }
   if (r.faces_within > 0) {
     say(fmt::format("{} with the inside on both sides: still counted as surface.", faces(r.faces_within)));
   }

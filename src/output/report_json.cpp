@@ -59,6 +59,7 @@ Json mesh_json(const MeshReport& mesh, double longest_side) {
           {"intersections_known", mesh.intersections_known},
           {"faces_within", mesh.faces_within},
           {"faces_without", mesh.faces_without},
+          {"sides_known", mesh.sides_known},
           {"trusted_triangles", mesh.trusted_triangles},
           {"signed_volume", mesh.signed_volume},
           {"lower", mesh.lower},

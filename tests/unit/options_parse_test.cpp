@@ -15,14 +15,28 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Of every command line of this file, also by a parser that has seen those before.
+Result<Options> parse_twice(const std::vector<std::string>& arguments) {
+  static OptionParser used;
+  const Result<Options> options = parse_options(arguments), again = used.parse(arguments);
+  EXPECT_EQ(options.ok(), again.ok()) << testing::PrintToString(arguments);
+  if (options.ok() && again.ok()) {
+    EXPECT_TRUE(options.value() == again.value()) << testing::PrintToString(arguments);
+  }
+  if (!options.ok() && !again.ok()) {
+    EXPECT_EQ(options.error().message, again.error().message);
+  }
+  return options;
+}
+
 Options parsed(const std::vector<std::string>& arguments) {
-  Result<Options> options = parse_options(arguments);
+  const Result<Options> options = parse_twice(arguments);
   EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
   return options.ok() ? options.value() : Options{};
 }
 
 std::string message_of(const std::vector<std::string>& arguments) {
-  const Result<Options> options = parse_options(arguments);
+  const Result<Options> options = parse_twice(arguments);
   EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
   if (options.ok()) return "";
   EXPECT_EQ(options.error().code, ErrorCode::kUsage);
@@ -44,6 +58,23 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
   EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty());
+}
+
+TEST(Options, AParserForgetsEarlierLines) {
+  OptionParser parser;
+  const Options plain = parsed({"a.obj"});
+  const std::vector<std::vector<std::string>> lines = {
+      {"b.obj", "-q", "--ascii", "--check", "--resolution", "7", "--mode", "thesis", "-o", "b.csv", "--memory", "64"},
+      {"--help"},
+      {"b.obj", "--resolution", "8", "--resolution"},  // errors leave at different places
+      {"b.obj", "--resolution", "none", "--seed", "3"},
+      {"b.obj", "--simplify", "--seed=3", "--no-such-option", "c.obj", "--", "-d"}};
+  for (const std::vector<std::string>& line : lines) {
+    (void)parser.parse(line);
+    const Result<Options> options = parser.parse({"a.obj"});
+    ASSERT_TRUE(options.ok()) << options.error().message << " after " << testing::PrintToString(line);
+    EXPECT_TRUE(options.value() == plain) << testing::PrintToString(line);
+  }
 }
 
 TEST(Options, EveryOptionIsUnderstood) {

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "mesh/clean_mesh.h"
@@ -109,6 +111,29 @@ TEST(ReadLimits, ListsOfAnyLengthThatTheFileDoesNotHold) {
   EXPECT_TRUE(parse_mesh(nothing, "a.ply").ok());
 }
 
+// ---- Streams without an end, and files that are too long for any mesh
+
+TEST(ReadLimits, AStreamWithoutAnEnd) {
+  const Result<Mesh> mesh = read_mesh("/dev/zero", 3u << 20);
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_EQ(mesh.error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(mesh.error().message, "/dev/zero: longer than 3 MiB, the most that is read");
+}
+
+TEST(ReadLimits, FilesUpToTheLimitAreRead) {
+  const std::string path = testing::TempDir() + "medial_vk_limit.obj";
+  const std::string bytes = to_obj(box());
+  std::ofstream(path, std::ios::binary) << bytes;
+  EXPECT_TRUE(read_mesh(path).ok());
+  EXPECT_TRUE(read_mesh(path, bytes.size()).ok());
+  EXPECT_FALSE(read_mesh(path, bytes.size() - 1).ok());
+  std::filesystem::resize_file(path, kMostFileBytes + 1);  // takes no room; refused before a byte is read
+  const Result<Mesh> mesh = read_mesh(path);
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_EQ(mesh.error().message, path + ": longer than 4096 MiB, the most that is read");
+  std::filesystem::remove(path);
+}
+
 // ---- Tangles
 
 /// An OBJ of one polygon: its first half on a line, its second anywhere.
@@ -159,6 +184,17 @@ TEST(ReadLimits, FourHundredThousandFacesAroundOneSide) {
     EXPECT_EQ(parts.components, 2u);
     EXPECT_EQ(parts.patches, 400'001u);
   }
+}
+
+// Took the square of their number, a look at every face from every other: 9 s for 10,000.
+TEST(ReadLimits, AHundredThousandFacesThatAreAllClose) {
+  const Promptly promptly;
+  const Result<PreparedMesh> prepared = prepare_mesh(open_book(100'000, false));
+  ASSERT_TRUE(prepared.ok()) << prepared.error().message;
+  const MeshReport& report = prepared.value().report;
+  EXPECT_FALSE(report.sides_known);
+  EXPECT_EQ(report.triangles, 100'012u);
+  EXPECT_EQ(report.trusted_triangles, 0u);
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ TEST(ReportJson, HoldsEveryDocumentedKey) {
                           "reoriented_faces",
                           "intersecting_faces",
                           "intersections_known",
+                          "sides_known",
                           "signed_volume",
                           "lower",
                           "upper",
@@ -112,6 +113,20 @@ TEST(ReportTables, ColumnsAreAligned) {
             "name    count\n"
             "a           1\n"
             "longer  1,000\n");
+}
+
+TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
+  DeviceDescription good, poor;
+  good.name = "Some GPU";
+  good.usable = true;
+  good.memory_bytes = 8ull << 30;
+  poor.index = 1;
+  poor.name = "Old GPU";
+  poor.why_not = "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed";
+  const std::string table = cli::device_table({good, poor});
+  EXPECT_THAT(table, HasSubstr("8.0 GiB"));
+  EXPECT_THAT(table, HasSubstr("yes\n"));
+  EXPECT_THAT(table, HasSubstr("no: its maxPerStageDescriptorStorageBuffers is 4, 16 are needed\n"));
 }
 
 TEST(ReportTables, CertificateNamesTheFirstFailure) {

@@ -28,6 +28,18 @@ Mesh rotated_torus() {
 
 class SceneTest : public test::DeviceTest {};
 
+TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
+  const std::uint64_t one_buffer = context_->impl().limits.maxStorageBufferRange / 64;
+  const auto most = std::min<std::uint64_t>(one_buffer, DeviceMesh::kMostTriangles);
+  Mesh mesh = test::make_box({1, 1, 1});
+  mesh.triangles.resize(most + 1, mesh.triangles[0]);
+  const Result<DeviceMesh> device = DeviceMesh::create(context_->impl(), view_of(mesh));
+  ASSERT_FALSE(device.ok());
+  EXPECT_EQ(device.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_NE(device.error().message.find("the mesh has " + std::to_string(most + 1) + " triangles"), std::string::npos);
+  EXPECT_NE(device.error().message.find(' ' + std::to_string(most)), std::string::npos) << device.error().message;
+}
+
 TEST_F(SceneTest, UnitBox) {
   const Mesh mesh = rotated_torus();
   const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
@@ -45,6 +57,7 @@ TEST_F(SceneTest, UnitBox) {
   EXPECT_NEAR(device.to_unit(back)[1], 0.5, 1e-15);
 }
 
+// Where a mesh has more texels than the device allows in a view, kernels read storage buffers: the same answers.
 TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;

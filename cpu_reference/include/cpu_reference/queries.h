@@ -135,7 +135,7 @@ struct Retraction {
 /// Algorithm 1: q = p + gamma grad D(p) with different nearest points B(p), B(q). Points at most `same` apart are the
 /// same contact (rounding).
 Retraction retract(const ClosestFunction& closest, Eigen::Vector3d p, Eigen::Vector3d q, double epsilon, double same);
-Retraction retract(const Tree& tree, Eigen::Vector3d p, Eigen::Vector3d q, double epsilon);
+Retraction retract(const Tree& tree, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double epsilon);
 
 /// Half the angle between two unit vectors, accurate for all of [0, pi/2].
 double half_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b);

@@ -39,6 +39,8 @@ struct ExtractionParameters {
   /// Certified: Extraction::device_times by kernel and level ("mark_contacts@2"; a number after a slash tells variants
   /// of a kernel apart) instead of by stage. Every dispatch then ends with a timestamp.
   bool kernel_times = false;
+
+  bool operator==(const ExtractionParameters&) const = default;
 };
 
 /// The voxel grid of the output, in the units of the mesh. Voxel of p: floor((p - origin) / voxel_size).

@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Writes a flattened torus as a binary PLY: a solid with a broad medial sheet, of any number of triangles.
+   bench/write_torus.py FILE.ply [TRIANGLES]      (default: 5,000,000)
+The tube's section is an ellipse of half axes 0.3 and 0.12 on a circle of radius 0.7, with ten waves along it."""
+import array
+import math
+import sys
+
+# Around the tube and along the circle; two and a half times as many along, for triangles of even shape.
+triangles = int(sys.argv[2]) if len(sys.argv) > 2 else 5_000_000
+around = max(3, round(math.sqrt(triangles / 5)))
+along = max(3, round(triangles / (2 * around)))
+
+points = array.array("f")
+for i in range(along):
+    u = 2 * math.pi * i / along
+    for j in range(around):
+        v = 2 * math.pi * j / around
+        radius = 0.7 + 0.3 * math.cos(v)
+        points.extend((radius * math.cos(u), radius * math.sin(u),
+                       0.12 * math.sin(v) * (1 + 0.2 * math.cos(10 * u))))
+
+# A face is a byte, 3, and three integers of 32 bits.
+faces = bytearray()
+for i in range(along):
+    row, next_row = i * around, (i + 1) % along * around
+    for j in range(around):
+        k = (j + 1) % around
+        a, b, c, d = row + j, next_row + j, next_row + k, row + k
+        for face in ((a, b, c), (a, c, d)):
+            faces += b"\3" + array.array("i", face).tobytes()
+
+with open(sys.argv[1], "wb") as out:
+    out.write(f"""ply
+format binary_little_endian 1.0
+element vertex {len(points) // 3}
+property float x
+property float y
+property float z
+element face {2 * around * along}
+property list uchar int vertex_indices
+end_header
+""".encode())
+    points.tofile(out)
+    out.write(faces)

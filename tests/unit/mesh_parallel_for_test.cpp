@@ -1,0 +1,38 @@
+// Loops over all cores: everything once, and what a body throws ends them in order.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+#include <vector>
+
+#include "mesh/parallel_for.h"
+
+namespace medial_vk {
+namespace {
+
+TEST(ParallelFor, EveryItemOnce) {
+  for (const std::size_t count : {0u, 1u, 7u, 1000u}) {
+    for (const std::size_t block : {1u, 3u, 64u, 5000u}) {
+      std::vector<std::atomic<int>> calls(count);
+      parallel_for(count, block, [&](std::size_t i) { ++calls[i]; });
+      for (const std::atomic<int>& n : calls) EXPECT_EQ(n, 1);
+    }
+  }
+}
+
+TEST(ParallelFor, PassesOnWhatABodyThrowsOnceAllThreadsHaveEnded) {
+  std::atomic<int> running = 0, done = 0;
+  const auto body = [&](std::size_t i) {
+    ++running;
+    const bool fails = i == 17;
+    --running;
+    if (fails) throw std::bad_alloc();
+    ++done;
+  };
+  EXPECT_THROW(parallel_for(100'000, 1, body), std::bad_alloc);
+  EXPECT_EQ(running, 0);
+  EXPECT_LT(done, 100'000);
+}
+
+}  // namespace
+}  // namespace medial_vk
