@@ -21,7 +21,8 @@ layout(set = 0, binding = 7) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };  // y: cluster of the first witness
 layout(set = 0, binding = 9) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 10) buffer Lists { uint lists[]; };
-layout(set = 0, binding = 11) buffer Counts { uvec4 counts[]; };  // x: between rounds, entries so far; z: cluster of the second
+// x: between rounds, entries so far; z: cluster of the second witness
+layout(set = 0, binding = 11) buffer Counts { uvec4 counts[]; };
 
 // The triangle of a cluster that is nearest to p, the same in all lanes.
 uint nearest_of_cluster(vec3 p, uint name, uint lane) {

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The nearest triangles, among the contacts of a cell, of the two ends of every proposed line, and a mask of the contacts
-// that may be the nearest of some point of it: all that narrowing and the growth test ask. Lists longer than
+// The nearest triangles, among the contacts of a cell, of the two ends of every proposed line, and a mask of the
+// contacts that may be the nearest of some point of it: all that narrowing and the growth test ask. Lists longer than
 // kEntriesPerRound take several rounds; each goes on from the result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -4,8 +4,8 @@
 // The nearest triangle, among the contacts of a cell, of points in that cell.
 // An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
 // of a line, or a group of flux samples.
-// Points of a line ask only the contacts that find_line_ends.comp has left of it. Lists longer than kEntriesPerRound take
-// several rounds; each goes on from the result of the one before.
+// Points of a line ask only the contacts that find_line_ends.comp has left of it. Lists longer than kEntriesPerRound
+// take several rounds; each goes on from the result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 10
@@ -106,5 +106,6 @@ void main() {
   } else {
     ask_all(cell, entry, end);
   }
-  [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) nearest[result + k] = uvec2(floatBitsToUint(best[k]), triangle[k]);
+  [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k)
+    nearest[result + k] = uvec2(floatBitsToUint(best[k]), triangle[k]);
 }

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // The contact lists of the top cells, of clusters or of their triangles: Lemma A for the box of every cluster, with one
-// witness for the ball of the list, the known point that is nearest to the centre. One workgroup per cell. Each lane looks
-// at one run of clusters, so that lists are in order. Run twice: to count, then, without the cells that lie outside, to
-// write.
+// witness for the ball of the list, the known point that is nearest to the centre. One workgroup per cell. Each lane
+// looks at one run of clusters, so that lists are in order. Run twice: to count, then, without the cells that lie
+// outside, to write.
 #include "lanes.glsl"
 #include "step.glsl"
 #include "witness.glsl"

@@ -18,7 +18,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) writeonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) buffer TouchMasks { uint touch_masks[]; };
-layout(set = 0, binding = 7) writeonly buffer Counts { uvec4 counts[]; };  // contacts, twice; cluster of the second witness
+// Contacts, twice; the cluster of the second witness.
+layout(set = 0, binding = 7) writeonly buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 8) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };
 

@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses, for the ball that
-// the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One invocation
-// per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
+// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses, for the ball
+// that the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One
+// invocation per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
 // triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
 //
 // The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the first witness:
-// a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey no common
-// axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest triangles tell
+// a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey no
+// common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest triangles tell
 // it (docs/theory.md, "Outside").
 #include "lanes.glsl"
 #include "step.glsl"
@@ -24,8 +24,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) buffer Nearest { uvec2 nearest[]; };  // distance from the centre (bits), triangle
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
-// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and in the end
-// the cell's partner; what has been seen (kSeen*).
+// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and in the
+// end the cell's partner; what has been seen (kSeen*).
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 // Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the first witness.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };

@@ -15,8 +15,8 @@ struct OpenEdges {
   std::vector<gpu::OpenEdge> listed;  ///< All of them, in the unit box, or none if there are too many.
 };
 
-/// The edges that triangles run along unequally often in the two directions, with what they lack, listed if there are at
-/// most `most`. Edges that hang together share an apex: the triangles between them and their apex, as often as is
+/// The edges that triangles run along unequally often in the two directions, with what they lack, listed if there are
+/// at most `most`. Edges that hang together share an apex: the triangles between them and their apex, as often as is
 /// lacking, close the mesh.
 OpenEdges find_open_edges(const MeshView& mesh, const UnitTransform& to_unit, std::uint32_t most);
 

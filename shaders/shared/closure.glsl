@@ -8,7 +8,7 @@
 const float kSumRounding = 1e-4;  // of the sum of solid angles in a walk of the tree, over 4 pi
 // Of one solid angle over 4 pi (docs/theory.md, "Rounding"): where its tangent is ill-conditioned, and of atan itself,
 // which Vulkan allows 4096 units in the last place.
-const float kTangentRounding = 2.4e-7, kAtanRounding = 2.5e-4;
+const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 
 struct Closure {
   float number;  // winding number of the triangles that close the mesh

@@ -10,7 +10,8 @@ float dismissal_angle(float nearest_distance) {
 }
 const float kAxisSlack = 1e-6;
 
-// Whether a kept cell must ask on which side of the boundary it lies: its ball does not meet that, and no ancestor knew.
+// Whether a kept cell must ask on which side of the boundary it lies: its ball does not meet that, and no ancestor
+// knew.
 bool must_ask_side(uint flags, float nearest_distance) {
   return (flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.epsilon + step.slack;
 }

@@ -32,7 +32,7 @@ struct Cell {
   uint list_count;
   uint word_begin;  // first 32-entry word of its contact masks
   uint flags;       // kCell*
-  uint nearest;     // triangle nearest to the centre
+  uint nearest;     // triangle nearest to the centre; not where lists are of clusters, nor just below
   uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
   uint partner;     // of the contacts that touch, one whose sheet with the nearest passes close to the centre
   uint padding;

@@ -22,8 +22,8 @@ void narrow(float offset, float slope, inout vec2 bounds) {
   bounds.x = slope <= -1e-12 ? max(bounds.x, root) : bounds.x;
 }
 
-// v_p, v_q: from the ends to the triangle, d_p and d_q long. Between them it is no nearer than either tangent. Directions
-// are wrong by up to 2 slack / d.
+// v_p, v_q: from the ends to the triangle, d_p and d_q long. Between them it is no nearer than either tangent.
+// Directions are wrong by up to 2 slack / d.
 bool may_be_nearest_on(Segment s, vec3 v_p, float d_p, vec3 v_q, float d_q) {
   float per_p = 1.0 / max(d_p, 1e-30), per_q = 1.0 / max(d_q, 1e-30), per_length = 1.0 / max(s.extent, 1e-30);
   float slope_p = -dot(v_p, s.along) * per_p, slope_q = -dot(v_q, s.along) * per_q;

@@ -99,7 +99,8 @@ struct ExtractionCounters {
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
     /// The same: distances between points and triangles of contact lists, for dismissal and lines.
     std::uint64_t triangle_tests = 0;
-    /// The same: distances between points and clusters of triangles, where cells are large (contacts count clusters then).
+    /// The same: distances between points and clusters of triangles, where cells are large; `contacts` counts clusters
+    /// there.
     std::uint64_t cluster_tests = 0;
   };
   std::vector<Level> levels;
