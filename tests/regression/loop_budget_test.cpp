@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clusters.h"
 #include "support/device.h"
 #include "support/extraction.h"
 #include "support/solids.h"
+#include "tree_types.h"
 
 namespace medial_vk {
 namespace {
@@ -50,6 +52,21 @@ TEST(LoopBudget, SphereOfTwoHundredThousandTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   CertifiedExtraction result;
   expect_centre_found(40, 200000, result);
+}
+
+// Near the centre every cluster is listed; expand_clusters.comp takes an iteration for each, and one for every eight of
+// its triangles, so not all of them in one dispatch.
+TEST(LoopBudget, ClustersAreExpandedInRounds) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  CertifiedExtraction result;
+  expect_centre_found(40, 300000, result);
+  const ExtractionCounters::Level& level = result.extraction.counters.levels[0];
+  ASSERT_GT(level.cluster_tests, 0u) << "lists of top cells hold no clusters";
+  const Mesh sphere = test::make_sphere(1, 300000);
+  const Bvh bvh = Bvh::build({sphere.vertices, sphere.triangles, {}, true}, gpu::kMostLeafTriangles).value();
+  const auto clusters = make_clusters(bvh, {}, {}, 16, 8192);
+  const std::uint32_t most = std::ranges::max_element(clusters, {}, &gpu::Cluster::count)->count;
+  EXPECT_GT(clusters.size() * (1 + (most + 7) / 8), gpu::kEntriesPerRound) << "one round suffices";
 }
 
 // Voxels so large that the lists of kept cells are longer than the budget on average, so one at least is.
