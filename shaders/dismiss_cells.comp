@@ -45,8 +45,8 @@ float violation(uint t, vec3 axis, out vec3 help) {
   vec3 v = vector_to_triangle(centre, texels);
   float d = length(v), rho = step.circumradius;
   vec3 g = unit_or_zero(v);
-  float spread = d > rho ? asin(min(1.0, (rho + 2.0 * step.slack) / d)) + tilt_of(texels) : 4.0;
-  float by_direction = spread < theta ? cos(theta - spread) + kAxisSlack - dot(g, axis) : 4.0;
+  float spread = d > rho ? arcsine(min(1.0, (rho + 2.0 * step.slack) / d)) + tilt_of(texels) : 4.0;
+  float by_direction = spread < theta ? cosine(theta - spread) + kAxisSlack - dot(g, axis) : 4.0;
   help = by_direction < by_normal ? g : texels.normal.xyz;
   return min(by_normal, by_direction);
 }
@@ -112,7 +112,7 @@ void main() {
   to_nearest = vector_to_triangle(centre, load_triangle(nearest[item].y));
   float nearest_distance = length(to_nearest);
   theta = dismissal_angle(nearest_distance);
-  cos_theta = cos(theta) + kAxisSlack;
+  cos_theta = cosine(theta) + kAxisSlack;
   uint word_count = (parent.list_count + 31u) / 32u;
   if (provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count))
     states[item] = uvec4(0);

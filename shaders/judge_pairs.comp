@@ -61,7 +61,7 @@ float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
   float rho = box.circumradius + step.slack;
   float by_feet = distance(a.nearest.xyz * a.nearest.w, b.nearest.xyz * b.nearest.w) + 2.0 * rho;
   float turn = acos(clamp(dot(a.spokes.xyz, b.spokes.xyz), -1.0, 1.0)) + a.spokes.w + b.spokes.w + 1e-3;
-  float by_turn = 2.0 * (nearest_distance + rho) * sin(min(0.5 * turn, 1.5707964));
+  float by_turn = 2.0 * (nearest_distance + rho) * sine(min(0.5 * turn, 1.5707963));
   return min(by_feet, by_turn);
 }
 
@@ -86,13 +86,13 @@ void rate_pairs(inout Remains r, float theta, float sine, float nearest_distance
 // All lanes.
 Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bool wants_width) {
   Remains r = Remains(gather_carriers(cell, box), false, 0.0);
-  float sine = sin(theta - kAngleSlack);
+  float sine_of_angle = sine(theta - kAngleSlack);
   start_pairs();
   bool more = r.decided && has_more_blocks();
   if (more) {
     for (;;) {
       fill_queue(theta, box);
-      rate_pairs(r, theta, sine, nearest_distance, wants_width, box);
+      rate_pairs(r, theta, sine_of_angle, nearest_distance, wants_width, box);
       if (!has_more_blocks() || (r.feasible && !wants_width)) break;
     }
   }

@@ -141,7 +141,7 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
 
 // Dismissal by an axis (axis_test.glsl), for all eight at once: a sweep is made as long as one of them asks.
 bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, bool asks, uint base) {
-  float enough = cos(theta) + kAxisSlack;
+  float enough = cosine(theta) + kAxisSlack;
   bool dismissed = false;
   for (uint sweep = 0u; sweep < kSweeps; ++sweep) {
     Offender worst = worst_offender(parent, child, centre, axis, base);

@@ -96,7 +96,7 @@ void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, fl
             float least_cosine) {
   COUNT(kVisitedCount, 1u);
   float theta = dismissal_angle(nearest_distance);
-  bool is_empty = least_cosine > cos(theta) + kAxisSlack;
+  bool is_empty = least_cosine > cosine(theta) + kAxisSlack;
   uint flags = parent_flags & kCellInside;
   if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
   bool asks = must_ask_side(flags, nearest_distance);

@@ -22,6 +22,10 @@ constexpr double kCellPerCluster = 1.0;
 // aim, no limit: a top cell that has more takes longer.
 constexpr double kCellsAtOnceOfCpu = 40000;
 
+// How full the fullest buffer should be: neighbouring pieces of work hold similar amounts of medial surface, not equal
+// ones.
+constexpr double kFull = 0.6;
+
 // Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
 // Centres of cells are rounded three times: at most 3 * 2^-25 a coordinate.
@@ -74,15 +78,13 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   return p;
 }
 
-// Neighbouring chunks hold similar amounts of medial surface, not equal ones.
 double CertifiedPipeline::aim() const {
-  constexpr double kFull = 0.6;
   return context_->description.type == "cpu" ? std::min(kFull, kCellsAtOnceOfCpu / capacity_.cells) : kFull;
 }
 
 std::uint32_t CertifiedPipeline::likely_chunk() const {
   const double kept = 6.0 * parameters_.resolution * parameters_.resolution;
-  const double share = std::min(1.0, aim() / 0.6 * capacity_.cells / kept);
+  const double share = std::min(1.0, aim() / kFull * capacity_.cells / kept);
   return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
 }
 

@@ -8,7 +8,7 @@ const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: doc
 // Lemmas C and D: can their spokes be 2 theta apart?
 bool can_turn(Carrier a, Carrier b, float theta) {
   float left = 2.0 * (theta - kAngleSlack) - a.spokes.w - b.spokes.w;
-  return left <= 0.0 || dot(a.spokes.xyz, b.spokes.xyz) <= cos(left) + kCosineSlack;
+  return left <= 0.0 || dot(a.spokes.xyz, b.spokes.xyz) <= cosine(left) + kCosineSlack;
 }
 
 // The normals between which the spokes to a face or an edge lie.
@@ -28,7 +28,7 @@ bool can_turn_between_normals(uint first, uint second, float theta) {
   normals_of(first, a, b);
   normals_of(second, c, d);
   float least = min(min(dot(a, c), dot(a, d)), min(dot(b, c), dot(b, d)));
-  return least <= max(0.0, cos(2.0 * (theta - kAngleSlack))) + kCosineSlack;
+  return least <= max(0.0, cosine(2.0 * (theta - kAngleSlack))) + kCosineSlack;
 }
 
 // Where x goes when it is projected along with the centre.

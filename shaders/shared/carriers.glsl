@@ -3,6 +3,7 @@
 // and "triangles.glsl" and after declaring `cells`, `lists`, `links` and `corner_cones`.
 #ifndef MEDIAL_VK_CARRIERS_GLSL
 #define MEDIAL_VK_CARRIERS_GLSL
+#include "angles.glsl"
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
 const uint kMostEntries = 4096u;  // nor are those with more contacts
@@ -72,7 +73,7 @@ Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, Box box) {
   vec3 sum = texels.normal.xyz + other;
   float size = length(sum);
   // Knife edges: the arc between opposite normals has no axis that float can tell.
-  vec4 arc = size > 0.05 ? vec4(sum / size, asin(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
+  vec4 arc = size > 0.05 ? vec4(sum / size, arcsine(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
   float size_e = max(length(e), 1e-30);
   vec3 u = e / size_e;
@@ -113,9 +114,9 @@ void add_carrier(Feature f, uint name, Box box) {
   vec3 g = unit_or_zero(f.nearest);
   float rho = box.circumradius + 2.0 * step.slack;
   bool outside = d > rho;
-  float wander = (outside ? asin(rho / d) : 4.0) + f.tilt + kAngleSlack;
+  float wander = (outside ? arcsine(rho / d) : 4.0) + f.tilt + kAngleSlack;
   float sum = wander + f.spokes.w;
-  bool turned_away = outside && sum < 3.1 && dot(g, f.spokes.xyz) < cos(sum) - kCosineSlack;
+  bool turned_away = outside && sum < 3.1 && dot(g, f.spokes.xyz) < cosine(sum) - kCosineSlack;
   if (!f.meets || turned_away || !touches_box(f.nearest, d, box)) return;
   uint slot = atomicAdd(carrier_count, 1u);
   if (slot >= kMostCarriers) return;

@@ -1,6 +1,7 @@
 // What all tests of dismissal share. Include "step.glsl" before.
 #ifndef MEDIAL_VK_DISMISSAL_GLSL
 #define MEDIAL_VK_DISMISSAL_GLSL
+#include "angles.glsl"
 
 // The threshold of the object angle; where the radius may pass its own, smaller angles count too. Less rounding:
 // directions are wrong by up to about slack / D, and a cosine by kAxisSlack. A distance that is too large is safe.
