@@ -34,7 +34,7 @@ void main() {
   vec3 p = points[2 * item].xyz;
   vec3 q = points[2 * item].w == float(kDirectSeed) ? p : points[2 * item + 1].xyz;
   Segment segment = segment_of(cell, p, q);
-  uvec2 best_p = entry == 0u ? uvec2(0x7f800000u, 0u) : nearest[2 * item];
+  uvec2 best_p = entry == 0u ? uvec2(kFarthestBits, 0u) : nearest[2 * item];
   uvec2 best_q = entry == 0u ? best_p : nearest[2 * item + 1];
   uint end = min(list_count, entry + kEntriesPerRound);
   uint base = line_mask_begin(cell, item % step.lines_per_cell), word = 0u;

@@ -95,7 +95,7 @@ void main() {
   uint result = item * kPointsPerLane;
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
     point[k] = point_of(item, k);
-    uvec2 so_far = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[result + k];
+    uvec2 so_far = entry == 0 ? uvec2(kFarthestBits, 0u) : nearest[result + k];
     best[k] = uintBitsToFloat(so_far.x);
     triangle[k] = so_far.y;
   }

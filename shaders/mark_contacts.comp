@@ -137,7 +137,7 @@ void main() {
   uint base = 8u * parent.word_begin + child * word_count;
   uvec4 count = entry == 0 ? uvec4(0u) : counts[item];
   vec4 axis = entry == 0 ? vec4(0.0, 0.0, 0.0, 2.0) : axes[item];
-  uvec2 first = entry == 0 ? uvec2(0x7f800000u, 0u) : nearest[item];
+  uvec2 first = entry == 0 ? uvec2(kFarthestBits, 0u) : nearest[item];
   uint word = 0, touch_word = 0, partner = kNoTriangle;
   float partner_away = 3e38, least_turn = sin(dismissal_angle(front.distance));
   for (;;) {

@@ -210,6 +210,9 @@ MEDIAL_VK_GPU_CONSTANT kClusterTestCount = 7u;  // distances from points to clus
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
 MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 8u * 24u;
 
+// The largest float, as bits: devices need not have infinities.
+MEDIAL_VK_GPU_CONSTANT kFarthestBits = 0x7f7fffffu;
+
 // Entries of a contact list that one invocation reads in one dispatch. lavapipe ends an invocation's loops silently
 // after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
 MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
