@@ -87,12 +87,12 @@ class CertifiedPipeline {
   void clear_counter(Recorder& r, std::uint32_t counter);
   void start_level(Recorder& r, std::uint32_t source, bool same_level = false);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
+  // The same where lists are of clusters.
+  void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // The entries whose bits `first_masks` has come first in a child's list.
   void write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& first_masks,
                       bool finest);
-  // The same where lists are of clusters.
-  void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // One line for every cell. What it does not settle goes to `left`.
   void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
