@@ -22,8 +22,11 @@
 layout(set = 0, binding = 1) buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4) readonly buffer Links { TriangleLinks links[]; };
-layout(set = 0, binding = 5) readonly buffer CornerCones { vec4 corner_cones[]; };
+#define LINK_STORAGE_BINDING 4
+#define CORNER_STORAGE_BINDING 5
+#define LINK_TEXEL_BINDING 10
+#define CORNER_TEXEL_BINDING 11
+#include "links.glsl"
 layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 7) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width

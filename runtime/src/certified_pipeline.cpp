@@ -244,15 +244,28 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   key.shader = kernel.shader;
   if (kernel.lanes == Lanes::kEight && context_->has_lockstep_lanes) key.shader += "_lockstep";
   key.storage_buffers = static_cast<uint>(kernel.buffers.size());
-  key.texel_buffers = static_cast<uint>(kernel.reads);
+  const std::vector<VkBufferView> texels = texels_of(kernel.reads);
+  key.texel_buffers = static_cast<uint>(texels.size());
   key.push_constant_bytes = sizeof(step);
   key.workgroup_size = kernel.workgroup_size;
   if (kernel.reads != Reads::kNoMesh) key.shader += storage_suffix(mesh_->use_texels);
   key.constants = kernel.constants;
-  const VkBufferView texels[] = {mesh_->triangle_texels, mesh_->tree_texels};
-  r.dispatch_indirect(key, kernel.buffers, std::span(texels, key.texel_buffers), bytes_of(step), arguments_,
-                      VkDeviceSize{argument} * 12);
+  r.dispatch_indirect(key, kernel.buffers, texels, bytes_of(step), arguments_, VkDeviceSize{argument} * 12);
   r.barrier();
+}
+
+std::vector<VkBufferView> CertifiedPipeline::texels_of(Reads reads) const {
+  switch (reads) {
+    case Reads::kNoMesh:
+      return {};
+    case Reads::kTriangles:
+      return {mesh_->triangle_texels};
+    case Reads::kTree:
+      return {mesh_->triangle_texels, mesh_->tree_texels};
+    case Reads::kLinks:
+      return {mesh_->triangle_texels, mesh_->link_texels, mesh_->corner_texels};
+  }
+  return {};
 }
 
 void CertifiedPipeline::run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step) {
@@ -285,7 +298,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
 }
 
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
-  buffers.insert(buffers.begin(), {mesh_->triangles.range(), mesh_->tree.range()});
+  buffers.insert(buffers.begin(), {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree)});
   buffers.push_back(mesh_->open_edges.range());
   return {shader, std::move(buffers), Reads::kTree};
 }
@@ -293,9 +306,10 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
 void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   run(r,
       {"judge_pairs",
-       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(),
-        mesh_->triangle_links.range(), mesh_->corner_cones.range(), aims_.range(), verdicts_.range(), reasons_.range()},
-       Reads::kTriangles,
+       {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
+        mesh_->storage_of(mesh_->triangle_links), mesh_->storage_of(mesh_->corner_cones), aims_.range(),
+        verdicts_.range(), reasons_.range()},
+       Reads::kLinks,
        {},
        kEightLanes,
        Lanes::kEight},
@@ -314,7 +328,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   s.items_multiplier = extent.multiplier;
   run_rounds(r,
              {"find_nearest",
-              {mesh_->triangles.range(), cells.range(), lists.range(), counters_.range(), points.range(),
+              {mesh_->storage_of(mesh_->triangles), cells.range(), lists.range(), counters_.range(), points.range(),
                lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range()},
               Reads::kTriangles,
               {static_cast<uint>(source), points_per_lane}},

@@ -105,9 +105,10 @@ class CertifiedPipeline {
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
 
-  // What a kernel reads of the mesh: nothing, triangles (its first buffer), or triangles and tree (its first two). The
-  // texel views follow its buffers.
-  enum class Reads : std::uint32_t { kNoMesh = 0, kTriangles = 1, kTree = 2 };
+  // What a kernel reads of the mesh: nothing, triangles, these and the tree, or these and links. Texel views follow its
+  // buffers.
+  enum class Reads : std::uint32_t { kNoMesh, kTriangles, kTree, kLinks };
+  std::vector<VkBufferView> texels_of(Reads reads) const;
   // Of a workgroup that gathers the contacts of a top cell. Few lanes start quickly; where lists are of triangles each
   // writes its share within lavapipe's 65,535 loop iterations, whatever the mesh (DeviceMesh::kMostTriangles).
   static constexpr std::uint32_t kGatherLanes = 64, kGatherLanesForTriangles = 256;

@@ -107,9 +107,9 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   clear_counter(r, gpu::kOpen);
   run_rounds(r,
              {"mark_contacts",
-              {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-               nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range(), states_.range(),
-               open_.range(), asked_.range()},
+              {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(),
+               counters_.range(), nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range(),
+               states_.range(), open_.range(), asked_.range()},
               Reads::kTriangles,
               {},
               64,
@@ -117,7 +117,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
              asking, step);
   run(r,
       {"dismiss_cells",
-       {mesh_->triangles.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
+       {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(), counters_.range(),
         nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range()},
        Reads::kTriangles},
       {gpu::kOpen}, step);
@@ -175,9 +175,9 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
   for (s.first_entry = 0; s.first_entry < mesh_->cluster_count; s.first_entry += s.clusters_per_round) {
     run(r,
         {"expand_clusters",
-         {mesh_->triangles.range(), mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(),
-          counters_.range(), masks_.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
-          level.lists->range(), counts_.range()},
+         {mesh_->storage_of(mesh_->triangles), mesh_->clusters.range(), level.parents->range(),
+          level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(), offsets_.range(),
+          nearest_.range(), level.cells->range(), level.lists->range(), counts_.range()},
          Reads::kTriangles,
          {},
          kEightLanes,
@@ -192,7 +192,7 @@ void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step
   step.lines_per_cell = 1;
   run(r,
       {"propose_crossings",
-       {mesh_->triangles.range(), level.cells->range(), counters_.range(), points_.range()},
+       {mesh_->storage_of(mesh_->triangles), level.cells->range(), counters_.range(), points_.range()},
        Reads::kTriangles},
       {gpu::kCells}, step);
   record_lines(r, step, level);
@@ -205,8 +205,8 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
   begin_stage(r, "search");
   run(r,
       {"propose_lines",
-       {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), aims_.range(),
-        points_.range()},
+       {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
+        aims_.range(), points_.range()},
        Reads::kTriangles,
        {},
        64,
@@ -220,20 +220,20 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
   // Their queries are counted where they are proposed: most seeds have none.
   run_rounds(r,
              {"find_line_ends",
-              {mesh_->triangles.range(), level.cells->range(), level.lists->range(), counters_.range(), points_.range(),
-               nearest_.range(), masks_.range()},
+              {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
+               points_.range(), nearest_.range(), masks_.range()},
               Reads::kTriangles},
              {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step);
   run(r,
       {"keep_turning",
-       {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range()},
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), points_.range(), nearest_.range(), states_.range()},
        Reads::kTriangles},
       seeds, step);
   scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
            0xffffffffu});
   run(r,
       {"start_lines",
-       {mesh_->triangles.range(), counters_.range(), points_.range(), nearest_.range(), states_.range(),
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), points_.range(), nearest_.range(), states_.range(),
         offsets_.range(), level.cells->range(), lines_.range()},
        Reads::kTriangles},
       seeds, step);
@@ -253,7 +253,7 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
     find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
     run(r,
         {"narrow_lines",
-         {mesh_->triangles.range(), counters_.range(), lines_.range(), nearest_.range()},
+         {mesh_->storage_of(mesh_->triangles), counters_.range(), lines_.range(), nearest_.range()},
          Reads::kTriangles},
         {gpu::kLines}, step);
   }
@@ -321,15 +321,15 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   clear_counter(r, gpu::kAsked);
   run(r,
       {"choose_opposites",
-       {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
-        opposites_.range(), flux_tallies_.range(), asked_.range()},
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), samples_.range(),
+        sample_nearest_.range(), opposites_.range(), flux_tallies_.range(), asked_.range()},
        Reads::kTriangles},
       points, step);
   find_nearest(r, Source::kSamples, {gpu::kAsked}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
   run(r,
       {"measure_flux",
-       {mesh_->triangles.range(), counters_.range(), result_.range(), samples_.range(), sample_nearest_.range(),
-        opposites_.range(), opposite_nearest_.range(), flux_tallies_.range()},
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), samples_.range(),
+        sample_nearest_.range(), opposites_.range(), opposite_nearest_.range(), flux_tallies_.range()},
        Reads::kTriangles},
       points, step);
 }

@@ -16,11 +16,12 @@ namespace {
 constexpr VkDeviceSize kMinBlockBytes = 4ull << 20;
 constexpr VkDeviceSize kMaxBlockBytes = 64ull << 20;
 constexpr VkDeviceSize kStagingBytes = 32ull << 20;
-constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F
+constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F, RGBA32UI
 
 const char* kind_name(MemoryKind kind) {
   switch (kind) {
     case MemoryKind::kDevice:
+    case MemoryKind::kTexels:
       return "device";
     case MemoryKind::kUpload:
       return "upload";
@@ -45,6 +46,7 @@ int suitability(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
   const bool cached = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
   switch (kind) {
     case MemoryKind::kDevice:
+    case MemoryKind::kTexels:
       // Where host and device share their memory, mapping saves the copies. On a discrete device the mappable part of
       // the local memory may be a small window (256 MiB) that others need too.
       return local ? (mappable == unified ? 2 : 1) : 0;
@@ -275,7 +277,7 @@ VkResult Arena::add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedica
   return VK_SUCCESS;
 }
 
-Result<VkBufferView> Arena::create_texel_view(const Buffer& buffer) {
+Result<VkBufferView> Arena::create_texel_view(const Buffer& buffer, VkFormat format) {
   const VkDeviceSize largest = context_->limits.maxTexelBufferElements * kTexelBytes;
   if (buffer.size > largest) {
     return Error{ErrorCode::kOutOfMemory, "cannot view " + std::to_string(buffer.size) +
@@ -285,7 +287,7 @@ Result<VkBufferView> Arena::create_texel_view(const Buffer& buffer) {
   VkBufferViewCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
   info.buffer = buffer.handle;
-  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.format = format;
   info.range = VK_WHOLE_SIZE;
   VkBufferView view = VK_NULL_HANDLE;
   make_room(views_);

@@ -15,6 +15,7 @@ namespace medial_vk {
 
 enum class MemoryKind {
   kDevice,    // fast for the device; mapped only if the memory happens to be host-visible
+  kTexels,    // the same, for a buffer that kernels read as texels only: maxStorageBufferRange does not bound it
   kUpload,    // host-visible, coherent, written by the host
   kReadback,  // host-visible, coherent, cached if there is such memory, read by the host
 };
@@ -34,6 +35,8 @@ struct Buffer {
 
   BufferRange range() const { return {handle, 0, size}; }
   BufferRange range(VkDeviceSize offset, VkDeviceSize bytes) const { return {handle, offset, bytes}; }
+  /// Where kernels that may read the buffer as texels bind storage. If they do, that is its start, which is never read.
+  BufferRange storage_range(bool read_as_texels) const { return {handle, 0, read_as_texels ? 16 : size}; }
 };
 
 /// Owns buffers and their memory; all are freed together with the arena. Move-only.
@@ -46,8 +49,8 @@ class Arena {
 
   /// Errors: kOutOfMemory, naming bytes and purpose. Sizes are rounded up to 16 bytes, at least 16.
   Result<Buffer> create_buffer(VkDeviceSize bytes, MemoryKind kind, const char* purpose);
-  /// A view of vec4 (RGBA32F) texels over a whole buffer. Errors: kOutOfMemory.
-  Result<VkBufferView> create_texel_view(const Buffer& buffer);
+  /// A view of texels of 16 bytes over a whole buffer, vec4 or uvec4. Errors: kOutOfMemory.
+  Result<VkBufferView> create_texel_view(const Buffer& buffer, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT);
   /// Bytes of device memory held.
   VkDeviceSize bytes() const { return bytes_; }
 

@@ -125,7 +125,7 @@ class Builder {
       const bool trusted = !mesh_.flags.empty() && (mesh_.flags[order_[p]] & kTrustedNormal) != 0;
       const Triangle& t = triangle(p);
       out_.links[p] = {
-          {t[0], t[1], t[2]}, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, trusted ? 0u : gpu::kLinkWhole, 0};
+          {t[0], t[1], t[2]}, trusted ? 0u : gpu::kLinkWhole, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, 0};
     }
   }
 

@@ -89,15 +89,15 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                                          device_->triangle_count, 0};
   const BufferRange order = device_->triangle_info.range();
   // A kernel that does not count on the device is given some buffer in place of the counters.
-  const std::array<BufferRange, 11> buffers = {device_->triangles.range(),
-                                               tree_->nodes.range(),
+  const std::array<BufferRange, 11> buffers = {device_->triangles.storage_range(tree_->use_texels),
+                                               tree_->nodes.storage_range(tree_->use_texels),
                                                counted ? count.counters->range() : order,
                                                resolver_->unresolved(),
                                                queries,
                                                order,
                                                nearest,
                                                hits,
-                                               tree_->frames.range(),
+                                               tree_->frames.storage_range(tree_->use_texels),
                                                slots,
                                                tree_->positions.range()};
   const std::array<VkBufferView, 3> texels = {device_->triangle_texels, tree_->node_texels, tree_->frame_texels};

@@ -143,6 +143,7 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
   if (Status status = upload(context, tree.positions, position_bytes); !status.ok()) return status.error();
   tree.use_texels =
       device.use_texels && std::max(node_data.size(), frame_data.size()) <= context.limits.maxTexelBufferElements;
+  const MemoryKind kind = tree.use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
   struct Part {
     Buffer* buffer;
     VkBufferView* view;
@@ -152,7 +153,7 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
   for (const Part& part : {Part{&tree.nodes, &tree.node_texels, &node_data, "the wide tree over the triangles"},
                            Part{&tree.frames, &tree.frame_texels, &frame_data, "frames of triangles"}}) {
     const auto bytes = std::as_bytes(std::span(*part.texels));
-    Result<Buffer> buffer = tree.arena_.create_buffer(bytes.size(), MemoryKind::kDevice, part.purpose);
+    Result<Buffer> buffer = tree.arena_.create_buffer(bytes.size(), kind, part.purpose);
     if (!buffer.ok()) return buffer.error();
     *part.buffer = buffer.value();
     if (Status status = upload(context, *part.buffer, bytes); !status.ok()) return status.error();

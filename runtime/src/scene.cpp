@@ -17,10 +17,10 @@ namespace {
 static_assert(gpu::kStackSize == Bvh::kMaxDepth);
 
 /// Uploads to `buffer`, which is created if there is none yet, or too small a one.
-Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes, const char* purpose,
-            Buffer& buffer) {
+Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes, MemoryKind kind,
+            const char* purpose, Buffer& buffer) {
   if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
-    Result<Buffer> created = arena.create_buffer(bytes.size(), MemoryKind::kDevice, purpose);
+    Result<Buffer> created = arena.create_buffer(bytes.size(), kind, purpose);
     if (!created.ok()) return created.error();
     buffer = created.value();
   }
@@ -38,12 +38,15 @@ Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
     return Error{ErrorCode::kOutOfMemory,
                  mesh + "the device code addresses " + std::to_string(DeviceMesh::kMostTriangles)};
   }
-  const std::size_t most = limits.maxStorageBufferRange / kBytes;
-  if (triangles <= most) return {};
-  return Error{ErrorCode::kOutOfMemory, mesh + "this device takes " + std::to_string(most) + " at most: of " +
-                                            std::to_string(kBytes) + " bytes each, its kernels see " +
+  const std::size_t in_storage = limits.maxStorageBufferRange / kBytes;
+  const std::size_t in_texels = limits.maxTexelBufferElements / kTexelsPerTriangle;
+  if (triangles <= std::max(in_storage, in_texels)) return {};
+  return Error{ErrorCode::kOutOfMemory, mesh + "this device takes " + std::to_string(std::max(in_storage, in_texels)) +
+                                            " at most: of " + std::to_string(kBytes) + " bytes each, its kernels see " +
                                             std::to_string(limits.maxStorageBufferRange) +
-                                            " in a buffer (maxStorageBufferRange)"};
+                                            " in a buffer (maxStorageBufferRange), or " +
+                                            std::to_string(limits.maxTexelBufferElements) + " texels of " +
+                                            std::to_string(sizeof(Texel)) + " bytes (maxTexelBufferElements)"};
 }
 
 }  // namespace
@@ -58,7 +61,6 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.measure(mesh); !status.ok()) return status.error();
   if (Status status = device.upload_mesh(context, mesh); !status.ok()) return status.error();
-  if (Status status = device.create_views(); !status.ok()) return status.error();
   return device;
 }
 
@@ -106,27 +108,32 @@ Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh) {
   const std::vector<Texel> triangle_data = make_triangle_texels(bvh_, to_unit_box, mesh.flags);
   const std::vector<Texel> tree_data = make_tree_texels(bvh_, to_unit_box);
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
-  use_texels = std::max(triangle_data.size(), tree_data.size()) <= context.limits.maxTexelBufferElements;
-  Status status = fill(context, arena_, std::as_bytes(std::span(triangle_data)), "triangles", triangles);
+  // Links of vertices are a texel each.
+  use_texels =
+      std::max({triangle_data.size(), tree_data.size(), mesh.vertices.size()}) <= context.limits.maxTexelBufferElements;
+  constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+  Status status =
+      upload_texels(context, std::as_bytes(std::span(triangle_data)), "triangles", kFloats, triangles, triangle_texels);
   if (!status.ok()) return status;
-  status = fill(context, arena_, std::as_bytes(std::span(tree_data)), "the tree over the triangles", tree);
+  status = upload_texels(context, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats, tree,
+                         tree_texels);
   if (!status.ok()) return status;
-  return fill(context, arena_, std::as_bytes(std::span(order)), "triangle indices", triangle_info);
+  return fill(context, arena_, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
 }
 
-Status DeviceMesh::create_views() {
-  Buffer unread;
-  if (!use_texels) {
-    Result<Buffer> buffer = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
-    if (!buffer.ok()) return buffer.error();
-    unread = buffer.value();
-  }
-  Result<VkBufferView> triangle_view = arena_.create_texel_view(use_texels ? triangles : unread);
-  if (!triangle_view.ok()) return triangle_view.error();
-  Result<VkBufferView> tree_view = arena_.create_texel_view(use_texels ? tree : unread);
-  if (!tree_view.ok()) return tree_view.error();
-  triangle_texels = triangle_view.value();
-  tree_texels = tree_view.value();
+/// To a buffer with a view; each is created if there is none yet. The view is of a buffer that is never read where
+/// kernels read storage.
+Status DeviceMesh::upload_texels(Context::Impl& context, std::span<const std::byte> bytes, const char* purpose,
+                                 VkFormat format, Buffer& buffer, VkBufferView& view) {
+  const MemoryKind kind = use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
+  if (Status status = fill(context, arena_, bytes, kind, purpose, buffer); !status.ok()) return status;
+  if (view != VK_NULL_HANDLE) return {};
+  Result<Buffer> viewed = buffer;
+  if (!use_texels) viewed = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+  if (!viewed.ok()) return viewed.error();
+  Result<VkBufferView> created = arena_.create_texel_view(viewed.value(), format);
+  if (!created.ok()) return created.error();
+  view = created.value();
   return {};
 }
 
@@ -139,11 +146,13 @@ Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
 }
 
 Status DeviceMesh::upload_links(Context::Impl& context, const MeshView& mesh) {
-  const MeshLinks cones = make_mesh_links(mesh, order);
-  Status status = fill(context, arena_, std::as_bytes(std::span(cones.links)), "what triangles share with neighbours",
-                       triangle_links);
+  static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
+  const MeshLinks made = make_mesh_links(mesh, order);
+  Status status = upload_texels(context, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
+                                VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
   if (!status.ok()) return status;
-  return fill(context, arena_, std::as_bytes(std::span(cones.corners)), "spokes to vertices", corner_cones);
+  return upload_texels(context, std::as_bytes(std::span(made.corners)), "spokes to vertices",
+                       VK_FORMAT_R32G32B32A32_SFLOAT, corner_cones, corner_texels);
 }
 
 Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh) {
@@ -152,7 +161,7 @@ Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh)
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
-  return fill(context, arena_, std::as_bytes(std::span(made)), "clusters of triangles", clusters);
+  return fill(context, arena_, std::as_bytes(std::span(made)), MemoryKind::kDevice, "clusters of triangles", clusters);
 }
 
 Status DeviceMesh::upload_open_edges(Context::Impl& context, const MeshView& mesh) {
@@ -160,7 +169,7 @@ Status DeviceMesh::upload_open_edges(Context::Impl& context, const MeshView& mes
   if (!mesh.closed) edges = find_open_edges(mesh, {lower, longest}, gpu::kMostOpenEdges);
   open_edge_count = edges.count;
   if (edges.listed.empty()) edges.listed.resize(1);
-  return fill(context, arena_, std::as_bytes(std::span(edges.listed)), "open edges", open_edges);
+  return fill(context, arena_, std::as_bytes(std::span(edges.listed)), MemoryKind::kDevice, "open edges", open_edges);
 }
 
 Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }

@@ -4,7 +4,9 @@
 #include <volk.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial_vk/bvh.h"
@@ -41,6 +43,9 @@ struct DeviceMesh {
   /// pairs edges and vertices. `mesh` as given to create(). Error: kOutOfMemory.
   Status add_links(Context::Impl& context, const MeshView& mesh);
 
+  /// Where kernels bind `texels`, one of the buffers here that have a view, as storage.
+  BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
+
   /// Of the Bvh whose leaf order `order` is.
   const std::vector<BvhNode>& tree_nodes() const { return bvh_.nodes(); }
 
@@ -55,10 +60,12 @@ struct DeviceMesh {
   VkBufferView tree_texels = VK_NULL_HANDLE;
   /// Index into MeshView::triangles, one word per leaf position.
   Buffer triangle_info;
-  /// gpu::TriangleLinks by leaf position, and caps of spokes by vertex (runtime/src/mesh_links.h); null until
-  /// add_links().
+  /// gpu::TriangleLinks by leaf position, as two texels of integers, and caps of spokes by vertex
+  /// (runtime/src/mesh_links.h); null until add_links().
   Buffer triangle_links;
+  VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;
+  VkBufferView corner_texels = VK_NULL_HANDLE;
   /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links().
   Buffer clusters;
   /// gpu::OpenEdge; at least one, which may not count; null until add_links().
@@ -83,7 +90,8 @@ struct DeviceMesh {
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
   Status measure(const MeshView& mesh);
   Status upload_mesh(Context::Impl& context, const MeshView& mesh);
-  Status create_views();
+  Status upload_texels(Context::Impl& context, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
+                       Buffer& buffer, VkBufferView& view);
   Status upload_links(Context::Impl& context, const MeshView& mesh);
   Status upload_open_edges(Context::Impl& context, const MeshView& mesh);
   Status upload_clusters(Context::Impl& context, const MeshView& mesh);

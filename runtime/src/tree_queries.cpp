@@ -37,8 +37,8 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
                          BufferRange queries, float tolerance) const {
   // A kernel that does not count on the device is given some buffer in place of the counters.
   const BufferRange counters = count.counters != nullptr ? count.counters->range() : mesh_->triangle_info.range();
-  std::vector<BufferRange> buffers = {mesh_->triangles.range(), mesh_->tree.range(), counters, unresolved_.range(),
-                                      queries};
+  std::vector<BufferRange> buffers = {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree), counters,
+                                      unresolved_.range(), queries};
   buffers.insert(buffers.end(), own.begin(), own.end());
   const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
   const gpu::QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
@@ -72,8 +72,14 @@ void TreeQueries::resolve(Recorder& r, ProgramKey key, std::span<const BufferRan
 void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits,
                                   Ties ties) const {
   const BufferRange info = mesh_->triangle_info.range();  // also in place of counters, which it does not read
-  const std::array<BufferRange, 8> buffers = {
-      mesh_->triangles.range(), mesh_->tree.range(), info, unresolved_.range(), queries, info, nearest, hits};
+  const std::array<BufferRange, 8> buffers = {mesh_->storage_of(mesh_->triangles),
+                                              mesh_->storage_of(mesh_->tree),
+                                              info,
+                                              unresolved_.range(),
+                                              queries,
+                                              info,
+                                              nearest,
+                                              hits};
   const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0};
   const ProgramKey key{std::string("resolve_closest_points") + storage_suffix(mesh_->use_texels),
                        static_cast<std::uint32_t>(buffers.size()),

@@ -17,7 +17,7 @@ void normals_of(uint name, out vec3 first, out vec3 second) {
   first = triangle_texel(4u * t + 3u).xyz;
   second = first;
   if (kind == kFace) return;
-  if (kind < kFirstCorner) second = triangle_texel(4u * links[t].neighbour[kind - kFirstEdge] + 3u).xyz;
+  if (kind < kFirstCorner) second = triangle_texel(4u * neighbour_of(t, kind - kFirstEdge) + 3u).xyz;
 }
 
 // The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on

@@ -1,6 +1,6 @@
 // The carriers of a box: the faces, edges and vertices on which the spokes of its medial points can end
 // (docs/theory.md, Lemmas A, C and D). A workgroup of eight lanes gathers them, nearest first. Include after "lanes.glsl"
-// and "triangles.glsl" and after declaring `cells`, `lists`, `links` and `corner_cones`.
+// and "links.glsl" and after declaring `cells` and `lists`.
 #ifndef MEDIAL_VK_CARRIERS_GLSL
 #define MEDIAL_VK_CARRIERS_GLSL
 #include "angles.glsl"
@@ -96,8 +96,8 @@ Feature feature_named(uint name, Box box) {
   uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
   TriangleTexels texels = load_triangle(t);
   Feature face = face_feature(texels, kind == kWhole, box);
-  Feature edge = edge_feature(texels, k, is_edge ? links[t].neighbour[k] : t, box);
-  Feature corner = corner_feature(texels, k, corner_cones[links[t].corner[k]], box);
+  Feature edge = edge_feature(texels, k, is_edge ? neighbour_of(t, k) : t, box);
+  Feature corner = corner_feature(texels, k, corner_cap(corners_and_flags(t)[k]), box);
   Feature f = face;
   f.nearest = is_edge ? edge.nearest : is_corner ? corner.nearest : face.nearest;
   f.spokes = is_edge ? edge.spokes : is_corner ? corner.spokes : face.spokes;
@@ -127,7 +127,7 @@ void add_carrier(Feature f, uint name, Box box) {
 
 // Names the features of one contact that may carry spokes.
 void list_features(uint t) {
-  uint flags = links[t].flags;
+  uint flags = corners_and_flags(t).w;
   bool whole = (flags & kLinkWhole) != 0u || triangle_texel(4u * t + 3u).w < 0.5;
   uint kinds = whole ? 1u << kWhole : 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
   uint slot = atomicAdd(feature_count, uint(bitCount(kinds)));

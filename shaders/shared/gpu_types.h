@@ -67,8 +67,8 @@ struct FoundPoint {
 // What a triangle shares with its neighbours (docs/theory.md, Lemma D). Edge k goes from corner k to the next.
 struct TriangleLinks {
   uint corner[3];     // rows of the table of spokes to vertices
-  uint neighbour[3];  // across its edges
   uint flags;         // kLink*
+  uint neighbour[3];  // across its edges
   uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kNoLink = 0xffffffffu;

@@ -143,5 +143,42 @@ TEST_F(PoorDevice, ReadsALargeMeshThroughStorageBuffers) {
   EXPECT_TRUE(answers[0].value() == answers[1].value());
 }
 
+// A mesh that is larger than what kernels see of a storage buffer is read as texels: as many answers, of the same bytes.
+TEST_F(PoorDevice, ReadsAMeshBeyondTheStorageBuffersAsTexels) {
+  constexpr std::uint32_t kBytes = 1u << 22;  // below what Vulkan allows, so that a small mesh is too large
+  const PreparedMesh mesh = torus(280, 120);
+  ASSERT_GT(64 * mesh.mesh.triangles.size(), kBytes);
+  std::vector<std::vector<Answer>> answers;
+  for (const bool poor : {false, true}) {
+    DeviceProfile profile;
+    if (poor) profile.limits = [](VkPhysicalDeviceLimits& limits) { limits.maxStorageBufferRange = kBytes; };
+    vulkan().set_profile(profile);
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    answers.push_back({extract(context.value(), mesh, Mode::kCertified), extract(context.value(), mesh, Mode::kThesis),
+                       make_scene_and_ask(context.value(), mesh)});
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
+  }
+  for (std::size_t i = 0; i < answers[0].size(); ++i) {
+    ASSERT_TRUE(answers[0][i].ok()) << answers[0][i].error().message;
+    ASSERT_TRUE(answers[1][i].ok()) << answers[1][i].error().message;
+    EXPECT_GT(answers[0][i].value().size(), 0u);
+    EXPECT_TRUE(answers[1][i].value() == answers[0][i].value()) << "answer " << i;
+  }
+}
+
+TEST_F(PoorDevice, RefusesAMeshThatItCanReadNeitherWay) {
+  vulkan().set_profile(minimum_profile(true));
+  Result<Context> context = open();
+  ASSERT_TRUE(context.ok()) << context.error().message;
+  PreparedMesh mesh = small_box();
+  mesh.mesh.triangles.resize((1u << 27) / 64 + 1, mesh.mesh.triangles[0]);
+  mesh.flags.resize(mesh.mesh.triangles.size(), mesh.flags[0]);
+  const Answer answer = extract(context.value(), mesh, Mode::kCertified);
+  ASSERT_FALSE(answer.ok());
+  EXPECT_EQ(answer.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_THAT(answer.error().message, HasSubstr("the mesh has 2097153 triangles, this device takes 2097152 at most"));
+}
+
 }  // namespace
 }  // namespace medial_vk::test
