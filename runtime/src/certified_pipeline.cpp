@@ -69,7 +69,6 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   const double sine = std::sin(angle);
   p.narrowing_steps_ =
       steps_to_narrow(2 * (kHalfDiagonal + parameters.epsilon), 0.8 * parameters.epsilon * sine * sine);
-  p.rounds_ = divide_up(mesh.triangle_count, gpu::kEntriesPerRound);
   while (p.clustered_levels_ < p.coarse_levels_ &&
          kHalfDiagonal * p.cell_size(p.clustered_levels_) >= kCellPerCluster * mesh.cluster_radius) {
     ++p.clustered_levels_;
@@ -214,10 +213,21 @@ void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
 }
 
 std::uint32_t CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
+  // What a dispatch of kernels adds to while others read it is never reused.
+  const bool lasts = constants.items_counter != gpu::kAsked && constants.items_counter != gpu::kOpen;
+  if (constants.queries_per_item == 0 && lasts) {
+    const auto known = std::ranges::find_if(prepared_, [&](gpu::DispatchConstants p) {
+      p.argument = constants.argument;
+      p.queries_per_item = 0;
+      return std::memcmp(&p, &constants, sizeof(p)) == 0;
+    });
+    if (known != prepared_.end()) return known->argument;
+  }
   if (parameters_.kernel_times) r.begin_stage("prepare_dispatch");
   const std::uint32_t argument = next_argument_++ % kMostArguments;
   gpu::DispatchConstants c = constants;
   c.argument = argument;
+  if (lasts) prepared_.push_back(c);
   const BufferRange buffers[] = {counters_.range(), arguments_.range(), stop_->range()};
   r.dispatch({"prepare_dispatch", 3, 0, sizeof(c), 1, {}}, buffers, {}, bytes_of(c), 1);
   r.barrier();
@@ -234,7 +244,9 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.item_limit = extent.limit;
   d.list_counter = extent.list_counter;
   d.queries_per_item = extent.queries;
-  d.first_entry = step.first_entry;
+  d.entry_limit = extent.entry_limit;
+  // Of kernels that read no lists, all rounds are one.
+  d.first_entry = extent.list_counter == gpu::kNoCounter ? 0 : step.first_entry;
   const std::uint32_t argument = prepare(r, d);
   if (parameters_.kernel_times) {
     const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
@@ -268,10 +280,15 @@ std::vector<VkBufferView> CertifiedPipeline::texels_of(Reads reads) const {
   return {};
 }
 
-void CertifiedPipeline::run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step) {
-  for (std::uint32_t round = 0; round < rounds_; ++round) {
-    step.first_entry = round * gpu::kEntriesPerRound;
-    run(r, kernel, extent, step);
+void CertifiedPipeline::run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step,
+                                   std::uint32_t entries) {
+  Extent round = extent;
+  const std::uint64_t served = std::uint64_t{rounds_} * entries;
+  round.entry_limit = static_cast<uint>(std::min<std::uint64_t>(served, 0xffffffffu));
+  for (std::uint32_t i = 0; i < rounds_; ++i) {
+    step.first_entry = i * entries;
+    run(r, kernel, round, step);
+    round.queries = 0;  // further rounds go on with the same queries
   }
 }
 
@@ -295,6 +312,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   r.barrier();
   r.dispatch_indirect({"scan_add", 4, 0, sizeof(constants), 64, {}}, add, {}, push, arguments_, offset);
   r.barrier();
+  forget_arguments();
 }
 
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "gpu_types.h"
@@ -57,6 +58,9 @@ class CertifiedPipeline {
   /// Appends the whole extraction of `count` top cells from `first` on.
   Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count);
 
+  /// After kTooFewRounds: records twice as many rounds from now on. No list is longer than the mesh.
+  void add_rounds() { rounds_ *= 2; }
+
   /// After the recorded sequence has run.
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
   /// The first `count` points, in no particular order of voxels.
@@ -84,7 +88,7 @@ class CertifiedPipeline {
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
   // Of the whole run. With kernel_times every dispatch is a stage of its own instead.
   void begin_stage(Recorder& r, const char* stage) const;
-  void clear_counter(Recorder& r, std::uint32_t counter);
+  void clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters);
   void start_level(Recorder& r, std::uint32_t source, bool same_level = false);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
@@ -131,11 +135,13 @@ class CertifiedPipeline {
     std::uint32_t first = 0;
     std::uint32_t limit = 0xffffffffu;
     std::uint32_t list_counter = gpu::kNoCounter;
-    std::uint32_t queries = 0;  // closest-point queries per invocation, for the statistics
+    std::uint32_t queries = 0;                // closest-point queries per invocation, for the statistics
+    std::uint32_t entry_limit = 0xffffffffu;  // of the lists that list_counter is about
   };
   void run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step);
-  // The same once for every round that the longest list may need.
-  void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step);
+  // The same for every round of so many entries of the lists.
+  void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step,
+                  std::uint32_t entries = gpu::kEntriesPerRound);
   // A kernel that asks winding numbers: the tree comes before its own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
   // The pairs of carriers of every cell, before its search or after (step.classifies).
@@ -143,7 +149,10 @@ class CertifiedPipeline {
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   void scan(Recorder& r, const gpu::ScanConstants& constants);
+  // The index of the arguments that `constants` make, which may be there already.
   std::uint32_t prepare(Recorder& r, const gpu::DispatchConstants& constants);
+  // Counters change: arguments that were made of them are not used any more.
+  void forget_arguments() { prepared_.clear(); }
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;
@@ -156,8 +165,9 @@ class CertifiedPipeline {
   std::uint32_t coarse_levels_ = 0;          // levels of children above the finest one
   std::uint32_t clustered_levels_ = 0;       // of these, the first ones, whose parents have lists of clusters
   std::uint32_t narrowing_steps_ = 0;
-  std::uint32_t rounds_ = 1;
+  std::uint32_t rounds_ = 1;  // recorded for lists longer than kEntriesPerRound
   std::uint32_t next_argument_ = 0;
+  std::vector<gpu::DispatchConstants> prepared_;  // arguments that are still right
 
   Buffer counters_, counters_readback_, arguments_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end

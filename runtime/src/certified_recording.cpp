@@ -7,6 +7,7 @@ using gpu::uint;
 
 Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
   next_argument_ = 0;
+  forget_arguments();
   begin_stage(r, "contacts");
   record_top_cells(r, first, count);
   // Levels alternate between two sets of buffers; the finest voxels have their own, which live to the end.
@@ -89,10 +90,11 @@ void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source, bool same
   const BufferRange counters[] = {counters_.range()};
   r.dispatch({"start_level", 1, 0, 0, 1, {source, same_level ? 1u : 0u}}, counters, {}, {}, 1);
   r.barrier();
+  forget_arguments();
 }
 
-void CertifiedPipeline::clear_counter(Recorder& r, std::uint32_t counter) {
-  r.fill(counters_, VkDeviceSize{counter} * 4, 4, 0);
+void CertifiedPipeline::clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters) {
+  for (const std::uint32_t counter : counters) r.fill(counters_, VkDeviceSize{counter} * 4, 4, 0);
   r.barrier();
 }
 
@@ -103,8 +105,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
   Extent asking = children;
   asking.queries = 1;
-  clear_counter(r, gpu::kAsked);
-  clear_counter(r, gpu::kOpen);
+  clear_counters(r, {gpu::kAsked, gpu::kOpen});
   run_rounds(r,
              {"mark_contacts",
               {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(),
@@ -125,6 +126,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   if (finest) {  // every finest voxel that is kept gets a slot
     r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
     r.barrier();
+    forget_arguments();
   }
   write_children(r, step, level, touch_masks_, finest);
 }
@@ -155,7 +157,7 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
                                                   const LevelBuffers& level) {
   begin_stage(r, "dismissal");
   const Extent children{gpu::kParents, 8};
-  clear_counter(r, gpu::kAsked);
+  clear_counters(r, {gpu::kAsked});
   run(r,
       {"mark_clusters",
        {mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
@@ -170,20 +172,16 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
     write_children(r, step, level, masks_, false);
     return;
   }
-  Extent lanes{gpu::kParents, 8 * kEightLanes, 1, 0, 0xffffffffu, gpu::kLongestParentList};
-  gpu::StepConstants s = step;
-  for (s.first_entry = 0; s.first_entry < mesh_->cluster_count; s.first_entry += s.clusters_per_round) {
-    run(r,
-        {"expand_clusters",
-         {mesh_->storage_of(mesh_->triangles), mesh_->clusters.range(), level.parents->range(),
-          level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(), offsets_.range(),
-          nearest_.range(), level.cells->range(), level.lists->range(), counts_.range()},
-         Reads::kTriangles,
-         {},
-         kEightLanes,
-         Lanes::kEight},
-        lanes, s);
-  }
+  run_rounds(r,
+             {"expand_clusters",
+              {mesh_->storage_of(mesh_->triangles), mesh_->clusters.range(), level.parents->range(),
+               level.parent_lists->range(), counters_.range(), masks_.range(), states_.range(), offsets_.range(),
+               nearest_.range(), level.cells->range(), level.lists->range(), counts_.range()},
+              Reads::kTriangles,
+              {},
+              kEightLanes,
+              Lanes::kEight},
+             {gpu::kParents, 8 * kEightLanes, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step, clusters_per_round());
 }
 
 void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
@@ -258,7 +256,7 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
         {gpu::kLines}, step);
   }
   find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
-  clear_counter(r, gpu::kAsked);
+  clear_counters(r, {gpu::kAsked});
   run(r,
       {"verify_lines",
        {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range(), asked_.range()}},
@@ -318,7 +316,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   find_nearest(r, Source::kSamples,
                {gpu::kFound, kGroups, 1, first * kGroups, capacity_.flux_block * kGroups, gpu::kNoCounter}, of_groups,
                cells_[2], lists_[2], samples_, sample_nearest_);
-  clear_counter(r, gpu::kAsked);
+  clear_counters(r, {gpu::kAsked});
   run(r,
       {"choose_opposites",
        {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), samples_.range(),

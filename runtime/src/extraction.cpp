@@ -58,7 +58,7 @@ class CertifiedRun {
       Result<Fill> fill = run_chunk(first, count);
       if (!fill.ok()) return fill.error();
       if (fill.value().overflow) {
-        if (count == 1) return too_small();
+        if (!fill.value().too_few_rounds && count == 1) return too_small();
         ++extraction_.counters.retries;
       } else {
         first += count;
@@ -76,9 +76,11 @@ class CertifiedRun {
   struct Fill {
     double share = 0;
     bool overflow = false;
+    bool too_few_rounds = false;  // the overflow was none of a buffer
   };
 
   std::uint32_t next_size(std::uint32_t count, const Fill& fill) const {
+    if (fill.too_few_rounds) return count;
     const double factor = std::clamp(pipeline_.aim() / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
     return std::clamp(static_cast<std::uint32_t>(count * factor), 1u,
                       std::min(kLargestChunk, pipeline_.largest_chunk()));
@@ -96,7 +98,9 @@ class CertifiedRun {
     if (watch_.stopped()) return StopWatch::error();
     add_times(times.value(), extraction_.device_times);  // chunks that are run again cost time too
     const auto counters = pipeline_.read_counters();
-    const Fill fill{counters[gpu::kUtilisation] / 1024.0, counters[gpu::kOverflow] != 0};
+    const std::uint32_t overflow = counters[gpu::kOverflow];
+    const Fill fill{counters[gpu::kUtilisation] / 1024.0, overflow != 0, overflow == gpu::kTooFewRounds};
+    if (fill.too_few_rounds) pipeline_.add_rounds();
     if (fill.overflow) return fill;
     auto points = pipeline_.read_points(counters[gpu::kFound]);
     if (!points.ok()) return points.error();

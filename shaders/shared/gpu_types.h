@@ -179,12 +179,14 @@ struct DispatchConstants {
   uint queries_per_item;  // closest-point queries that an item asks: they are counted
   uint list_counter;   // counter with the longest list, or kNoCounter
   uint first_entry;    // nothing to do if no list is longer than this
+  uint entry_limit;    // the rounds that are recorded read no list beyond this
   uint argument;       // index of the three words to write
 };
 
 // Counters on the device.
 MEDIAL_VK_GPU_CONSTANT kNoCounter = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kOverflow = 0u;          // bit per limit exceeded; all later dispatches are empty
+MEDIAL_VK_GPU_CONSTANT kTooFewRounds = 8u;      // the bit of lists that are longer than the recorded rounds read
 MEDIAL_VK_GPU_CONSTANT kParents = 1u;           // cells whose children are examined
 MEDIAL_VK_GPU_CONSTANT kCells = 2u;             // cells kept at this level
 MEDIAL_VK_GPU_CONSTANT kLines = 3u;

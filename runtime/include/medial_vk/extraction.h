@@ -109,7 +109,7 @@ struct ExtractionCounters {
   std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, themselves or in all their parts.
   std::uint64_t queries = 0;          ///< Closest-point queries asked (contact lists and trees).
   std::uint32_t narrowing_steps = 0;  ///< Certified on a device: of every line, nine parts a step.
-  std::uint64_t retries = 0;          ///< Chunks run again in smaller parts because a buffer was full.
+  std::uint64_t retries = 0;  ///< Chunks run again: in smaller parts since a buffer was full, or for longer lists.
 };
 
 struct StageTime {
