@@ -3,20 +3,19 @@
 // Which samples of the flux (equation 2.4) are two-sided fans (Definition 2.4): nearest to an edge or a vertex, with an
 // opposite that sees the same direction. Most need not ask. Samples nearest to the inside of a face are none. Where the
 // opposite lies on the segment from the sample to its nearest point, whose points all have that nearest point, they are.
-// Of the others the opposites are asked, in groups of eight for each sphere.
+// Of the others the opposites are asked, in groups.
 #include "step.glsl"
 #include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 8
+#define TRIANGLE_TEXEL_BINDING 7
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 2) readonly buffer FoundPoints { FoundPoint found[]; };
-layout(set = 0, binding = 3) readonly buffer Samples { vec4 samples[]; };
-layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
-layout(set = 0, binding = 5) writeonly buffer Opposites { vec4 opposites[]; };  // w: the sample
-layout(set = 0, binding = 6) writeonly buffer Tallies { vec4 tallies[]; };
-layout(set = 0, binding = 7) writeonly buffer Asked { uint asked[]; };  // groups of kFluxGroup opposites
+layout(set = 0, binding = 3) readonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 4) writeonly buffer Opposites { vec4 opposites[]; };  // w: the sample
+layout(set = 0, binding = 5) writeonly buffer Tallies { vec4 tallies[]; };
+layout(set = 0, binding = 6) writeonly buffer Asked { uint asked[]; };  // groups of kFluxGroup opposites
 
 void main() {
   uint index = invocation_index();
@@ -27,9 +26,9 @@ void main() {
   uint count = 0u, base = kFluxSamples * index;
   vec4 last = vec4(0.0);
   for (uint k = 0u; k < kFluxSamples; ++k) {
-    vec3 from_centre = samples[base + k].xyz - centre;
+    vec3 p = sample_point(centre, k), from_centre = p - centre;
     TriangleTexels texels = load_triangle(nearest[base + k].y);
-    vec3 to_boundary = vector_to_triangle(samples[base + k].xyz, texels);
+    vec3 to_boundary = vector_to_triangle(p, texels);
     vec3 g = unit_or_zero(to_boundary);
     float outward = dot(g, from_centre);
     bool on_segment = outward <= 0.0 && -2.0 * outward <= length(to_boundary);

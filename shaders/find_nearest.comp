@@ -3,38 +3,41 @@
 #extension GL_EXT_control_flow_attributes : enable
 // The nearest triangle, among the contacts of a cell, of points in that cell.
 // An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
-// of a line, or a group of flux samples.
-// Points of a line ask only the contacts that find_line_ends.comp has left of it. Lists longer than kEntriesPerRound
-// take several rounds; each goes on from the result of the one before.
+// of a line, or a group of flux samples or of their opposites.
+// Points of a line ask only the contacts that find_line_ends.comp has left of it, and samples those that mark_samples.comp
+// has left of their group. Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one
+// before.
 #include "step.glsl"
+#include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 10
 #include "triangles.glsl"
 
 layout(constant_id = 1) const uint kSource = 0;
-const uint kSections = 0, kGrownEnds = 1, kSamples = 2;
+const uint kSections = 0, kGrownEnds = 1, kSamples = 2, kOpposites = 3;
 layout(constant_id = 2) const uint kPointsPerLane = 8;
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // flux samples, or opposites of them
+layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // opposites of flux samples
 layout(set = 0, binding = 5) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
 layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites
-layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line
+layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
 
 const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
 
-const uint kGroupsPerSphere = kFluxSamples / kFluxGroup;
+// Of a group, in the block of spheres that starts at the first item.
+uint sphere_of(uint item) { return (step.first_item + item) / kGroupsPerSphere; }
 
-uint cell_of(uint item) {
-  return kIsLine ? lines[item].cell : found[(step.first_item + item) / kGroupsPerSphere].cell;
-}
+uint cell_of(uint item) { return kIsLine ? lines[item].cell : found[sphere_of(item)].cell; }
 
 vec3 point_of(uint item, uint index) {
-  if (!kIsLine) return points[kPointsPerLane * item + index].xyz;
+  if (kSource == kOpposites) return points[kPointsPerLane * item + index].xyz;
+  if (kSource == kSamples)
+    return sample_point(voxel_centre(found[sphere_of(item)]), sample_of_group(item % kGroupsPerSphere, index));
   if (kSource == kSections) {
     float share = float(index + 1) / float(kSectionsPerLine + 1);
     return mix(lines[item].p.xyz, lines[item].q.xyz, share);
@@ -42,6 +45,12 @@ vec3 point_of(uint item, uint index) {
   // The end of the line, pushed away from its contact by epsilon (growth test, Lemma 2.3).
   return index == 0 ? lines[item].p.xyz - step.epsilon * lines[item].toward_p.xyz
                     : lines[item].q.xyz - step.epsilon * lines[item].toward_q.xyz;
+}
+
+// Where the answer for a point goes.
+uint result_of(uint item, uint index) {
+  uint place = kSource == kSamples ? sample_of_group(item % kGroupsPerSphere, index) : 0u;
+  return kSource == kSamples ? item / kGroupsPerSphere * kFluxSamples + place : item * kPointsPerLane + index;
 }
 
 vec3 point[kPointsPerLane];
@@ -84,7 +93,7 @@ void ask_all(Cell cell, uint entry, uint end) {
 void main() {
   uint item = invocation_index();
   // Groups of opposites come packed, from all over the block of spheres that the caller says.
-  bool is_packed = !kIsLine && step.items_counter == kAsked;
+  const bool is_packed = kSource == kOpposites;
   if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
   if (is_packed) item = asked[item];
   Cell cell = cells[cell_of(item)];
@@ -92,10 +101,9 @@ void main() {
   uint list_count = kIsLine ? line_list_count(cell) : cell.list_count;
   if (entry >= list_count) return;
 
-  uint result = item * kPointsPerLane;
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
     point[k] = point_of(item, k);
-    uvec2 so_far = entry == 0 ? uvec2(kFarthestBits, 0u) : nearest[result + k];
+    uvec2 so_far = entry == 0 ? uvec2(kFarthestBits, 0u) : nearest[result_of(item, k)];
     best[k] = uintBitsToFloat(so_far.x);
     triangle[k] = so_far.y;
   }
@@ -103,9 +111,11 @@ void main() {
   if (kIsLine) {
     uint asked_count = ask_masked(cell, line_mask_begin(cell, lines[item].seed), entry, end);
     COUNT_TESTS(kPointsPerLane * asked_count);
+  } else if (kSource == kSamples) {
+    ask_masked(cell, sample_mask_begin(cell, item % kGroupsPerSphere), entry, end);
   } else {
     ask_all(cell, entry, end);
   }
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k)
-    nearest[result + k] = uvec2(floatBitsToUint(best[k]), triangle[k]);
+    nearest[result_of(item, k)] = uvec2(floatBitsToUint(best[k]), triangle[k]);
 }

@@ -147,7 +147,6 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&undecided_, c * sizeof(gpu::UndecidedCell), "undecided voxels"},
       {&voxel_points_, c * sizeof(gpu::FoundPoint), "points of voxels"},
       {&result_, c * sizeof(gpu::FoundPoint), "result"},
-      {&samples_, gpu::kFluxSamples * block * 16, "flux samples"},
       {&opposites_, gpu::kFluxSamples * block * 16, "opposite flux samples"},
       {&sample_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of flux samples"},
       {&flux_tallies_, block * 16, "sums of flux samples"},
@@ -337,7 +336,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step,
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                                      const Buffer& cells, const Buffer& lists, const Buffer& points,
                                      const Buffer& nearest) {
-  constexpr uint kPointsPerLane[] = {gpu::kSectionsPerLine, 2, gpu::kFluxGroup};
+  constexpr uint kPointsPerLane[] = {gpu::kSectionsPerLine, 2, gpu::kFluxGroup, gpu::kFluxGroup};
   const uint points_per_lane = kPointsPerLane[static_cast<uint>(source)];
   Extent lanes = extent;
   lanes.queries = points_per_lane;

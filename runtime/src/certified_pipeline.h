@@ -79,7 +79,7 @@ class CertifiedPipeline {
     const Buffer* cells;
     const Buffer* lists;
   };
-  enum class Source : std::uint32_t { kSections, kGrownEnds, kSamples };
+  enum class Source : std::uint32_t { kSections, kGrownEnds, kSamples, kOpposites };
 
   Status allocate(std::uint64_t memory_budget);
   std::uint32_t clusters_per_round() const;
@@ -173,7 +173,7 @@ class CertifiedPipeline {
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;
-  Buffer samples_, opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
+  Buffer opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
 };
 
 }  // namespace medial_vk

@@ -307,27 +307,33 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   gpu::StepConstants step = level_constants(coarse_levels_);
   step.first_item = first;
   const Extent points{gpu::kFound, 1, 1, first, capacity_.flux_block, gpu::kNoCounter};
-  const Extent samples{gpu::kFound, gpu::kFluxSamples, 1, first * gpu::kFluxSamples,
-                       capacity_.flux_block * gpu::kFluxSamples};
-  run(r, {"place_samples", {counters_.range(), result_.range(), samples_.range()}}, samples, step);
   constexpr uint kGroups = gpu::kFluxSamples / gpu::kFluxGroup;
+  const Extent groups{gpu::kFound, kGroups, 1, first * kGroups, capacity_.flux_block * kGroups};
+  run_rounds(r,
+             {"mark_samples",
+              {mesh_->storage_of(mesh_->triangles), cells_[2].range(), lists_[2].range(), counters_.range(),
+               result_.range(), masks_.range()},
+              Reads::kTriangles,
+              {},
+              64,
+              Lanes::kEight},
+             groups, step);
   gpu::StepConstants of_groups = step;
   of_groups.first_item = first * kGroups;
-  find_nearest(r, Source::kSamples,
-               {gpu::kFound, kGroups, 1, first * kGroups, capacity_.flux_block * kGroups, gpu::kNoCounter}, of_groups,
-               cells_[2], lists_[2], samples_, sample_nearest_);
+  // Samples are where they are: no buffer holds them.
+  find_nearest(r, Source::kSamples, groups, of_groups, cells_[2], lists_[2], opposites_, sample_nearest_);
   clear_counters(r, {gpu::kAsked});
   run(r,
       {"choose_opposites",
-       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), samples_.range(),
-        sample_nearest_.range(), opposites_.range(), flux_tallies_.range(), asked_.range()},
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), sample_nearest_.range(),
+        opposites_.range(), flux_tallies_.range(), asked_.range()},
        Reads::kTriangles},
       points, step);
-  find_nearest(r, Source::kSamples, {gpu::kAsked}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
+  find_nearest(r, Source::kOpposites, {gpu::kAsked}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
   run(r,
       {"measure_flux",
-       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), samples_.range(),
-        sample_nearest_.range(), opposites_.range(), opposite_nearest_.range(), flux_tallies_.range()},
+       {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), sample_nearest_.range(),
+        opposites_.range(), opposite_nearest_.range(), flux_tallies_.range()},
        Reads::kTriangles},
       points, step);
 }

@@ -1,9 +1,37 @@
-// What the kernels around the flux through the spheres of found voxels share. Include "step.glsl" before.
+// The points at which the flux through the sphere around a found voxel is sampled, with the voxel's side as radius, and
+// what its kernels share. Include "step.glsl" before.
 #ifndef MEDIAL_VK_FLUX_SAMPLES_GLSL
 #define MEDIAL_VK_FLUX_SAMPLES_GLSL
 
 const float kSameDirection = 1.0 - 1e-6;  // cosine; directions are good to about 1e-4
 
 vec3 voxel_centre(FoundPoint p) { return (vec3(p.voxel_x, p.voxel_y, p.voxel_z) + 0.5) * step.voxel_size; }
+
+// The source's spiral (its [102]) advances the azimuth by 3.6 / sqrt(N (1 - h^2)), a sum without a closed form; the
+// golden angle spreads the points as evenly.
+vec3 spiral_direction(uint k) {
+  float h = (2.0 * float(k) + 1.0) / float(kFluxSamples) - 1.0;
+  float azimuth = float(k) * 2.399963;
+  float r = sqrt(1.0 - h * h);
+  return vec3(r * cos(azimuth), r * sin(azimuth), h);
+}
+
+// Of the centre of the voxel and sample k.
+vec3 sample_point(vec3 centre, uint k) { return centre + step.voxel_size * spiral_direction(k); }
+
+// Eight groups of six samples that lie together, within 42 degrees of their mean: which one is number i of a group. A
+// byte for each group, since tables with an index for each lane are slow on lavapipe.
+const uvec2 kSampleOfGroup[kFluxGroup] = {
+    uvec2(0x0d040200u, 0x2118170eu), uvec2(0x10090501u, 0x26201c13u), uvec2(0x150c0703u, 0x29251f16u),
+    uvec2(0x1a110a06u, 0x2b28241bu), uvec2(0x1d140f08u, 0x2e2a271eu), uvec2(0x2219120bu, 0x2f2d2c23u)};
+const uint kGroupsPerSphere = kFluxSamples / kFluxGroup;
+
+uint sample_of_group(uint group, uint i) {
+  uint four = group < 4u ? kSampleOfGroup[i].x : kSampleOfGroup[i].y;
+  return four >> (8u * (group & 3u)) & 0xffu;
+}
+
+// The contacts that may be nearest to a sample: a mask of the list for each group, where those of children were.
+uint sample_mask_begin(Cell cell, uint group) { return 8u * cell.word_begin + group * ((cell.list_count + 31u) / 32u); }
 
 #endif

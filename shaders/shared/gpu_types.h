@@ -222,7 +222,7 @@ MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
 MEDIAL_VK_GPU_CONSTANT kDirectSeed = 2u;       // a seed that is no line: a point, and the direction to its second contact
 MEDIAL_VK_GPU_CONSTANT kSectionsPerLine = 8u;  // points inside a line per narrowing step
 MEDIAL_VK_GPU_CONSTANT kFluxSamples = 48u;     // spiral points of the flux that is stored with a point
-MEDIAL_VK_GPU_CONSTANT kFluxGroup = 8u;        // of them whose opposites are asked together
+MEDIAL_VK_GPU_CONSTANT kFluxGroup = 6u;        // of them, or of their opposites, that are asked together
 
 #ifdef __cplusplus
 }  // namespace medial_vk::gpu
