@@ -118,7 +118,8 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(DispatchConstants, items_divisor), MEDIAL_VK_MEMBER(DispatchConstants, group_size),
         MEDIAL_VK_MEMBER(DispatchConstants, first_item), MEDIAL_VK_MEMBER(DispatchConstants, item_limit),
         MEDIAL_VK_MEMBER(DispatchConstants, queries_per_item), MEDIAL_VK_MEMBER(DispatchConstants, list_counter),
-        MEDIAL_VK_MEMBER(DispatchConstants, first_entry), MEDIAL_VK_MEMBER(DispatchConstants, argument)}},
+        MEDIAL_VK_MEMBER(DispatchConstants, first_entry), MEDIAL_VK_MEMBER(DispatchConstants, entry_limit),
+        MEDIAL_VK_MEMBER(DispatchConstants, argument)}},
 #ifdef MEDIAL_VK_HAS_THESIS_TYPES
       {"ThesisCell",
        sizeof(gpu::ThesisCell),
