@@ -56,12 +56,11 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
                                                     const ExtractionParameters& parameters,
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   CertifiedPipeline p(context, mesh, parameters, stop);
-  p.grid_ = grid;
   // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side; always one level of children.
   const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
-  const auto shift = static_cast<std::uint32_t>(std::max(1, static_cast<int>(std::bit_width(coarsest)) - 1));
-  p.coarse_levels_ = shift - 1;
-  for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << shift);
+  p.top_shift_ = static_cast<std::uint32_t>(std::max(1, static_cast<int>(std::bit_width(coarsest)) - 1));
+  p.coarse_levels_ = p.top_shift_ - 1;
+  p.set_grid(grid);
   // The growth test holds if the ends are within h of each other, h < epsilon sin^2(theta) D / (D + epsilon):
   // docs/theory.md, "How far to narrow". Four fifths of that leave room for D >= 4 epsilon and for rounding.
   const double angle =
@@ -75,6 +74,11 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
   }
   if (Status s = p.allocate(parameters.memory_budget); !s.ok()) return s.error();
   return p;
+}
+
+void CertifiedPipeline::set_grid(const std::array<std::uint32_t, 3>& grid) {
+  grid_ = grid;
+  for (int axis = 0; axis < 3; ++axis) top_grid_[axis] = divide_up(grid[axis], 1u << top_shift_);
 }
 
 double CertifiedPipeline::aim() const {

@@ -39,6 +39,8 @@ class CertifiedPipeline {
                                           const ExtractionParameters& parameters,
                                           const std::array<std::uint32_t, 3>& grid, const StopWord& stop);
 
+  /// Another box for the next record(), of the same longest side; memory stays that of create()'s.
+  void set_grid(const std::array<std::uint32_t, 3>& grid);
   /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
   /// Most top cells that one recorded sequence can take: their states fit the buffers, and the sum of their contacts,
@@ -60,6 +62,10 @@ class CertifiedPipeline {
 
   /// After kTooFewRounds: records twice as many rounds from now on. No list is longer than the mesh.
   void add_rounds() { rounds_ *= 2; }
+
+  /// Where the points and the counters will be once the recorded sequence has run.
+  const Buffer& result() const { return result_; }
+  const Buffer& counters() const { return counters_; }
 
   /// After the recorded sequence has run.
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
@@ -162,6 +168,7 @@ class CertifiedPipeline {
   Arena arena_;
   std::array<std::uint32_t, 3> grid_{};      // finest voxels
   std::array<std::uint32_t, 3> top_grid_{};  // top cells
+  std::uint32_t top_shift_ = 1;              // a top cell is 2^this voxels
   std::uint32_t coarse_levels_ = 0;          // levels of children above the finest one
   std::uint32_t clustered_levels_ = 0;       // of these, the first ones, whose parents have lists of clusters
   std::uint32_t narrowing_steps_ = 0;

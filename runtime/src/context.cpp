@@ -111,10 +111,10 @@ Status Context::Impl::create_device() {
 
 Context::Impl::~Impl() {
   if (device != VK_NULL_HANDLE) {
-    vk.vkDeviceWaitIdle(device);
+    if (owns_device_) vk.vkDeviceWaitIdle(device);
     close_pipeline_cache();
     programs_.clear();
-    vk.vkDestroyDevice(device, allocation_callbacks);
+    if (owns_device_) vk.vkDestroyDevice(device, allocation_callbacks);
   }
   const std::lock_guard lock(volk_mutex());
   destroy_instance(instance_, allocation_callbacks);

@@ -57,6 +57,7 @@ class Context::Impl {
  private:
   friend class Context;
   Status initialize(const ContextOptions& options);
+  Status adopt(const HostDevice& host);
   Status create_device();
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
@@ -64,7 +65,8 @@ class Context::Impl {
   const EmbeddedShader* shader(const std::string& name) const;
   Result<OwnedProgram> build_program(const ProgramKey& key) const;
 
-  Instance instance_;  // owns `instance`
+  bool owns_device_ = true;  // false: the host does, and the instance
+  Instance instance_;        // owns `instance`
   PipelineCacheIdentity pipeline_cache_identity_;
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
   std::string pipeline_cache_file_;            // empty: none

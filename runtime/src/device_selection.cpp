@@ -73,13 +73,18 @@ std::optional<std::uint32_t> compute_family(std::span<const VkQueueFamilyPropert
   return found;
 }
 
+std::vector<VkQueueFamilyProperties> families_of(VkPhysicalDevice handle) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(handle, &count, families.data());
+  return families;
+}
+
 PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(handle, &properties);
-  std::uint32_t family_count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(handle, &family_count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(family_count);
-  vkGetPhysicalDeviceQueueFamilyProperties(handle, &family_count, families.data());
+  const std::vector<VkQueueFamilyProperties> families = families_of(handle);
 
   PhysicalDevice device;
   device.handle = handle;
@@ -159,6 +164,20 @@ Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   std::vector<PhysicalDevice> devices;
   for (std::uint32_t i = 0; i < handles.size(); ++i) devices.push_back(describe(handles[i], i));
   return devices;
+}
+
+PhysicalDevice describe_device(VkPhysicalDevice handle, std::uint32_t queue_family) {
+  PhysicalDevice device = describe(handle, 0);
+  const std::vector<VkQueueFamilyProperties> families = families_of(handle);
+  if (!device.description.usable) return device;
+  if (queue_family >= families.size() || (families[queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+    device.description.usable = false;
+    device.description.why_not = "its queue family " + std::to_string(queue_family) + " does not compute";
+    return device;
+  }
+  device.queue_family = queue_family;
+  device.timestamp_valid_bits = families[queue_family].timestampValidBits;
+  return device;
 }
 
 Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices, const std::string& choice,

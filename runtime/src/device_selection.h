@@ -25,6 +25,10 @@ struct PhysicalDevice {
 /// Errors: kNoDevice, kOutOfMemory. No device at all is an empty list, not an error.
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance);
 
+/// A device with a family of queues that somebody else has chosen; usable if that family will do. Preconditions as
+/// above.
+PhysicalDevice describe_device(VkPhysicalDevice handle, std::uint32_t queue_family);
+
 /// The device that `choice` means: an index, part of a name (case does not matter; of several the best), or, empty,
 /// the best of all: discrete, integrated, virtual, cpu, other; the first listed among equals.
 /// `origin` names where the choice comes from in errors ("--device", "MEDIAL_VK_DEVICE").

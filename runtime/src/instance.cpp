@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "context_impl.h"
@@ -138,6 +139,7 @@ Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
   const VkResult result = vkCreateInstance(&info, allocation_callbacks, &instance.handle);
   if (result != VK_SUCCESS) return instance_error(result);
   volkLoadInstanceOnly(instance.handle);
+  instance.destroy = vkDestroyInstance;  // volk's pointer is another one once another instance is there
   if (validation) {
     if (const Status added = add_messenger(instance, messenger, allocation_callbacks); !added.ok()) {
       destroy_instance(instance, allocation_callbacks);
@@ -152,8 +154,33 @@ void destroy_instance(Instance& instance, const VkAllocationCallbacks* allocatio
   if (instance.messenger != VK_NULL_HANDLE) {
     instance.destroy_messenger(instance.handle, instance.messenger, allocation_callbacks);
   }
-  vkDestroyInstance(instance.handle, allocation_callbacks);
+  instance.destroy(instance.handle, allocation_callbacks);
   instance = {};
+}
+
+Result<HostInstance> HostInstance::load(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
+  HostInstance loaded;
+  if (get != nullptr) {
+    loaded.before_ = vkGetInstanceProcAddr;
+    loaded.restores_ = true;
+    volkInitializeCustom(get);
+  } else if (const Status status = load_vulkan(); !status.ok()) {
+    return status.error();
+  }
+  volkLoadInstanceOnly(instance);
+  return loaded;
+}
+
+HostInstance::HostInstance(HostInstance&& other) noexcept
+    : restores_(std::exchange(other.restores_, false)), before_(other.before_) {}
+
+HostInstance::~HostInstance() {
+  if (!restores_) return;
+  // Nothing of the host's loader stays: it may be gone when volk is used next.
+  if (before_ != nullptr)
+    volkInitializeCustom(before_);
+  else
+    vkGetInstanceProcAddr = nullptr;
 }
 
 }  // namespace medial_vk

@@ -13,6 +13,7 @@ namespace medial_vk {
 /// A VkInstance and, with validation, the messenger that counts what the layer reports.
 struct Instance {
   VkInstance handle = VK_NULL_HANDLE;
+  PFN_vkDestroyInstance destroy = nullptr;
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
   PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger = nullptr;
 };
@@ -29,5 +30,20 @@ Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
 
 /// Precondition: volk_mutex() is held; the instance's devices are gone. Does nothing to an empty Instance.
 void destroy_instance(Instance& instance, const VkAllocationCallbacks* allocation_callbacks);
+
+/// While it is there, volk is loaded for an instance of the host's. Precondition: volk_mutex() is held.
+class HostInstance {
+ public:
+  /// `get` is the host's vkGetInstanceProcAddr, or null. Error: kNoDevice (no loader).
+  static Result<HostInstance> load(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+  HostInstance(HostInstance&& other) noexcept;
+  HostInstance& operator=(HostInstance&&) = delete;
+  ~HostInstance();
+
+ private:
+  HostInstance() = default;
+  bool restores_ = false;
+  PFN_vkGetInstanceProcAddr before_ = nullptr;  // what volk used before, or null
+};
 
 }  // namespace medial_vk

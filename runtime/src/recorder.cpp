@@ -215,6 +215,16 @@ void Recorder::barrier() {
 
 void Recorder::barrier_to_host() { pipeline_barrier(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT); }
 
+void Recorder::barrier_to_others() {
+  if (rehearses()) return;
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  context_->vk.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                    0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
 void Recorder::fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word) {
   if (bytes == VK_WHOLE_SIZE && offset <= buffer.size) bytes = buffer.size - offset;
   if (bytes == 0 || !status_.ok()) return;

@@ -41,8 +41,12 @@ class Recorder {
   void barrier();
   void fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word);
   void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset, VkDeviceSize bytes);
+  /// Between what is recorded here and what a host records before or after it, whatever that is.
+  void barrier_to_others();
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
+  /// No timestamps: stages have no times.
+  void measure_nothing() { measures_ = false; }
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
   void begin_stage(const std::string& stage);
   /// Ends the last stage. run_commands() does it; who records into a buffer of its own calls it last.
@@ -84,6 +88,7 @@ class Recorder {
   std::vector<VkQueryPool> timestamps_;
   std::size_t timestamp_count_ = 0;
   std::vector<std::string> stages_;
+  bool measures_ = true;
   Status status_;
 };
 

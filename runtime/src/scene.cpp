@@ -16,15 +16,8 @@ namespace {
 
 static_assert(gpu::kStackSize == Bvh::kMaxDepth);
 
-/// Uploads to `buffer`, which is created if there is none yet, or too small a one.
-Status fill(Context::Impl& context, Arena& arena, std::span<const std::byte> bytes, MemoryKind kind,
-            const char* purpose, Buffer& buffer) {
-  if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
-    Result<Buffer> created = arena.create_buffer(bytes.size(), kind, purpose);
-    if (!created.ok()) return created.error();
-    buffer = created.value();
-  }
-  return upload(context, buffer, bytes);
+Uploader upload_at_once(Context::Impl& context) {
+  return [&context](const Buffer& buffer, std::span<const std::byte> bytes) { return upload(context, buffer, bytes); };
 }
 
 constexpr std::uint32_t kMostClusters = 8192;
@@ -60,11 +53,16 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   device.order = device.bvh_.order();
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.measure(mesh); !status.ok()) return status.error();
-  if (Status status = device.upload_mesh(context, mesh); !status.ok()) return status.error();
+  if (Status status = device.upload_mesh(upload_at_once(context), context.limits, mesh); !status.ok())
+    return status.error();
   return device;
 }
 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
+  return update(context, mesh, upload_at_once(context));
+}
+
+Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader) {
   if (linked_vertices_ != 0 && mesh.vertices.size() != linked_vertices_) {
     return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
                                               " vertices, the one on the device " + std::to_string(linked_vertices_)};
@@ -76,14 +74,19 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
     return status;
   }
   if (Status status = measure(mesh); !status.ok()) return status;
-  if (Status status = upload_mesh(context, mesh); !status.ok()) return status;
+  if (Status status = upload_mesh(uploader, context.limits, mesh); !status.ok()) return status;
   if (linked_vertices_ != 0) {
-    if (Status status = upload_links(context, mesh); !status.ok()) return status;
-    if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
-    if (Status status = upload_open_edges(context, mesh); !status.ok()) return status;
+    if (Status status = upload_all_links(uploader, mesh); !status.ok()) return status;
   }
   intact = true;
   return {};
+}
+
+VkDeviceSize DeviceMesh::update_bytes() const {
+  VkDeviceSize sum = 0;
+  for (const Buffer* b : {&triangles, &tree, &triangle_info, &triangle_links, &corner_cones, &clusters, &open_edges})
+    sum += b->size;
+  return sum;
 }
 
 /// What is known of the mesh as a whole. Error: it has no extent.
@@ -103,30 +106,40 @@ Status DeviceMesh::measure(const MeshView& mesh) {
   return {};
 }
 
-Status DeviceMesh::upload_mesh(Context::Impl& context, const MeshView& mesh) {
+Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh) {
   const UnitTransform to_unit_box = {lower, longest};
   const std::vector<Texel> triangle_data = make_triangle_texels(bvh_, to_unit_box, mesh.flags);
   const std::vector<Texel> tree_data = make_tree_texels(bvh_, to_unit_box);
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
   // Links of vertices are a texel each.
   use_texels =
-      std::max({triangle_data.size(), tree_data.size(), mesh.vertices.size()}) <= context.limits.maxTexelBufferElements;
+      std::max({triangle_data.size(), tree_data.size(), mesh.vertices.size()}) <= limits.maxTexelBufferElements;
   constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
   Status status =
-      upload_texels(context, std::as_bytes(std::span(triangle_data)), "triangles", kFloats, triangles, triangle_texels);
+      fill_texels(uploader, std::as_bytes(std::span(triangle_data)), "triangles", kFloats, triangles, triangle_texels);
   if (!status.ok()) return status;
-  status = upload_texels(context, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats, tree,
-                         tree_texels);
+  status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats, tree,
+                       tree_texels);
   if (!status.ok()) return status;
-  return fill(context, arena_, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
+  return fill(uploader, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
 }
 
-/// To a buffer with a view; each is created if there is none yet. The view is of a buffer that is never read where
-/// kernels read storage.
-Status DeviceMesh::upload_texels(Context::Impl& context, std::span<const std::byte> bytes, const char* purpose,
-                                 VkFormat format, Buffer& buffer, VkBufferView& view) {
+/// To a buffer that is created if there is none yet, or too small a one.
+Status DeviceMesh::fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind,
+                        const char* purpose, Buffer& buffer) {
+  if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
+    Result<Buffer> created = arena_.create_buffer(bytes.size(), kind, purpose);
+    if (!created.ok()) return created.error();
+    buffer = created.value();
+  }
+  return uploader(buffer, bytes);
+}
+
+/// The same with a view. It is of a buffer that is never read where kernels read storage.
+Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose,
+                               VkFormat format, Buffer& buffer, VkBufferView& view) {
   const MemoryKind kind = use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
-  if (Status status = fill(context, arena_, bytes, kind, purpose, buffer); !status.ok()) return status;
+  if (Status status = fill(uploader, bytes, kind, purpose, buffer); !status.ok()) return status;
   if (view != VK_NULL_HANDLE) return {};
   Result<Buffer> viewed = buffer;
   if (!use_texels) viewed = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
@@ -138,38 +151,42 @@ Status DeviceMesh::upload_texels(Context::Impl& context, std::span<const std::by
 }
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
-  if (Status status = upload_links(context, mesh); !status.ok()) return status;
-  if (Status status = upload_clusters(context, mesh); !status.ok()) return status;
-  if (Status status = upload_open_edges(context, mesh); !status.ok()) return status;
+  if (Status status = upload_all_links(upload_at_once(context), mesh); !status.ok()) return status;
   linked_vertices_ = mesh.vertices.size();
   return {};
 }
 
-Status DeviceMesh::upload_links(Context::Impl& context, const MeshView& mesh) {
-  static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
-  const MeshLinks made = make_mesh_links(mesh, order);
-  Status status = upload_texels(context, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
-                                VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
-  if (!status.ok()) return status;
-  return upload_texels(context, std::as_bytes(std::span(made.corners)), "spokes to vertices",
-                       VK_FORMAT_R32G32B32A32_SFLOAT, corner_cones, corner_texels);
+Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh) {
+  if (Status status = upload_links(uploader, mesh); !status.ok()) return status;
+  if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
+  return upload_open_edges(uploader, mesh);
 }
 
-Status DeviceMesh::upload_clusters(Context::Impl& context, const MeshView& mesh) {
+Status DeviceMesh::upload_links(const Uploader& uploader, const MeshView& mesh) {
+  static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
+  const MeshLinks made = make_mesh_links(mesh, order);
+  Status status = fill_texels(uploader, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
+                              VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
+  if (!status.ok()) return status;
+  return fill_texels(uploader, std::as_bytes(std::span(made.corners)), "spokes to vertices",
+                     VK_FORMAT_R32G32B32A32_SFLOAT, corner_cones, corner_texels);
+}
+
+Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mesh) {
   const std::vector<gpu::Cluster> made =
       make_clusters(bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
-  return fill(context, arena_, std::as_bytes(std::span(made)), MemoryKind::kDevice, "clusters of triangles", clusters);
+  return fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kDevice, "clusters of triangles", clusters);
 }
 
-Status DeviceMesh::upload_open_edges(Context::Impl& context, const MeshView& mesh) {
+Status DeviceMesh::upload_open_edges(const Uploader& uploader, const MeshView& mesh) {
   OpenEdges edges;
   if (!mesh.closed) edges = find_open_edges(mesh, {lower, longest}, gpu::kMostOpenEdges);
   open_edge_count = edges.count;
   if (edges.listed.empty()) edges.listed.resize(1);
-  return fill(context, arena_, std::as_bytes(std::span(edges.listed)), MemoryKind::kDevice, "open edges", open_edges);
+  return fill(uploader, std::as_bytes(std::span(edges.listed)), MemoryKind::kDevice, "open edges", open_edges);
 }
 
 Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }

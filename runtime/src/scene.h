@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,9 @@
 #include "tree_types.h"
 
 namespace medial_vk {
+
+/// Where the bytes for a buffer of the device go: there at once, or into memory from which a recorded job copies them.
+using Uploader = std::function<Status(const Buffer& buffer, std::span<const std::byte> bytes)>;
 
 /// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
 /// Kernels address triangles by leaf position.
@@ -38,6 +42,10 @@ struct DeviceMesh {
   /// number of triangles or vertices, an index out of range, a coordinate that is not finite: all stays as it was; no
   /// extent: not intact until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(Context::Impl& context, const MeshView& mesh);
+  /// The same with an uploader of the caller's: the device need not be idle if that is not at once.
+  Status update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader);
+  /// Bytes of all buffers that an update fills.
+  VkDeviceSize update_bytes() const;
 
   /// Adds what the certified extraction asks besides triangles: clusters of them, open edges, and for the dismissal by
   /// pairs edges and vertices. `mesh` as given to create(). Error: kOutOfMemory.
@@ -89,12 +97,15 @@ struct DeviceMesh {
  private:
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
   Status measure(const MeshView& mesh);
-  Status upload_mesh(Context::Impl& context, const MeshView& mesh);
-  Status upload_texels(Context::Impl& context, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
-                       Buffer& buffer, VkBufferView& view);
-  Status upload_links(Context::Impl& context, const MeshView& mesh);
-  Status upload_open_edges(Context::Impl& context, const MeshView& mesh);
-  Status upload_clusters(Context::Impl& context, const MeshView& mesh);
+  Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh);
+  Status upload_all_links(const Uploader& uploader, const MeshView& mesh);
+  Status upload_links(const Uploader& uploader, const MeshView& mesh);
+  Status upload_open_edges(const Uploader& uploader, const MeshView& mesh);
+  Status upload_clusters(const Uploader& uploader, const MeshView& mesh);
+  Status fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind, const char* purpose,
+              Buffer& buffer);
+  Status fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
+                     Buffer& buffer, VkBufferView& view);
 
   Arena arena_;
   Bvh bvh_;                          // input units

@@ -32,7 +32,7 @@ void Recorder::write_timestamp() {
 }
 
 void Recorder::begin_stage(const std::string& stage) {
-  if (context_->timestamp_valid_bits == 0 || !status_.ok() || rehearses()) return;
+  if (!measures_ || context_->timestamp_valid_bits == 0 || !status_.ok() || rehearses()) return;
   write_timestamp();
   if (status_.ok()) stages_.emplace_back(stage);
 }

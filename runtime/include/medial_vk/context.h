@@ -37,12 +37,17 @@ struct ContextOptions {
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 };
 
-/// Owns everything Vulkan. Move-only. Any number may be there at once, on any threads: they share nothing. One context,
-/// with the scenes on it, is for one thread at a time.
+struct HostDevice;  // host_device.h
+
+/// Owns everything Vulkan, or computes on a device that its host owns. Move-only. Any number may be there at once, on
+/// any threads: they share nothing. One context, with the scenes on it, is for one thread at a time.
 class Context {
  public:
   /// Errors: kNoDevice with what was found and why it will not do, kOutOfMemory.
   static Result<Context> create(const ContextOptions& options = {});
+  /// On the host's device, which it must have until the context is gone. Whoever ends the context has waited for what
+  /// was recorded or submitted with it. Errors: kNoDevice, which says why it will not do, kOutOfMemory.
+  static Result<Context> adopt(const HostDevice& host);
   static Result<std::vector<DeviceDescription>> list_devices();
 
   Context(Context&&) noexcept;

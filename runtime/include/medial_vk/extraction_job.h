@@ -1,0 +1,110 @@
+// Extractions recorded into a host's command buffers: medial spheres of a mesh that moves, in buffers that the host
+// draws from or computes with. Nothing is submitted, waited for or read back by recording.
+//
+//   auto job = ExtractionJob::create(context, mesh, parameters);
+//   for every frame:
+//     job.move_vertices(mesh);              // if they have moved
+//     record(commands, job);                // outside of a render pass
+//     ... barriers are recorded: what follows in `commands`, or waits for it, reads job.buffers() ...
+//
+// The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may stick out of the
+// solid by its rounding, 2e-6 of the longest side. (certify_spheres() of the product looks at each in double and drops
+// what does not pass.)
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "medial_vk/context.h"
+#include "medial_vk/extraction.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// One element of JobBuffers::spheres, 64 bytes, std430. Lengths are in the unit box: see Placement.
+struct RecordedSphere {
+  float centre[3];
+  float radius;
+  float spoke_a[3];  ///< Unit vector from the centre to its nearest boundary point.
+  float object_angle;
+  float spoke_b[3];  ///< Unit vector to the boundary point on the other side of the medial sheet.
+  float flux;
+  std::uint32_t voxel[3];
+  std::uint32_t reserved;
+};
+
+/// What JobBuffers::counts holds. The first four words are a VkDrawIndirectCommand: an instance for every sphere.
+struct RecordedCounts {
+  std::uint32_t vertices;  ///< JobOptions::vertices_per_sphere
+  std::uint32_t spheres;
+  std::uint32_t first_vertex;    ///< 0
+  std::uint32_t first_instance;  ///< 0
+  std::uint32_t undecided;       ///< Voxels that are neither found nor proved empty.
+  std::uint32_t complete;        ///< 0: the memory budget was too small, or lists were too long; there are no spheres.
+};
+
+/// From the unit box to the units of the mesh: p -> origin + scale p. Radii are scaled.
+struct Placement {
+  Point origin = {0, 0, 0};
+  double scale = 1;
+};
+
+/// Buffers of the job, of its device and queue family; they stay the same until the job is gone. All have the usages
+/// storage, uniform texel, vertex, indirect, transfer source and destination.
+struct JobBuffers {
+  VkBuffer spheres = VK_NULL_HANDLE;  ///< RecordedSphere, from byte 0 on, in no particular order.
+  VkDeviceSize sphere_bytes = 0;      ///< Size of that buffer.
+  VkBuffer counts = VK_NULL_HANDLE;   ///< RecordedCounts at byte 0.
+};
+
+struct JobOptions {
+  /// Recorded sequences that may wait or run at a time: the one that was recorded so many calls ago has finished when
+  /// move_vertices() and record() are called.
+  std::uint32_t frames = 1;
+  std::uint32_t vertices_per_sphere = 4;  ///< Of RecordedCounts.
+};
+
+/// Move-only. For one thread at a time, as its context is, which outlives it.
+class ExtractionJob {
+ public:
+  /// Takes memory and makes programs, so that recording takes neither; submits and waits where the device's memory is
+  /// not the host's. Errors: kUsage (a parameter out of range, mode thesis, no frames), kInvalidMesh, kOutOfMemory,
+  /// kInternal.
+  static Result<ExtractionJob> create(Context& context, const MeshView& mesh, const ExtractionParameters& parameters,
+                                      const JobOptions& options = {});
+  ExtractionJob(ExtractionJob&&) noexcept;
+  ExtractionJob& operator=(ExtractionJob&&) noexcept;
+  /// What was recorded has finished, or is never submitted.
+  ~ExtractionJob();
+
+  /// The same triangles with other positions, from the next record() on. Refits the tree and measures edges and
+  /// vertices again, on the CPU: some milliseconds for 10,000 triangles. Errors: kInvalidMesh (as DeviceMesh::update in
+  /// runtime/src/scene.h: the job then records the mesh as it was, unless the error says that it has no extent), kUsage
+  /// (the mesh was moved already since the last record()).
+  Status move_vertices(const MeshView& mesh);
+
+  /// Appends to `commands`, which are in the recording state, outside of a render pass, and of the context's queue
+  /// family or one that shares its resources. Barriers before and after order them against everything else in the
+  /// queue, so `buffers()` may be read by any stage of what follows. Errors: kOutOfMemory, kInternal; `commands` are
+  /// then of no use.
+  Status record(VkCommandBuffer commands);
+
+  JobBuffers buffers() const;
+  /// Of the spheres that the last record() will have found.
+  Placement placement() const;
+  /// Of the sequence that was recorded `frames` calls of record() ago (of the last one if it is 1), once it has
+  /// finished. If its lists were too long, the next record() has room for longer ones.
+  RecordedCounts counts();
+
+ private:
+  struct Impl;
+  explicit ExtractionJob(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+inline Status record(VkCommandBuffer commands, ExtractionJob& job) { return job.record(commands); }
+
+}  // namespace medial_vk
