@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -227,6 +228,29 @@ TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_THAT(result.err, HasSubstr("interrupted"));
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "torus.obj"));
+}
+
+// A read, or the opening of a pipe, that would never end.
+TEST_P(Interrupted, EndsAtOnceWhileItWaitsForInput) {
+  ASSERT_EQ(::mkfifo(path("pipe.obj").c_str(), 0600), 0);
+  for (const char* input : {"-", "pipe.obj"}) {
+    test::Tool tool({.arguments = {input, "-o", "p.ply", "--report", "r.json"},
+                     .folder = path(""),
+                     .standard_input = small_part(),
+                     .endless_input = true});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    ASSERT_TRUE(tool.running());
+    const auto sent = std::chrono::steady_clock::now();
+    tool.send(GetParam());
+    // 200 ms on a machine that has nothing else to do.
+    while (tool.running() && std::chrono::steady_clock::now() - sent < std::chrono::seconds(2))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_FALSE(tool.running()) << input;
+    const ToolResult result = tool.wait();
+    EXPECT_EQ(result.exit_code, 130) << input;
+    EXPECT_EQ(result.err, "medial-vk: interrupted; nothing was written\n");
+    EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "pipe.obj"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));
