@@ -15,6 +15,7 @@ function(medial_vk_project_options target)
   if(MEDIAL_VK_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
       -fno-omit-frame-pointer)
+    target_compile_definitions(${target} PRIVATE MEDIAL_VK_SANITIZED)  # for tests that limit memory
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE")
@@ -25,6 +26,7 @@ function(medial_vk_project_options target)
   if(MEDIAL_VK_SANITIZE_THREADS)
     # volk.c too: its global pointers are what threads could race for.
     target_compile_options(${target} PRIVATE -fsanitize=thread -fno-omit-frame-pointer)
+    target_compile_definitions(${target} PRIVATE MEDIAL_VK_SANITIZED)
     target_link_options(${target} PUBLIC -fsanitize=thread)
   endif()
 endfunction()

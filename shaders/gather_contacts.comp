@@ -31,7 +31,7 @@ bool is_listed(Witness witness, vec3 centre, uint cluster) {
 
 uint entries_of(uint cluster) { return step.lists != kListsTriangles ? 1u : clusters[cluster].count; }
 
-// Of eight lanes each; floats as bits, which are in the same order where they are positive.
+// Of eight lanes each; numbers as ordered_bits().
 const uint kMostEights = kMostLanes / kLanes;
 shared uint count_of_eight[kMostEights];
 shared uint least_distance, least_clearance, first_nearest;
@@ -62,10 +62,10 @@ uint find_witness(vec3 centre) {
     distance_here = min(distance_here, d);
     clearance = min(clearance, length(vector_to_box(centre, i)));
   }
-  atomicMin(least_distance, floatBitsToUint(distance_here));
-  atomicMin(least_clearance, floatBitsToUint(clearance));
+  atomicMin(least_distance, ordered_bits(distance_here));
+  atomicMin(least_clearance, ordered_bits(clearance));
   barrier();
-  if (floatBitsToUint(distance_here) == least_distance) atomicMin(first_nearest, name);
+  if (ordered_bits(distance_here) == least_distance) atomicMin(first_nearest, name);
   barrier();
   return first_nearest;
 }

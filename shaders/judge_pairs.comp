@@ -132,7 +132,7 @@ void classify(uint index, Cell cell, float d0, bool has_inner, Remains narrower,
   if (!has_inner || (inside.decided && !inside.feasible)) kind = kNearFace;
   if (!gives_up) cells[index].flags |= kCellSettled;
   atomicMax(reasons[cell.voxel].x, kind + 1u);
-  atomicMax(reasons[cell.voxel].y, floatBitsToUint(width));
+  atomicMax(reasons[cell.voxel].y, ordered_bits(width));
 }
 
 void main() {

@@ -57,6 +57,9 @@ float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1
 // ever: one level below the finest voxel is enough.
 bool is_hopeless(uint flags) { return step.depth >= 1u && (flags & kCellUntrusted) != 0u; }
 
+// A number that is not negative, as bits in the same order. Devices may give a zero either sign.
+uint ordered_bits(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
+
 vec3 unit_or_zero(vec3 v) {
   float squared = dot(v, v);
   return squared > 0.0 ? v * inversesqrt(squared) : vec3(0.0);

@@ -6,4 +6,15 @@ namespace medial_vk::cli {
 void install_interrupt_handlers();
 bool interrupted();
 
+/// While one lives, the first signal ends the program at once, too, with a message and exit code 130. For work that has
+/// nothing to undo and may wait for ever, such as for input that does not come. A signal that came before is not seen
+/// again: ask interrupted() once it lives.
+class EndAtOnce {
+ public:
+  EndAtOnce();
+  EndAtOnce(const EndAtOnce&) = delete;
+  EndAtOnce& operator=(const EndAtOnce&) = delete;
+  ~EndAtOnce();
+};
+
 }  // namespace medial_vk::cli

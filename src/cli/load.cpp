@@ -52,22 +52,18 @@ Result<PreparedMesh> perturb(PreparedMesh prepared, const Options& options) {
 }  // namespace
 
 Result<PreparedMesh> load_mesh(const Options& options, std::vector<StageTime>& times) {
-  const Error stopped = {ErrorCode::kInterrupted, "interrupted"};
+  const EndAtOnce guard;
+  if (interrupted()) return Error{ErrorCode::kInterrupted, "interrupted; nothing was written"};
   Stopwatch stopwatch;
   Result<Mesh> mesh = read_mesh(options.mesh);
   if (!mesh) return mesh.error();
   times.push_back({"read", stopwatch.lap()});
-  if (interrupted()) return stopped;
-
   Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value());
   if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", options.mesh, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
-  if (interrupted()) return stopped;
   if (options.perturb == 0) return prepared;
-
   prepared = perturb(std::move(prepared).value(), options);
   times.push_back({"perturb", stopwatch.lap()});
-  if (interrupted()) return stopped;
   return prepared;
 }
 

@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mesh/parallel_for.h"
 #include "mesh/point_ops.h"
 #include "mesh/winding_number.h"
+#include "mesh/winding_step.h"
 
 namespace medial_vk {
 namespace {
@@ -48,7 +50,7 @@ class SideFinder {
   }
 
  private:
-  /// One value per patch, from its largest triangle: the one whose centroid is farthest from everything, as a rule.
+  /// One value per patch, beside its largest triangle: the one that is farthest from everything, as a rule.
   void evaluate_patches(const std::vector<bool>& is_simple) {
     std::vector<std::uint32_t> largest(parts_.patches, kNone);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -56,11 +58,14 @@ class SideFinder {
       std::uint32_t& best = largest[parts_.patch_of[t]];
       if (best == kNone || area_[t] > area_[best]) best = t;
     }
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t t : largest) {
+      if (t != kNone) places.push_back(place_of_[t]);
+    }
+    std::sort(places.begin(), places.end());
+    const std::vector<float> found = evaluate_closed(places);
     std::vector<float> value(parts_.patches, kUnknown);
-    const WindingTree winding(tree_);
-    parallel_for(parts_.patches, 16, [&](std::size_t patch) {
-      if (largest[patch] != kNone) value[patch] = half_integer(winding.beside(place_of_[largest[patch]]));
-    });
+    for (std::size_t i = 0; i < places.size(); ++i) value[parts_.patch_of[tree_.order[places[i]]]] = found[i];
     std::vector<bool> counted(parts_.components, false);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (!is_simple[parts_.component_of[t]]) continue;
@@ -71,6 +76,25 @@ class SideFinder {
       if (!counted[parts_.component_of[t]]) ++sides_.turned_components;
       counted[parts_.component_of[t]] = true;
     }
+  }
+
+  /// Where patches are large and close to each other, a value from the tree takes a look at every triangle. So most are
+  /// those of their neighbours in the tree, and what lies between.
+  std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& places) const {
+    std::vector<std::optional<int>> step(places.size());
+    parallel_for(places.size(), 16, [&](std::size_t i) {
+      std::uint64_t cost = 0;
+      if (i > 0) step[i] = winding_step(tree_, places[i - 1], places[i], cost);
+    });
+    std::vector<float> value(places.size());
+    const WindingTree winding(tree_);
+    parallel_for(places.size(), 16, [&](std::size_t i) {
+      if (!step[i]) value[i] = half_integer(winding.beside(places[i]));
+    });
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (step[i]) value[i] = value[i - 1] + static_cast<float>(*step[i]);
+    }
+    return value;
   }
 
   /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.

@@ -1,16 +1,17 @@
 // The command line from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "output/medial_file.h"
+#include "support/mesh_files.h"
 #include "support/solids.h"
-#include "tool.h"
+#include "tool_test.h"
 
 namespace medial_vk {
 namespace {
@@ -25,40 +26,21 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-std::string obj_of(const Mesh& mesh) {
-  std::string text;
-  for (const Point& v : mesh.vertices) text += fmt::format("v {:.17g} {:.17g} {:.17g}\n", v[0], v[1], v[2]);
-  for (const Triangle& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
-}
-
 std::string small_part() {
   Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);
   test::rotate(mesh, {1, 2, 3}, 0.4);
-  return obj_of(mesh);
+  return test::to_obj(mesh);
 }
 
-class CommandLine : public testing::Test {
+class CommandLine : public test::ToolTest {
  protected:
   CommandLine() { test::write_file(path("part.obj"), small_part()); }
-
-  std::string path(const std::string& name) const { return folder_.path(name); }
-
-  ToolResult run(const std::vector<std::string>& arguments) const { return run_tool({arguments, path("")}); }
-
-  /// A quick run on the CPU with further options.
-  ToolResult run_cpu(std::vector<std::string> arguments) const {
-    for (const char* argument : {"--backend", "cpu", "--resolution", "12"}) arguments.push_back(argument);
-    return run(arguments);
-  }
 
   MedialFile points(const std::string& name) const {
     Result<MedialFile> file = decode_ply(read_file(path(name)), name);
     EXPECT_TRUE(file.ok()) << (file.ok() ? "" : file.error().message);
     return file.ok() ? std::move(file).value() : MedialFile{};
   }
-
-  test::ScratchFolder folder_;
 };
 
 TEST_F(CommandLine, HelpAndVersionGoToStandardOutput) {
@@ -110,7 +92,7 @@ TEST_F(CommandLine, NoDeviceIs4AndSaysWhatToDo) {
 }
 
 TEST_F(CommandLine, OutOfMemoryIs5) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(MEDIAL_VK_SANITIZED)
   GTEST_SKIP() << "AddressSanitizer needs all of the address space";
 #endif
   ToolCall call = {{"-", "--backend", "cpu"}, path("")};
@@ -218,7 +200,7 @@ class Interrupted : public CommandLine, public testing::WithParamInterface<int> 
 TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
   // Far more work than can be done before the signal comes.
   Mesh torus = test::make_torus(1.0, 0.4, 48, 96);
-  test::write_file(path("torus.obj"), obj_of(torus));
+  test::write_file(path("torus.obj"), test::to_obj(torus));
   test::Tool tool({{"torus.obj", "--backend", "cpu", "--resolution", "512", "--report", "r.json"}, path("")});
   std::this_thread::sleep_for(std::chrono::seconds(2));
   ASSERT_TRUE(tool.running());
@@ -227,6 +209,29 @@ TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_THAT(result.err, HasSubstr("interrupted"));
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "torus.obj"));
+}
+
+// A read, or the opening of a pipe, that would never end.
+TEST_P(Interrupted, EndsAtOnceWhileItWaitsForInput) {
+  ASSERT_EQ(::mkfifo(path("pipe.obj").c_str(), 0600), 0);
+  for (const char* input : {"-", "pipe.obj"}) {
+    test::Tool tool({.arguments = {input, "-o", "p.ply", "--report", "r.json"},
+                     .folder = path(""),
+                     .standard_input = small_part(),
+                     .endless_input = true});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    ASSERT_TRUE(tool.running());
+    const auto sent = std::chrono::steady_clock::now();
+    tool.send(GetParam());
+    // 200 ms on a machine that has nothing else to do.
+    while (tool.running() && std::chrono::steady_clock::now() - sent < std::chrono::seconds(2))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_FALSE(tool.running()) << input;
+    const ToolResult result = tool.wait();
+    EXPECT_EQ(result.exit_code, 130) << input;
+    EXPECT_EQ(result.err, "medial-vk: interrupted; nothing was written\n");
+    EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "pipe.obj"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));

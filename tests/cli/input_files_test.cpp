@@ -4,7 +4,7 @@
 
 #include "support/mesh_files.h"
 #include "support/solids.h"
-#include "tool.h"
+#include "tool_test.h"
 
 namespace medial_vk {
 namespace {
@@ -34,23 +34,12 @@ std::vector<Sample> all_formats() {
           {"stl", test::to_binary_stl(mesh)}};
 }
 
-class InputFiles : public testing::Test {
- protected:
-  std::string path(const std::string& name) const { return folder_.path(name); }
-
-  /// A quick run on the CPU with further arguments.
-  ToolCall call(std::vector<std::string> arguments) const {
-    for (const char* argument : {"--backend", "cpu", "--resolution", "10"}) arguments.push_back(argument);
-    return {std::move(arguments), path("")};
-  }
-
-  test::ScratchFolder folder_;
-};
+using InputFiles = test::ToolTest;
 
 TEST_F(InputFiles, NamesInAnyScriptWithSpacesAndSigns) {
   for (const std::string stem : {"zwei Wörter", "形状 – 1", "a'b\"c$d;e*f?", "-dash", "dots.in.name", "%s %d {}"}) {
     test::write_file(path(stem + ".OBJ"), all_formats()[0].bytes);
-    const ToolResult result = run_tool(call({"./" + stem + ".OBJ", "--report=" + stem + ".json", "--check"}));
+    const ToolResult result = run_cpu({"./" + stem + ".OBJ", "--report=" + stem + ".json", "--check"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(read_file(path(stem + ".medial.ply")), StartsWith("ply\n"));
     EXPECT_THAT(read_file(path(stem + ".json")), StartsWith("{"));
@@ -61,9 +50,9 @@ TEST_F(InputFiles, StandardInputIsReadInEveryFormat) {
   for (const Sample& sample : all_formats()) {
     const std::string name = std::string("mesh.") + sample.extension;
     test::write_file(path(name), sample.bytes);
-    const ToolResult from_file = run_tool(call({name, "-o", "-"}));
+    const ToolResult from_file = run_cpu({name, "-o", "-"});
     ASSERT_EQ(from_file.exit_code, 0) << from_file.err;
-    ToolCall streamed = call({"-", "-o", "-"});
+    ToolCall streamed = cpu_call({"-", "-o", "-"});
     streamed.standard_input = sample.bytes;
     const ToolResult from_stream = run_tool(streamed);
     ASSERT_EQ(from_stream.exit_code, 0) << from_stream.err;
@@ -72,7 +61,7 @@ TEST_F(InputFiles, StandardInputIsReadInEveryFormat) {
 }
 
 TEST_F(InputFiles, NothingOnStandardInputIs3) {
-  const ToolResult result = run_tool(call({"-"}));
+  const ToolResult result = run_cpu({"-"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("standard input: file is empty"));
   EXPECT_THAT(folder_.names(), ElementsAre());
@@ -83,10 +72,10 @@ TEST_F(InputFiles, ADecimalCommaInTheEnvironmentChangesNothing) {
   test::write_file(path("part.obj"), all_formats()[0].bytes);
   const std::vector<std::string> arguments = {"part.obj",  "-o",   "-",        "--ascii",
                                               "--epsilon", "0.02", "--report", "r.json"};
-  const ToolResult plain = run_tool(call(arguments));
+  const ToolResult plain = run_cpu(arguments);
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "ar_EG.UTF-8"}) {
-    ToolCall foreign = call(arguments);
+    ToolCall foreign = cpu_call(arguments);
     for (const char* variable : {"LC_ALL", "LC_NUMERIC", "LANG"}) foreign.environment[variable] = locale;
     const ToolResult result = run_tool(foreign);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -96,7 +85,7 @@ TEST_F(InputFiles, ADecimalCommaInTheEnvironmentChangesNothing) {
 
 // In 64 MiB of address space: memory that a header asks for would end with exit code 5.
 TEST_F(InputFiles, HeadersThatLieTakeNoMemory) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(MEDIAL_VK_SANITIZED)
   GTEST_SKIP() << "AddressSanitizer needs all of the address space";
 #endif
   const std::string xyz = "property char x\nproperty char y\nproperty char z\n";
@@ -107,7 +96,7 @@ TEST_F(InputFiles, HeadersThatLieTakeNoMemory) {
           "ply\nformat ascii 1.0\nelement vertex " + count + "\n" + xyz + "element face 1\n" + list,
           "ply\nformat binary_little_endian 1.0\nelement vertex " + count + "\n" + xyz + "element face 1\n" + list,
           "ply\nformat ascii 1.0\nelement vertex 0\n" + xyz + "element face " + count + "\n" + list}) {
-      ToolCall limited = call({"-"});
+      ToolCall limited = cpu_call({"-"});
       limited.standard_input = bytes;
       limited.address_space = 64ull << 20;
       const ToolResult result = run_tool(limited);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,7 +72,12 @@ std::string read_file(const std::string& path) {
 void write_file(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 Tool::Tool(const ToolCall& call) {
-  write_file(streams_.path("in"), call.standard_input);
+  const std::string in = streams_.path("in");
+  if (call.endless_input) {
+    if (::mkfifo(in.c_str(), 0600) != 0) std::abort();
+    input_ = ::open(in.c_str(), O_RDWR | O_CLOEXEC);
+  }
+  write_file(in, call.standard_input);
   process_ = ::fork();
   if (process_ == 0) become_tool(call, streams_);
 }
@@ -81,6 +87,7 @@ Tool::~Tool() {
     send(SIGKILL);
     wait();
   }
+  if (input_ >= 0) ::close(input_);
 }
 
 void Tool::send(int signal) const { ::kill(process_, signal); }

@@ -41,6 +41,7 @@ struct ToolCall {
   std::string standard_input = {};                      ///< Its bytes.
   std::map<std::string, std::string> environment = {};  ///< Added to the test's own.
   std::uint64_t address_space = 0;                      ///< Limit in bytes, 0: none.
+  bool endless_input = false;  ///< After these bytes of standard input neither more nor an end.
 };
 
 /// A process under way. The destructor kills what was not waited for.
@@ -57,6 +58,7 @@ class Tool {
 
  private:
   pid_t process_ = -1;
+  int input_ = -1;  // the end of a pipe that keeps it open
   int status_ = 0;
   bool ended_ = false;
   ScratchFolder streams_;

@@ -20,7 +20,7 @@
 namespace medial_vk::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(MEDIAL_VK_SANITIZED)
 constexpr bool kSanitized = true;  // what is freed stays in memory for a while: its size says nothing
 #else
 constexpr bool kSanitized = false;

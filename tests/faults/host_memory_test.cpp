@@ -107,6 +107,12 @@ class HostAllocator {
     };
     callbacks_.pfnFree = [](void* self, void* memory) { static_cast<HostAllocator*>(self)->free(memory); };
   }
+  HostAllocator(const HostAllocator&) = delete;
+  HostAllocator& operator=(const HostAllocator&) = delete;
+  /// The driver may have forgotten blocks of its own; tests ask alive() before.
+  ~HostAllocator() {
+    for (const auto& block : sizes_) std::free(block.first);
+  }
   const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
   std::uint64_t allocations() const { return allocations_; }
   std::size_t alive() const { return sizes_.size(); }

@@ -218,7 +218,7 @@ TEST_F(TreeQueriesTest, RefusesWhatCannotBeAnswered) {
   Mesh flat;
   flat.vertices = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   flat.triangles = {{0, 1, 2}};
-  EXPECT_EQ(Scene::create(*context_, view_of(flat)).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(Scene::create(*context_, test::view_of(flat)).error().code, ErrorCode::kInvalidMesh);
 }
 
 }  // namespace

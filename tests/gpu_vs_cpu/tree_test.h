@@ -26,8 +26,6 @@ constexpr double kDistanceTolerance = 2.2e-6;
 
 inline Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 
-inline MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
 struct NamedSolid {
   std::string name;
   Mesh mesh;
@@ -56,7 +54,7 @@ inline std::vector<NamedSolid> solids() {
 class TreeQueriesTest : public test::DeviceTest {
  protected:
   Scene scene_of(const Mesh& mesh) {
-    Result<Scene> scene = Scene::create(*context_, view_of(mesh));
+    Result<Scene> scene = Scene::create(*context_, test::view_of(mesh));
     EXPECT_TRUE(scene.ok());
     return std::move(scene).value();
   }

@@ -259,6 +259,22 @@ void rotate(Mesh& mesh, Point axis, double angle) {
   }
 }
 
+Mesh make_turned_torus(std::uint32_t around, std::uint32_t along) {
+  Mesh mesh = make_torus(1.0, 0.4, around, along);
+  rotate(mesh, {1, 2, 3}, 0.7);
+  return mesh;
+}
+
+MeshView view_of(const Mesh& mesh, bool closed) { return {mesh.vertices, mesh.triangles, {}, closed}; }
+
+Mesh bent(Mesh mesh) {
+  for (Point& p : mesh.vertices) {
+    const double bend = 0.4 * p[0];
+    p = {7 + 1.7 * p[0], p[1] * std::cos(bend) - p[2] * std::sin(bend), p[1] * std::sin(bend) + p[2] * std::cos(bend)};
+  }
+  return mesh;
+}
+
 void translate(Mesh& mesh, Point offset) {
   for (Point& p : mesh.vertices) {
     for (int k = 0; k < 3; ++k) p[k] += offset[k];

@@ -26,6 +26,14 @@ Mesh make_torus(double major, double minor, std::uint32_t around, std::uint32_t 
 /// [0, side]^2 x [0, thickness] with a square hole of side `hole` in the middle.
 Mesh make_plate_with_hole(double side, double thickness, double hole);
 
+/// A torus of radii 1 and 0.4 in a generic position.
+Mesh make_turned_torus(std::uint32_t around = 60, std::uint32_t along = 30);
+
+/// As the runtime takes it, without a trusted normal.
+MeshView view_of(const Mesh& mesh, bool closed = true);
+
+/// Bent about x, stretched and moved away: another box, another unit, no part where it was.
+Mesh bent(Mesh mesh);
 /// Rigid motions and scalings, in place.
 void rotate(Mesh& mesh, Point axis, double angle);
 void translate(Mesh& mesh, Point offset);

@@ -12,23 +12,6 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-Mesh torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 100, 60);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
-/// Bent, stretched and moved away: no box stays where it was.
-Mesh deformed(Mesh mesh) {
-  for (Point& p : mesh.vertices) {
-    const double bend = 0.3 * p[0];
-    p = {5 + 2 * p[0], p[1] * std::cos(bend) - p[2] * std::sin(bend), p[1] * std::sin(bend) + p[2] * std::cos(bend)};
-  }
-  return mesh;
-}
-
 bool same_bytes(const Bvh& a, const Bvh& b) {
   const auto equal = [](const auto& x, const auto& y) {
     return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
@@ -63,33 +46,33 @@ BvhBox expect_least_boxes(const Bvh& bvh, const Mesh& mesh, std::uint32_t index)
 }
 
 TEST(BvhRefit, ChangesNothingWhereNothingMoved) {
-  const Mesh mesh = torus();
+  const Mesh mesh = test::make_turned_torus(100, 60);
   for (const unsigned threads : {1u, 2u, 5u}) {
-    const Bvh built = Bvh::build(view_of(mesh), 4, threads).value();
+    const Bvh built = Bvh::build(test::view_of(mesh), 4, threads).value();
     Bvh refitted = built;
-    ASSERT_TRUE(refitted.refit(view_of(mesh), threads).ok());
+    ASSERT_TRUE(refitted.refit(test::view_of(mesh), threads).ok());
     EXPECT_TRUE(same_bytes(built, refitted));
   }
 }
 
 TEST(BvhRefit, ComesBackToTheSameBytes) {
-  const Mesh mesh = torus(), moved = deformed(mesh);
-  const Bvh built = Bvh::build(view_of(mesh)).value();
+  const Mesh mesh = test::make_turned_torus(100, 60), moved = test::bent(mesh);
+  const Bvh built = Bvh::build(test::view_of(mesh)).value();
   Bvh refitted = built;
-  ASSERT_TRUE(refitted.refit(view_of(moved)).ok());
+  ASSERT_TRUE(refitted.refit(test::view_of(moved)).ok());
   EXPECT_FALSE(same_bytes(built, refitted));
-  ASSERT_TRUE(refitted.refit(view_of(mesh)).ok());
+  ASSERT_TRUE(refitted.refit(test::view_of(mesh)).ok());
   EXPECT_TRUE(same_bytes(built, refitted));
 }
 
 TEST(BvhRefit, FitsTheLeastBoxes) {
-  const Mesh mesh = torus(), moved = deformed(mesh);
+  const Mesh mesh = test::make_turned_torus(100, 60), moved = test::bent(mesh);
   for (const std::uint32_t leaf_size : {1u, 4u, 100u, 100'000u}) {
-    const Bvh built = Bvh::build(view_of(mesh), leaf_size).value();
+    const Bvh built = Bvh::build(test::view_of(mesh), leaf_size).value();
     expect_least_boxes(built, mesh, 0);
     Bvh one = built, many = built;
-    ASSERT_TRUE(one.refit(view_of(moved), 1).ok());
-    ASSERT_TRUE(many.refit(view_of(moved), 7).ok());
+    ASSERT_TRUE(one.refit(test::view_of(moved), 1).ok());
+    ASSERT_TRUE(many.refit(test::view_of(moved), 7).ok());
     EXPECT_TRUE(same_bytes(one, many));
     expect_least_boxes(one, moved, 0);
   }
@@ -98,13 +81,13 @@ TEST(BvhRefit, FitsTheLeastBoxes) {
 // A tree of one triangle finds the distance to that triangle, so all of them together are the slow truth.
 TEST(BvhRefit, FindsTheNearestPoint) {
   Mesh mesh = test::make_torus(1.0, 0.4, 24, 16);
-  Bvh bvh = Bvh::build(view_of(mesh)).value();
-  mesh = deformed(mesh);
-  ASSERT_TRUE(bvh.refit(view_of(mesh)).ok());
+  Bvh bvh = Bvh::build(test::view_of(mesh)).value();
+  mesh = test::bent(mesh);
+  ASSERT_TRUE(bvh.refit(test::view_of(mesh)).ok());
   std::vector<Bvh> alone;
   for (const Triangle& t : mesh.triangles) {
     const Mesh single = {.vertices = mesh.vertices, .triangles = {t}};
-    alone.push_back(Bvh::build(view_of(single)).value());
+    alone.push_back(Bvh::build(test::view_of(single)).value());
   }
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-3, 3);
@@ -126,20 +109,21 @@ TEST(BvhRefit, FindsTheNearestPoint) {
 }
 
 TEST(BvhRefit, RefusesWhatDoesNotFitAndStaysAsItWas) {
-  const Mesh mesh = torus();
-  const Bvh built = Bvh::build(view_of(mesh)).value();
+  const Mesh mesh = test::make_turned_torus(100, 60);
+  const Bvh built = Bvh::build(test::view_of(mesh)).value();
   Bvh bvh = built;
   Mesh fewer = mesh;
   fewer.triangles.pop_back();
-  EXPECT_EQ(bvh.refit(view_of(fewer)).error().message, "the mesh has 11999 triangles, the tree was built over 12000");
-  Mesh broken = deformed(mesh);
+  EXPECT_EQ(bvh.refit(test::view_of(fewer)).error().message,
+            "the mesh has 11999 triangles, the tree was built over 12000");
+  Mesh broken = test::bent(mesh);
   broken.vertices[3][1] = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(bvh.refit(view_of(broken)).error().message, "vertex 3 has a coordinate that is not finite");
-  broken = deformed(mesh);
+  EXPECT_EQ(bvh.refit(test::view_of(broken)).error().message, "vertex 3 has a coordinate that is not finite");
+  broken = test::bent(mesh);
   broken.triangles[77][2] = 6000;
   broken.triangles[9000][0] = 6001;
-  EXPECT_EQ(bvh.refit(view_of(broken)).error().message, "face 77 uses vertex 6000 of 6000");
-  EXPECT_EQ(bvh.refit(view_of(broken)).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(bvh.refit(test::view_of(broken)).error().message, "face 77 uses vertex 6000 of 6000");
+  EXPECT_EQ(bvh.refit(test::view_of(broken)).error().code, ErrorCode::kInvalidMesh);
   EXPECT_TRUE(same_bytes(built, bvh));
 }
 
@@ -147,9 +131,9 @@ TEST(BvhRefit, RefusesWhatDoesNotFitAndStaysAsItWas) {
 TEST(BvhBuild, IsTheSameForAnyNumberOfThreads) {
   const Mesh mesh = test::make_sphere(1.0, 150'000);
   for (const std::uint32_t leaf_size : {1u, 8u}) {
-    const Bvh one = Bvh::build(view_of(mesh), leaf_size, 1).value();
+    const Bvh one = Bvh::build(test::view_of(mesh), leaf_size, 1).value();
     for (const unsigned threads : {2u, 3u, 16u}) {
-      EXPECT_TRUE(same_bytes(one, Bvh::build(view_of(mesh), leaf_size, threads).value()));
+      EXPECT_TRUE(same_bytes(one, Bvh::build(test::view_of(mesh), leaf_size, threads).value()));
     }
   }
 }

@@ -13,14 +13,6 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-Mesh rotated_torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
 /// Nearest point by Ericson's regions, in long double: slow, and sharing nothing with the code under test.
 long double distance_by_regions(const Point& p, const Mesh& mesh, const Triangle& t) {
   using Real = long double;
@@ -99,9 +91,9 @@ void expect_sound(const Bvh& bvh, std::size_t triangles) {
 }
 
 TEST(Bvh, HoldsEveryTriangleOnce) {
-  const Mesh mesh = rotated_torus();
+  const Mesh mesh = test::make_turned_torus();
   for (const std::uint32_t leaf_size : {1u, 4u, 8u}) {
-    const auto bvh = Bvh::build(view_of(mesh), leaf_size);
+    const auto bvh = Bvh::build(test::view_of(mesh), leaf_size);
     ASSERT_TRUE(bvh.ok());
     expect_sound(bvh.value(), mesh.triangles.size());
   }
@@ -109,9 +101,9 @@ TEST(Bvh, HoldsEveryTriangleOnce) {
 
 TEST(Bvh, DoesNotDependOnTheNumberOfThreads) {
   const Mesh mesh = test::make_sphere(1.0, 20000);
-  const auto one = Bvh::build(view_of(mesh), 4, 1);
+  const auto one = Bvh::build(test::view_of(mesh), 4, 1);
   for (const unsigned threads : {2u, 3u, 8u}) {
-    const auto many = Bvh::build(view_of(mesh), 4, threads);
+    const auto many = Bvh::build(test::view_of(mesh), 4, threads);
     ASSERT_EQ(one.value().nodes().size(), many.value().nodes().size());
     EXPECT_EQ(one.value().order(), many.value().order());
     for (std::size_t i = 0; i < one.value().nodes().size(); ++i) {
@@ -128,7 +120,7 @@ TEST(Bvh, StaysShallowWhenTrianglesShrinkGeometrically) {
     mesh.vertices.insert(mesh.vertices.end(), {{x, 0, 0}, {1.2 * x, 0, 0}, {x, 0.2 * x, 0}});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const auto bvh = Bvh::build(view_of(mesh), 1);
+  const auto bvh = Bvh::build(test::view_of(mesh), 1);
   ASSERT_TRUE(bvh.ok());
   expect_sound(bvh.value(), mesh.triangles.size());
 }
@@ -137,7 +129,7 @@ TEST(Bvh, HandlesManyTrianglesInOnePlace) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles.assign(1000, {0, 1, 2});
-  const auto bvh = Bvh::build(view_of(mesh));
+  const auto bvh = Bvh::build(test::view_of(mesh));
   ASSERT_TRUE(bvh.ok());
   expect_sound(bvh.value(), mesh.triangles.size());
   const BvhHit hit = bvh.value().closest({0.2, 0.2, 0.5});
@@ -147,8 +139,8 @@ TEST(Bvh, HandlesManyTrianglesInOnePlace) {
 
 // Both evaluations are within a few units in the last place of coordinates of size about 2: far below 1e-14.
 TEST(Bvh, FindsTheNearestPoint) {
-  const Mesh mesh = rotated_torus();
-  const auto bvh = Bvh::build(view_of(mesh));
+  const Mesh mesh = test::make_turned_torus();
+  const auto bvh = Bvh::build(test::view_of(mesh));
   for (const Point& p : random_points(500, 1, 2.0)) {
     long double truth = std::numeric_limits<long double>::infinity();
     for (const Triangle& t : mesh.triangles) truth = std::min(truth, distance_by_regions(p, mesh, t));
@@ -167,7 +159,7 @@ TEST(Bvh, FindsTheNearestPoint) {
 TEST(Bvh, BreaksTiesByTheSmallestIndex) {
   const Mesh mesh = test::make_box({2, 2, 2});
   for (const std::uint32_t leaf_size : {1u, 2u, 12u}) {
-    const BvhHit hit = Bvh::build(view_of(mesh), leaf_size).value().closest({1, 1, 1});
+    const BvhHit hit = Bvh::build(test::view_of(mesh), leaf_size).value().closest({1, 1, 1});
     EXPECT_EQ(hit.triangle, 0u);
     EXPECT_DOUBLE_EQ(hit.squared_distance, 1.0);
   }
@@ -181,7 +173,7 @@ TEST(Bvh, IsAccurateOnNeedles) {
     Mesh mesh;
     mesh.vertices = {{0.1, 0.2, 0.3}, {0.7, 0.9, 0.6}, {0.7 + width, 0.9 - 0.5 * width, 0.6 + 0.25 * width}};
     mesh.triangles = {{0, 1, 2}};
-    const auto bvh = Bvh::build(view_of(mesh));
+    const auto bvh = Bvh::build(test::view_of(mesh));
     for (const Point& p : random_points(200, static_cast<unsigned>(k), 1.0)) {
       const double distance = std::sqrt(bvh.value().closest(p).squared_distance);
       const Point a = mesh.vertices[0];
@@ -204,12 +196,12 @@ TEST(Bvh, IsAccurateOnNeedles) {
 TEST(Bvh, RefusesWhatIsNoMesh) {
   Mesh mesh = test::make_box({1, 1, 1});
   Mesh empty;
-  EXPECT_EQ(Bvh::build(view_of(empty)).error().message, "the mesh has no triangle");
+  EXPECT_EQ(Bvh::build(test::view_of(empty)).error().message, "the mesh has no triangle");
   mesh.triangles[7][1] = 99;
-  EXPECT_EQ(Bvh::build(view_of(mesh)).error().message, "face 7 uses vertex 99 of 8");
+  EXPECT_EQ(Bvh::build(test::view_of(mesh)).error().message, "face 7 uses vertex 99 of 8");
   mesh = test::make_box({1, 1, 1});
   mesh.vertices[3][2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(Bvh::build(view_of(mesh)).error().message, "vertex 3 has a coordinate that is not finite");
+  EXPECT_EQ(Bvh::build(test::view_of(mesh)).error().message, "vertex 3 has a coordinate that is not finite");
 }
 
 }  // namespace

@@ -12,23 +12,6 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-Mesh torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
-Mesh bent(Mesh mesh) {
-  for (Point& p : mesh.vertices) {
-    const double angle = 0.4 * p[0];
-    p = {7 + 1.7 * p[0], p[1] * std::cos(angle) - p[2] * std::sin(angle),
-         p[1] * std::sin(angle) + p[2] * std::cos(angle)};
-  }
-  return mesh;
-}
-
 UnitTransform unit_box_of(const Bvh& bvh) {
   const BvhBox& box = bvh.nodes()[0].box;
   const Point sides = box.upper - box.lower;
@@ -84,20 +67,20 @@ void expect_bounds_hold(const Bvh& bvh) {
 }
 
 TEST(Clusters, PartTheLeavesAndBoundThem) {
-  const Mesh mesh = torus();
-  expect_bounds_hold(Bvh::build(view_of(mesh), 4).value());
+  const Mesh mesh = test::make_turned_torus();
+  expect_bounds_hold(Bvh::build(test::view_of(mesh), 4).value());
 }
 
 TEST(Clusters, BoundAMeshThatHasMoved) {
-  const Mesh before = torus(), after = bent(before);
-  Bvh bvh = Bvh::build(view_of(before), 4).value();
-  ASSERT_TRUE(bvh.refit(view_of(after)).ok());
+  const Mesh before = test::make_turned_torus(), after = test::bent(before);
+  Bvh bvh = Bvh::build(test::view_of(before), 4).value();
+  ASSERT_TRUE(bvh.refit(test::view_of(after)).ok());
   expect_bounds_hold(bvh);
 }
 
 TEST(Clusters, AnUntrustedNormalFitsNoCone) {
-  const Mesh mesh = torus();
-  const Bvh bvh = Bvh::build(view_of(mesh), 4).value();
+  const Mesh mesh = test::make_turned_torus();
+  const Bvh bvh = Bvh::build(test::view_of(mesh), 4).value();
   std::vector<std::uint8_t> flags(mesh.triangles.size(), kTrustedNormal);
   flags[77] = 0;
   for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), flags, 16, 8192)) {
@@ -109,7 +92,7 @@ TEST(Clusters, AnUntrustedNormalFitsNoCone) {
 }
 
 TEST(Clusters, GrowUntilThereAreFewEnough) {
-  const Bvh bvh = Bvh::build(view_of(torus()), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus()), 4).value();
   const auto number = [&](std::uint32_t most) { return make_clusters(bvh, unit_box_of(bvh), {}, 16, most).size(); };
   const std::size_t all = number(8192);
   EXPECT_GE(all, 3600u / 16);
@@ -120,7 +103,7 @@ TEST(Clusters, GrowUntilThereAreFewEnough) {
 
 TEST(Clusters, AreRunsOfEqualLengthWhereSubtreesAreTooMany) {
   const Mesh mesh = test::make_torus(1.0, 0.4, 100, 100);
-  const Bvh bvh = Bvh::build(view_of(mesh), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(mesh), 4).value();
   const auto clusters = make_clusters(bvh, unit_box_of(bvh), {}, 16, 3);
   ASSERT_EQ(clusters.size(), 3u);  // 20,000 triangles: subtrees of 4,096 are more
   EXPECT_EQ(clusters[0].count, 6667u);

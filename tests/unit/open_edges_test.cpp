@@ -15,10 +15,8 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, false}; }
-
 std::vector<gpu::OpenEdge> open_edges_of(const Mesh& mesh) {
-  return find_open_edges(view_of(mesh), {{0, 0, 0}, 1}, 1000).listed;
+  return find_open_edges(test::view_of(mesh, false), {{0, 0, 0}, 1}, 1000).listed;
 }
 
 Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
@@ -100,7 +98,7 @@ TEST(OpenEdges, EveryHoleHasItsApex) {
 TEST(OpenEdges, AreCountedWhereTheyAreTooManyToList) {
   Mesh mesh = box();
   mesh.triangles.pop_back();
-  const OpenEdges edges = find_open_edges(view_of(mesh), {}, 2);
+  const OpenEdges edges = find_open_edges(test::view_of(mesh, false), {}, 2);
   EXPECT_EQ(edges.count, 3u);
   EXPECT_TRUE(edges.listed.empty());
 }
@@ -114,7 +112,7 @@ TEST(OpenEdges, AnEdgeFromAVertexToItselfIsNone) {
 TEST(OpenEdges, LieInTheUnitBox) {
   Mesh mesh = box();
   mesh.triangles.pop_back();
-  for (const gpu::OpenEdge& e : find_open_edges(view_of(mesh), {{-1, -1, -1}, 4}, 1000).listed) {
+  for (const gpu::OpenEdge& e : find_open_edges(test::view_of(mesh, false), {{-1, -1, -1}, 4}, 1000).listed) {
     EXPECT_GE(e.from.x, 0.25f);
     EXPECT_LE(e.from.x, 0.5f);
   }

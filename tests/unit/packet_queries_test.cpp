@@ -20,14 +20,6 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-Mesh rotated_torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
 struct Answers {
   std::vector<Texel> nearest;
   std::vector<std::uint32_t> hits;
@@ -70,7 +62,7 @@ class PacketQueriesTest : public test::DeviceTest {
   Answers ask_packets(const DeviceMesh& device, const Mesh& mesh, const PacketShape& shape,
                       std::span<const Texel> queries, std::span<const Point> group, std::uint32_t* unresolved) {
     const auto count = static_cast<std::uint32_t>(queries.size());
-    PacketQueries packets = PacketQueries::create(context_->impl(), device, view_of(mesh), count, shape).value();
+    PacketQueries packets = PacketQueries::create(context_->impl(), device, test::view_of(mesh), count, shape).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, group);
     const auto size = static_cast<std::uint32_t>(group.size());
     const Answers answers = run(queries, slots, [&](Recorder& r, auto table, auto asked, auto nearest, auto hits) {
@@ -111,8 +103,8 @@ std::vector<PacketShape> all_shapes(const Context::Impl& context) {
 }
 
 TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
-  const Mesh mesh = rotated_torus();
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
+  const Mesh mesh = test::make_turned_torus();
+  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
   for (const std::uint32_t samples : {1u, 9u, 51u, 130u}) {
     const std::vector<Point> directions = spiral_points(samples);
     std::vector<Texel> queries = samples_of_spheres(directions, 60);
@@ -140,7 +132,7 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
 // At the centre of a sphere every triangle is as near as any other: the walk gives up, a look at all triangles answers.
 TEST_F(PacketQueriesTest, CentreOfASphere) {
   const Mesh mesh = test::make_sphere(1.0, 100000);
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
   const std::vector<Point> around = spiral_points(51);
   std::vector<Texel> queries;
   for (const Point& d : around) {
@@ -175,9 +167,9 @@ TEST(PacketSlots, HoldEveryPointOnce) {
 
 TEST(PacketTreeTexels, WideNodesHoldEveryTriangleOnce) {
   for (const std::size_t triangles : {1, 8, 9, 12, 3600}) {
-    Mesh mesh = triangles <= 12 ? test::make_box({1, 2, 3}) : rotated_torus();
+    Mesh mesh = triangles <= 12 ? test::make_box({1, 2, 3}) : test::make_turned_torus();
     mesh.triangles.resize(triangles);
-    const Bvh bvh = Bvh::build(view_of(mesh), 8).value();
+    const Bvh bvh = Bvh::build(test::view_of(mesh), 8).value();
     for (const std::uint32_t arity : {4u, 8u}) {
       const std::vector<Texel> texels = make_wide_tree_texels(bvh.nodes(), {{0, 0, 0}, 3}, arity);
       std::vector<int> seen(triangles);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <optional>
 
 #include "context_impl.h"
@@ -17,11 +16,8 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
 Mesh rotated_torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
+  Mesh mesh = test::make_turned_torus();
   test::translate(mesh, {7, -3, 2});
   return mesh;
 }
@@ -34,7 +30,7 @@ TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
   const auto most = std::min<std::uint64_t>(seen, DeviceMesh::kMostTriangles);
   Mesh mesh = test::make_box({1, 1, 1});
   mesh.triangles.resize(most + 1, mesh.triangles[0]);
-  const Result<DeviceMesh> device = DeviceMesh::create(context_->impl(), view_of(mesh));
+  const Result<DeviceMesh> device = DeviceMesh::create(context_->impl(), test::view_of(mesh));
   ASSERT_FALSE(device.ok());
   EXPECT_EQ(device.error().code, ErrorCode::kOutOfMemory);
   EXPECT_NE(device.error().message.find("the mesh has " + std::to_string(most + 1) + " triangles"), std::string::npos);
@@ -43,7 +39,7 @@ TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
 
 TEST_F(SceneTest, UnitBox) {
   const Mesh mesh = rotated_torus();
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
   double largest = 0;
   for (const Point& p : mesh.vertices) {
     const Point unit = device.to_unit(p);
@@ -63,11 +59,11 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
   for (const Point& d : spiral_points(300)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
-  Scene with_texels = Scene::create(*context_, view_of(mesh)).value();
+  Scene with_texels = Scene::create(*context_, test::view_of(mesh)).value();
   const auto expected = with_texels.closest_points(points).value();
   const auto expected_numbers = with_texels.winding_numbers(points).value();
   context_->impl().limits.maxTexelBufferElements = 1000;
-  Scene without = Scene::create(*context_, view_of(mesh)).value();
+  Scene without = Scene::create(*context_, test::view_of(mesh)).value();
   const auto found = without.closest_points(points).value();
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(found[i].triangle, expected[i].triangle);
@@ -80,7 +76,7 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
 TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   Context::Impl& context = context_->impl();
   const Mesh mesh = test::make_sphere(1.0, 100000);
-  const DeviceMesh device = DeviceMesh::create(context, view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   TreeQueries queries = TreeQueries::create(context, device, 64).value();
   Arena arena(context);
   const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
@@ -107,7 +103,7 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
 // One invocation adds up all samples of a sphere; lavapipe would end its loop silently after 65,535 of them.
 TEST_F(SceneTest, TakesAsManyFluxSamplesAsItCanAddUp) {
   const Mesh mesh = test::make_box({1.0, 0.7, 0.45});
-  Scene scene = Scene::create(*context_, view_of(mesh)).value();
+  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
   const std::vector<Ball> spheres = {{{0.5, 0.35, 0.2}, 0.1}};
   const double expected = scene.fluxes(spheres, 4000).value()[0].flux;
   EXPECT_NEAR(scene.fluxes(spheres, 60000).value()[0].flux, expected, 1e-3);

@@ -19,23 +19,6 @@
 namespace medial_vk {
 namespace {
 
-MeshView view_of(const Mesh& mesh) { return {mesh.vertices, mesh.triangles, {}, true}; }
-
-Mesh torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 60, 30);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
-/// Bent and stretched about x: another box, another unit.
-Mesh deformed(Mesh mesh) {
-  for (Point& p : mesh.vertices) {
-    const double bend = 0.4 * p[0];
-    p = {7 + 1.7 * p[0], p[1] * std::cos(bend) - p[2] * std::sin(bend), p[1] * std::sin(bend) + p[2] * std::cos(bend)};
-  }
-  return mesh;
-}
-
 class SceneUpdate : public test::DeviceTest {
  protected:
   struct Nearest {
@@ -92,16 +75,16 @@ std::vector<Point> points_around(const Point& centre) {
 
 TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
   Context::Impl& context = context_->impl();
-  const Mesh before = torus(), after = deformed(before);
+  const Mesh before = test::make_turned_torus(), after = test::bent(before);
   for (const bool texels : {true, false}) {
     SCOPED_TRACE(texels);
     if (!texels) context.limits.maxTexelBufferElements = 1000;
-    DeviceMesh moved = DeviceMesh::create(context, view_of(before)).value();
+    DeviceMesh moved = DeviceMesh::create(context, test::view_of(before)).value();
     const TreeQueries queries = TreeQueries::create(context, moved, 1024).value();
     const auto first = closest(queries, moved, points_around({0, 0, 0}));
-    ASSERT_TRUE(moved.update(context, view_of(after)).ok());
+    ASSERT_TRUE(moved.update(context, test::view_of(after)).ok());
 
-    const DeviceMesh fresh = DeviceMesh::create(context, view_of(after)).value();
+    const DeviceMesh fresh = DeviceMesh::create(context, test::view_of(after)).value();
     const TreeQueries fresh_queries = TreeQueries::create(context, fresh, 1024).value();
     EXPECT_EQ(moved.lower, fresh.lower);
     EXPECT_EQ(moved.upper, fresh.upper);
@@ -109,45 +92,46 @@ TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
     const std::vector<Point> points = points_around({7, 0, 0});
     EXPECT_TRUE(closest(queries, moved, points) == closest(fresh_queries, fresh, points));
 
-    ASSERT_TRUE(moved.update(context, view_of(before)).ok());
+    ASSERT_TRUE(moved.update(context, test::view_of(before)).ok());
     EXPECT_TRUE(closest(queries, moved, points_around({0, 0, 0})) == first);
   }
 }
 
 TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
   Context::Impl& context = context_->impl();
-  const Mesh mesh = torus();
-  DeviceMesh device = DeviceMesh::create(context, view_of(mesh)).value();
+  const Mesh mesh = test::make_turned_torus();
+  DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   const TreeQueries queries = TreeQueries::create(context, device, 1024).value();
   const std::vector<Point> points = points_around({0, 0, 0});
   const auto before = closest(queries, device, points);
-  Mesh wrong = deformed(mesh);
+  Mesh wrong = test::bent(mesh);
   wrong.triangles.pop_back();
-  EXPECT_EQ(device.update(context, view_of(wrong)).error().code, ErrorCode::kInvalidMesh);
-  wrong = deformed(mesh);
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().code, ErrorCode::kInvalidMesh);
+  wrong = test::bent(mesh);
   wrong.vertices[5][0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(device.update(context, view_of(wrong)).error().message, "vertex 5 has a coordinate that is not finite");
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
+            "vertex 5 has a coordinate that is not finite");
   EXPECT_TRUE(closest(queries, device, points) == before);
 
-  ASSERT_TRUE(device.add_links(context, view_of(mesh)).ok());
-  wrong = deformed(mesh);
+  ASSERT_TRUE(device.add_links(context, test::view_of(mesh)).ok());
+  wrong = test::bent(mesh);
   wrong.vertices.push_back({0, 0, 0});
-  EXPECT_EQ(device.update(context, view_of(wrong)).error().message,
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
             "the mesh has 1801 vertices, the one on the device 1800");
-  ASSERT_TRUE(device.update(context, view_of(deformed(mesh))).ok());
+  ASSERT_TRUE(device.update(context, test::view_of(test::bent(mesh))).ok());
 
   wrong = mesh;
   std::fill(wrong.vertices.begin(), wrong.vertices.end(), Point{1, 1, 1});
-  EXPECT_EQ(device.update(context, view_of(wrong)).error().message,
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
             "the mesh has no extent, or one too large for a double");
 }
 
 // The public call: points that are answered one by one, and thousands that are answered by packets.
 TEST_F(SceneUpdate, ScenesAnswerAsNewOnes) {
-  const Mesh mesh = torus(), moved = deformed(mesh);
-  Scene scene = Scene::create(*context_, view_of(mesh)).value();
-  ASSERT_TRUE(scene.update(view_of(moved)).ok());
-  Scene fresh = Scene::create(*context_, view_of(moved)).value();
+  const Mesh mesh = test::make_turned_torus(), moved = test::bent(mesh);
+  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
+  ASSERT_TRUE(scene.update(test::view_of(moved)).ok());
+  Scene fresh = Scene::create(*context_, test::view_of(moved)).value();
   for (const std::size_t count : {100u, 6000u}) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -161,7 +145,7 @@ TEST_F(SceneUpdate, ScenesAnswerAsNewOnes) {
   }
   Mesh smaller = mesh;
   smaller.triangles.pop_back();
-  EXPECT_EQ(scene.update(view_of(smaller)).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(scene.update(test::view_of(smaller)).error().code, ErrorCode::kInvalidMesh);
 }
 
 }  // namespace
