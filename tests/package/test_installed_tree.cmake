@@ -18,6 +18,16 @@ function(run what)
   set(output "${stdout}" PARENT_SCOPE)
 endfunction()
 
+# A program with a Vulkan device of its own; or no device.
+function(run_host what program)
+  execute_process(COMMAND ${program} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(errors MATCHES "no Vulkan device")
+    message("SKIPPED: running ${what}, there is no Vulkan device")
+  elseif(NOT result EQUAL 0 OR NOT output MATCHES "[1-9][0-9]* medial spheres of a box")
+    message(FATAL_ERROR "${what}: exit status ${result}\n${output}${errors}")
+  endif()
+endfunction()
+
 # At most one line per medial sphere of a box of 3 x 2 x 1, each inside the box, none thicker than it; or no device.
 function(run_embed what program)
   execute_process(COMMAND ${program} RESULT_VARIABLE result OUTPUT_VARIABLE spheres ERROR_VARIABLE errors)
@@ -86,6 +96,7 @@ run("consumer: build" ${CMAKE_COMMAND} --build ${work}/consumer --config ${CONFI
 run("consumer: with the loader" ${work}/consumer/loader_host)
 run("consumer: with its own volk" ${work}/consumer/volk_host)
 run_embed("find_package" ${work}/consumer/embed)
+run_host("find_package" ${work}/consumer/minimal_host)
 
 # pkg-config
 get_filename_component(pc_folder ${medial_vk.pc} DIRECTORY)
@@ -96,6 +107,9 @@ separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
 run("pkg-config: build" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_DIR}/examples/embed.cpp ${flags}
   -o ${work}/embed_pkg_config)
 run_embed("pkg-config" ${work}/embed_pkg_config)
+run("pkg-config: build a host" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_DIR}/examples/minimal_host.cpp ${flags}
+  -lvulkan -o ${work}/minimal_host_pkg_config)
+run_host("pkg-config" ${work}/minimal_host_pkg_config)
 
 # add_subdirectory
 run("embedded: configure" ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package/embedded -B ${work}/embedded -G ${GENERATOR}

@@ -1,0 +1,12 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+#include "camera.glsl"
+layout(location = 0) in vec3 world;
+layout(location = 1) in vec3 world_normal;
+layout(location = 0) out vec4 colour;
+
+void main() {
+  vec3 to_eye = normalize(eye.xyz - world), n = normalize(world_normal);
+  float grazing = 1.0 - abs(dot(n, to_eye));
+  colour = vec4(shade(vec3(0.62, 0.72, 0.85), n, to_eye), mix(0.12, 0.55, grazing * grazing));
+}

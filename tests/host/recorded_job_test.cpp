@@ -1,0 +1,345 @@
+// A host with a device of its own, under the validation layer where there is one: what it records gives the spheres of
+// extract_medial_spheres(), mesh after mesh, and leaves its device as it was.
+#include <gtest/gtest.h>
+#include <medial_vk/extraction_job.h>
+#include <medial_vk/host_device.h>
+#include <medial_vk/queries.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "deforming_torus.h"
+#include "support/device.h"
+#include "vulkan_host.h"
+
+namespace medial_vk::test {
+namespace {
+
+using Voxel = std::array<std::uint32_t, 3>;
+
+HostDevice host_device(const VulkanHost& vulkan) {
+  HostDevice host;
+  host.get_instance_proc_addr = vkGetInstanceProcAddr;
+  host.instance = vulkan.instance;
+  host.physical_device = vulkan.physical_device;
+  host.device = vulkan.device;
+  host.queue = vulkan.queue;
+  host.queue_family = vulkan.queue_family;
+  host.enabled_features = vulkan.features;
+  host.cache_folder = "/dev/null";
+  return host;
+}
+
+ExtractionParameters parameters_for(std::uint32_t resolution) {
+  ExtractionParameters p;
+  p.resolution = resolution;
+  p.memory_budget = 256u << 20;
+  return p;
+}
+
+/// A mesh with few triangles that is not a torus: its box has another shape.
+class Box {
+ public:
+  explicit Box(double height)
+      : vertices_{{0, 0, 0},      {3, 0, 0},      {3, 2, 0},      {0, 2, 0},
+                  {0, 0, height}, {3, 0, height}, {3, 2, height}, {0, 2, height}} {}
+  MeshView view() const { return {vertices_, triangles_, flags_, true}; }
+
+ private:
+  std::vector<Point> vertices_;
+  std::vector<Triangle> triangles_ = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                      {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  std::vector<std::uint8_t> flags_ = std::vector<std::uint8_t>(12, kTrustedNormal);
+};
+
+/// What came of a recorded sequence, copied to the host behind it in the same command buffer.
+struct Recorded {
+  RecordedCounts counts;
+  std::vector<RecordedSphere> spheres;  // by voxel
+};
+
+class RecordedJob : public testing::Test {
+ protected:
+  void SetUp() override {
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    vulkan_ = std::make_unique<VulkanHost>();
+    auto info = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+    info.queueFamilyIndex = vulkan_->queue_family;
+    ASSERT_EQ(vkCreateCommandPool(vulkan_->device, &info, nullptr, &pool_), VK_SUCCESS);
+  }
+  void TearDown() override {
+    if (!vulkan_) return;
+    vkDestroyCommandPool(vulkan_->device, pool_, nullptr);
+    EXPECT_EQ(vulkan_->validation_messages(), 0u);
+  }
+
+  Context adopt() {
+    Result<Context> context = Context::adopt(host_device(*vulkan_));
+    EXPECT_TRUE(context.ok()) << context.error().message;
+    return std::move(context).value();
+  }
+
+  VkCommandBuffer begin() {
+    auto allocation = vulkan_struct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    allocation.commandPool = pool_;
+    allocation.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    EXPECT_EQ(vkAllocateCommandBuffers(vulkan_->device, &allocation, &commands), VK_SUCCESS);
+    const auto info = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    EXPECT_EQ(vkBeginCommandBuffer(commands, &info), VK_SUCCESS);
+    return commands;
+  }
+
+  void end_and_submit(VkCommandBuffer commands) {
+    EXPECT_EQ(vkEndCommandBuffer(commands), VK_SUCCESS);
+    auto info = vulkan_struct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
+    EXPECT_EQ(vkQueueSubmit(vulkan_->queue, 1, &info, VK_NULL_HANDLE), VK_SUCCESS);
+  }
+
+  HostBuffer copy_of(VkCommandBuffer commands, VkBuffer from, VkDeviceSize bytes) {
+    const HostBuffer to = vulkan_->create_buffer(bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const VkBufferCopy region = {0, 0, bytes};
+    vkCmdCopyBuffer(commands, from, to.handle, 1, &region);
+    auto barrier = vulkan_struct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                         nullptr, 0, nullptr);
+    return to;
+  }
+
+  /// Records, submits, waits, and compares what the job says of itself.
+  Recorded run(ExtractionJob& job) {
+    const VkCommandBuffer commands = begin();
+    const Status status = record(commands, job);
+    EXPECT_TRUE(status.ok()) << status.error().message;
+    const JobBuffers buffers = job.buffers();
+    HostBuffer counts = copy_of(commands, buffers.counts, sizeof(RecordedCounts));
+    HostBuffer spheres = copy_of(commands, buffers.spheres, buffers.sphere_bytes);
+    end_and_submit(commands);
+    EXPECT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
+    Recorded out;
+    std::memcpy(&out.counts, counts.mapped, sizeof(out.counts));
+    const RecordedCounts told = job.counts();
+    EXPECT_EQ(std::memcmp(&told, &out.counts, sizeof(told)), 0);
+    const auto* first = static_cast<const RecordedSphere*>(spheres.mapped);
+    out.spheres.assign(first, first + out.counts.spheres);
+    std::ranges::sort(out.spheres, {},
+                      [](const RecordedSphere& s) { return std::tuple(s.voxel[2], s.voxel[1], s.voxel[0]); });
+    vulkan_->destroy(counts);
+    vulkan_->destroy(spheres);
+    return out;
+  }
+
+  /// The same spheres as an extraction of its own finds, to the rounding of the change of units.
+  void expect_same(Context& context, const MeshView& mesh, const ExtractionParameters& parameters,
+                   const Recorded& recorded, const Placement& placement) {
+    const Result<Extraction> direct = extract_medial_spheres(context, mesh, parameters);
+    ASSERT_TRUE(direct.ok()) << direct.error().message;
+    EXPECT_EQ(recorded.counts.complete, 1u);
+    EXPECT_EQ(recorded.counts.undecided, direct.value().undecided.size());
+    ASSERT_EQ(recorded.spheres.size(), direct.value().spheres.size());
+    ASSERT_GT(recorded.spheres.size(), 0u);
+    for (std::size_t i = 0; i < recorded.spheres.size(); ++i) {
+      const RecordedSphere& r = recorded.spheres[i];
+      const MedialSphere& s = direct.value().spheres[i];
+      EXPECT_EQ((Voxel{r.voxel[0], r.voxel[1], r.voxel[2]}), s.voxel);
+      // One product and one sum in double, of the same floats.
+      const double unit = 1e-15 * (placement.scale + std::abs(placement.origin[0]));
+      EXPECT_NEAR(placement.origin[0] + placement.scale * double{r.centre[0]}, s.centre[0], unit);
+      EXPECT_NEAR(placement.scale * double{r.radius}, s.radius, unit);
+      EXPECT_EQ(r.object_angle, s.object_angle);
+      EXPECT_EQ(r.flux, s.flux);
+      EXPECT_EQ(r.spoke_b[2], s.spoke_b[2]);
+    }
+  }
+
+  void expect_equal(const Recorded& a, const Recorded& b) {
+    ASSERT_EQ(a.spheres.size(), b.spheres.size());
+    // The slot, which is no part of the result, depends on the order of the device's threads.
+    for (std::size_t i = 0; i < a.spheres.size(); ++i)
+      EXPECT_EQ(std::memcmp(&a.spheres[i], &b.spheres[i], offsetof(RecordedSphere, reserved)), 0) << "sphere " << i;
+  }
+
+  template <class Meshes>
+  void expect_followed(const Meshes& meshes, const ExtractionParameters& parameters);
+
+  std::unique_ptr<VulkanHost> vulkan_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+};
+
+TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
+  Context context = adopt();
+  const DeformingTorus torus(24, 48);
+  const ExtractionParameters parameters = parameters_for(48);
+  auto job = ExtractionJob::create(context, torus.view(), parameters, {1, 6});
+  ASSERT_TRUE(job.ok()) << job.error().message;
+  const Recorded recorded = run(job.value());
+  EXPECT_EQ(recorded.counts.vertices, 6u);
+  EXPECT_EQ(recorded.counts.first_vertex, 0u);
+  EXPECT_EQ(recorded.counts.first_instance, 0u);
+  expect_same(context, torus.view(), parameters, recorded, job.value().placement());
+}
+
+/// Centres inside and radii that are distances, as a scene of the mesh, which has a tree of its own, measures them:
+/// both are wrong by the bound of the device's rounding at most, 2e-6 of the longest side.
+void expect_medial(Context& context, const MeshView& mesh, const Recorded& recorded, const Placement& placement) {
+  EXPECT_EQ(recorded.counts.complete, 1u);
+  ASSERT_GT(recorded.spheres.size(), 100u);
+  Result<Scene> scene = Scene::create(context, mesh);
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  std::vector<Point> centres;
+  for (const RecordedSphere& s : recorded.spheres) {
+    Point& p = centres.emplace_back();
+    for (int k = 0; k < 3; ++k) p[k] = placement.origin[k] + placement.scale * double{s.centre[k]};
+  }
+  const auto nearest = scene.value().closest_points(centres);
+  const auto winding = scene.value().winding_numbers(centres);
+  ASSERT_TRUE(nearest.ok() && winding.ok());
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const double radius = placement.scale * double{recorded.spheres[i].radius};
+    EXPECT_NEAR(radius, nearest.value()[i].distance, 2 * 2e-6 * placement.scale);
+    EXPECT_GT(winding.value()[i], 0.5);
+  }
+}
+
+/// What was recorded before makes no difference: the last mesh of a sequence gives what it gives alone. (A mesh that
+/// was moved has the tree of the one before, so its spheres are not those of a new one to the last bit.)
+template <class Meshes>
+void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionParameters& parameters) {
+  Context context = adopt();
+  const auto create = [&] { return ExtractionJob::create(context, meshes.front().view(), parameters).value(); };
+  ExtractionJob job = create();
+  for (const auto& mesh : meshes) {
+    const Status moved = job.move_vertices(mesh.view());
+    ASSERT_TRUE(moved.ok()) << moved.error().message;
+    const Recorded recorded = run(job);
+    expect_medial(context, mesh.view(), recorded, job.placement());
+    ExtractionJob alone = create();
+    ASSERT_TRUE(alone.move_vertices(mesh.view()).ok());
+    expect_equal(recorded, run(alone));
+  }
+  // Without a move: the mesh as it was.
+  const Recorded last = run(job);
+  expect_medial(context, meshes.back().view(), last, job.placement());
+}
+
+TEST_F(RecordedJob, FollowsAMeshThatMoves) {
+  std::vector<DeformingTorus> meshes;
+  for (const double phase : {0.2, 0.6, 0.6, 0.9}) meshes.emplace_back(24, 48).deform(phase);
+  expect_followed(meshes, parameters_for(40));
+}
+
+TEST_F(RecordedJob, FollowsABoxOfAnotherShape) {
+  std::vector<Box> meshes;
+  for (const double height : {0.3, 1.0, 5.0, 0.5}) meshes.emplace_back(height);
+  expect_followed(meshes, parameters_for(30));
+}
+
+TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
+  Context context = adopt();
+  const ExtractionParameters parameters = parameters_for(30);
+  auto job = ExtractionJob::create(context, Box(1).view(), parameters, {2, 4});
+  ASSERT_TRUE(job.ok()) << job.error().message;
+  std::array<RecordedCounts, 2> expected;
+  const std::array<double, 2> heights = {0.5, 2.0};
+  for (int i = 0; i < 2; ++i) {
+    const auto direct = extract_medial_spheres(context, Box(heights[i]).view(), parameters);
+    ASSERT_TRUE(direct.ok());
+    expected[i].spheres = static_cast<std::uint32_t>(direct.value().spheres.size());
+  }
+  ASSERT_NE(expected[0].spheres, expected[1].spheres);
+  for (const double height : heights) {
+    ASSERT_TRUE(job.value().move_vertices(Box(height).view()).ok());
+    const VkCommandBuffer commands = begin();
+    ASSERT_TRUE(record(commands, job.value()).ok());
+    end_and_submit(commands);
+  }
+  ASSERT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
+  EXPECT_EQ(job.value().counts().spheres, expected[0].spheres);  // of the older one
+}
+
+TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
+  Context context = adopt();
+  ExtractionParameters parameters = parameters_for(160);
+  parameters.memory_budget = 8u << 20;
+  auto job = ExtractionJob::create(context, Box(1).view(), parameters);
+  ASSERT_TRUE(job.ok()) << job.error().message;
+  const Recorded recorded = run(job.value());
+  EXPECT_EQ(recorded.counts.complete, 0u);
+  EXPECT_EQ(recorded.counts.spheres, 0u);
+}
+
+// Lists longer than one round reads: the sequence says so, and the next one has more rounds.
+TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
+  Context context = adopt();
+  const DeformingTorus torus(200, 300);
+  const ExtractionParameters parameters = parameters_for(2);  // every voxel meets nearly all 120,000 triangles
+  auto job = ExtractionJob::create(context, torus.view(), parameters);
+  ASSERT_TRUE(job.ok()) << job.error().message;
+  Recorded recorded = run(job.value());
+  EXPECT_EQ(recorded.counts.complete, 0u);
+  for (int tries = 0; tries < 3 && recorded.counts.complete == 0; ++tries) recorded = run(job.value());
+  expect_same(context, torus.view(), parameters, recorded, job.value().placement());
+}
+
+TEST_F(RecordedJob, RefusesWhatCannotBeRecorded) {
+  Context context = adopt();
+  const Box box(1);
+  ExtractionParameters parameters = parameters_for(20);
+  parameters.mode = Mode::kThesis;
+  EXPECT_EQ(ExtractionJob::create(context, box.view(), parameters).error().code, ErrorCode::kUsage);
+  parameters.mode = Mode::kCertified;
+  EXPECT_EQ(ExtractionJob::create(context, box.view(), parameters, {0, 4}).error().code, ErrorCode::kUsage);
+  auto job = ExtractionJob::create(context, box.view(), parameters);
+  ASSERT_TRUE(job.ok());
+  // Flat in all directions.
+  std::vector<Point> together(8, Point{1, 1, 1});
+  MeshView collapsed = box.view();
+  collapsed.vertices = together;
+  EXPECT_EQ(job.value().move_vertices(collapsed).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(record(begin(), job.value()).error().code, ErrorCode::kInvalidMesh);
+  ASSERT_TRUE(job.value().move_vertices(box.view()).ok());
+  EXPECT_EQ(job.value().move_vertices(box.view()).error().code, ErrorCode::kUsage);
+  const Recorded recorded = run(job.value());
+  expect_same(context, box.view(), parameters, recorded, job.value().placement());
+}
+
+TEST_F(RecordedJob, TheDeviceOutlivesItsContexts) {
+  const Box box(1);
+  for (int i = 0; i < 3; ++i) {
+    Context context = adopt();
+    auto job = ExtractionJob::create(context, box.view(), parameters_for(20));
+    ASSERT_TRUE(job.ok());
+    EXPECT_EQ(run(job.value()).counts.complete, 1u);
+    // And one of its own beside it.
+    Result<Context> own = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
+    ASSERT_TRUE(own.ok());
+    EXPECT_TRUE(extract_medial_spheres(own.value(), box.view(), parameters_for(20)).ok());
+  }
+}
+
+TEST_F(RecordedJob, AHostThatWillNotDoIsToldWhy) {
+  HostDevice host = host_device(*vulkan_);
+  EXPECT_TRUE(check_device(host).ok());
+  host.queue_family = 99;
+  EXPECT_NE(check_device(host).error().message.find("its queue family 99 does not compute"), std::string::npos);
+  host = host_device(*vulkan_);
+  host.api_version = VK_API_VERSION_1_1;
+  EXPECT_NE(Context::adopt(host).error().message.find("older than Vulkan 1.2"), std::string::npos);
+  host = host_device(*vulkan_);
+  host.device = VK_NULL_HANDLE;
+  EXPECT_EQ(Context::adopt(host).error().code, ErrorCode::kNoDevice);
+  host = {};
+  EXPECT_EQ(check_device(host).error().code, ErrorCode::kNoDevice);
+}
+
+}  // namespace
+}  // namespace medial_vk::test
