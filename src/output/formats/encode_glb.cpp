@@ -115,14 +115,16 @@ class GlbEncoder {
             {"indices", glb_.add_indices(corners, GltfComponent::kUnsignedShort)}};
   }
 
+  /// With the digits of doubles: programs that read nodes as doubles and those that read floats get the same numbers.
   void append_node(std::string& out, std::size_t i, std::uint32_t mesh) const {
     const MedialSphere& sphere = spheres_[i];
     const GlbBall ball = glb_ball(sphere, middle_);
+    const std::array<double, 3> centre = {ball.centre[0], ball.centre[1], ball.centre[2]};
+    const double radius = ball.radius;
     fmt::format_to(std::back_inserter(out),
                    ",{{\"mesh\":{},\"name\":\"{}\",\"translation\":[{},{},{}],\"scale\":[{},{},{}],\"extras\":"
                    "{{\"object_angle\":{},\"sheet\":{}}}}}",
-                   mesh, i, ball.centre[0], ball.centre[1], ball.centre[2], ball.radius, ball.radius, ball.radius,
-                   sphere.object_angle, sphere.sheet);
+                   mesh, i, centre[0], centre[1], centre[2], radius, radius, radius, sphere.object_angle, sphere.sheet);
   }
 
   GltfJson instances_node(std::uint32_t mesh, const Indices& indices) {
