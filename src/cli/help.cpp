@@ -27,7 +27,7 @@ Output:
       --ascii           PLY as text instead of binary
       --mesh-spheres    balls as one triangle mesh, .ply or .glb (default:
                         MESH's name with .spheres.ply)
-      --sphere-detail D how finely balls are cut into triangles, 0 to 5: 20 to
+      --sphere-detail N how finely balls are cut into triangles, 0 to 5: 20 to
                         20480 each (default 2: 320; less where --mesh-spheres
                         would make a file of more than 4 GiB)
       --gpu-instancing  .glb with the extension EXT_mesh_gpu_instancing: small

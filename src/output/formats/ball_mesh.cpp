@@ -106,8 +106,8 @@ double inscribed_radius(const Point& centre, double radius, double rounding) {
 }
 
 Result<std::string> encode_ball_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii,
-                                         std::optional<std::uint32_t> wanted) {
-  const Result<std::uint32_t> detail = choose_sphere_detail(wanted, spheres.size(), bytes_per_ball);
+                                         std::optional<std::uint32_t> wanted_detail) {
+  const Result<std::uint32_t> detail = choose_sphere_detail(wanted_detail, spheres.size(), bytes_per_ball);
   if (!detail) return detail.error();
   const Icosphere unit = make_icosphere(detail.value());
   std::string out = ply_header(header, spheres.size(), detail.value(), ascii);

@@ -25,6 +25,6 @@ double inscribed_radius(const Point& centre, double radius, double rounding);
 /// A PLY with the vertices of ball after ball in the order of `spheres`, each with the radius, object angle, sheet and
 /// colour of its ball, and the triangles; the comments of the medial PLY, and the detail. Error: kCannotWrite.
 Result<std::string> encode_ball_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii,
-                                         std::optional<std::uint32_t> detail);
+                                         std::optional<std::uint32_t> wanted_detail);
 
 }  // namespace medial_vk

@@ -169,12 +169,13 @@ class GlbEncoder {
     const Point centre = {c[0] - middle_[0], c[1] - middle_[1], c[2] - middle_[2]};
     const double radius = inscribed_radius(centre, sphere.radius, 0x1p-23);
     for (const Point& v : unit.vertices) {
-      Vector& point = points.emplace_back();
-      Vector& normal = normals.emplace_back();
+      Vector point, normal;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         point[axis] = static_cast<float>(centre[axis] + radius * v[axis]);
         normal[axis] = static_cast<float>(v[axis]);
       }
+      points.push_back(point);
+      normals.push_back(normal);
     }
   }
 

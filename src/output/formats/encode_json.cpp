@@ -26,7 +26,7 @@ std::string header_text(const MedialHeader& header) {
 
 }  // namespace
 
-// By hand: a tree of all points takes ten times the memory of the file, and a library gives floats the digits of
+// By hand: a tree of all points takes several times the memory of the file, and a library gives floats the digits of
 // doubles.
 std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres) {
   std::string out = "{\n" + header_text(header) + "\"points\": [";

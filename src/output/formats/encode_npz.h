@@ -8,8 +8,8 @@
 
 namespace medial_vk {
 
-/// The arrays are listed in docs/formats.md. Stored, not compressed: such numbers hardly get smaller, and a program may
-/// map them. Error: kOutOfMemory.
+/// The arrays are listed in docs/formats.md. Stored, not compressed: the bytes of a compressed archive would depend on
+/// the zlib that is installed. Error: kOutOfMemory.
 Result<std::string> encode_npz(const MedialHeader& header, std::span<const MedialSphere> spheres);
 
 }  // namespace medial_vk

@@ -20,7 +20,7 @@ enum class GltfTarget : std::uint32_t { kNone = 0, kVertices = 34962, kIndices =
 class GlbContainer {
  public:
   /// Everything but "accessors", "bufferViews" and "buffers", which are made here, and "nodes", which are given as text
-  /// at the end: as a tree, those of all balls would take ten times the memory of the file.
+  /// at the end: as a tree, those of all balls would take several times the memory of the file.
   GltfJson document;
 
   /// Three floats each. `bounds`: the least and the greatest coordinates are named too, as positions need it. Returns
