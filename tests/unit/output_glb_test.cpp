@@ -87,7 +87,7 @@ TEST(OutputGlb, NodesHoldTheBallsInOrder) {
   const Glb glb = parse(encode_glb(some_header(), spheres, GlbLayout::kNodes, {}).value());
   const json& nodes = glb.document["nodes"];
   ASSERT_EQ(nodes.size(), 4u);
-  EXPECT_EQ(glb.document["scenes"][0]["nodes"], json({0}));
+  EXPECT_EQ(glb.document["scenes"][0]["nodes"], json::array({0}));
   EXPECT_EQ(nodes[0]["children"], json({1, 2, 3}));
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const json& node = nodes[i + 1];
