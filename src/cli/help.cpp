@@ -16,12 +16,22 @@ Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here
   medial-vk bunny.obj --picture bunny.png      and a picture of it
   medial-vk part.stl -o p.csv --resolution 80  coarser, as a table
+  medial-vk bunny.obj -o bunny.glb             the balls, for Blender or the web
   medial-vk bunny.obj --check                  tests every ball again on the CPU
 
 Output:
-  -o, --output FILE     medial points as .ply or .csv; "-": PLY on standard
-                        output (default: MESH's name with .medial.ply, here)
+  -o, --output FILE     medial points as .ply, .csv, .npz (NumPy) or .json, or
+                        balls as .glb (glTF: a node for each); "-": PLY on
+                        standard output (default: MESH's name with .medial.ply,
+                        here)
       --ascii           PLY as text instead of binary
+      --mesh-spheres    balls as one triangle mesh, .ply or .glb (default:
+                        MESH's name with .spheres.ply)
+      --sphere-detail N how finely balls are cut into triangles, 0 to 5: 20 to
+                        20480 each (default 2: 320; less where --mesh-spheres
+                        would make a file of more than 4 GiB)
+      --gpu-instancing  .glb with the extension EXT_mesh_gpu_instancing: small
+                        and fast, but some programs do not know it
       --picture FILE    a .png of the mesh with its medial points
       --report FILE     everything about the run as JSON; "-": standard output
 

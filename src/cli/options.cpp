@@ -83,6 +83,9 @@ void declare(CLI::App& app, Options& options) {
   add.text("MESH", "file", options.mesh);
   add.text("-o,--output", "file", options.output);
   add.flag("--ascii", options.ascii);
+  add.flag("--mesh-spheres", options.mesh_spheres);
+  add.flag("--gpu-instancing", options.gpu_instancing);
+  add.whole("--sphere-detail", 0, kGreatestSphereDetail, "", options.sphere_detail);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
 
@@ -190,19 +193,36 @@ Status check_files_differ(const Options& options) {
   return {};
 }
 
-/// MESH-stem.medial.ply in the current folder.
-std::string default_output(const std::string& mesh) {
-  return (mesh == "-" ? "stdin" : fs::path(mesh).stem().string()) + ".medial.ply";
+/// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
+std::string default_output(const Options& options) {
+  const std::string stem = options.mesh == "-" ? "stdin" : fs::path(options.mesh).stem().string();
+  return stem + (options.mesh_spheres ? ".spheres.ply" : ".medial.ply");
+}
+
+/// Options about balls need a format that has balls.
+Status check_ball_options(const Options& options) {
+  const bool is_glb = options.format == MedialFormat::kGlb;
+  if (options.mesh_spheres && !is_glb && options.format != MedialFormat::kPly) {
+    return usage_error("--mesh-spheres makes a mesh: use it with .ply or .glb");
+  }
+  if (options.gpu_instancing && (!is_glb || options.mesh_spheres)) {
+    return usage_error("--gpu-instancing is for .glb without --mesh-spheres");
+  }
+  if (options.sphere_detail && !is_glb && !options.mesh_spheres) {
+    return usage_error("--sphere-detail is for balls of triangles: use it with .glb or --mesh-spheres");
+  }
+  return {};
 }
 
 Status complete_files(Options& options) {
   if (options.mesh.empty()) return usage_error("no MESH given");
-  if (options.output.empty()) options.output = default_output(options.mesh);
+  if (options.output.empty()) options.output = default_output(options);
   if (options.output != "-") {
     const Result<MedialFormat> format = medial_format_of(options.output);
     if (!format) return usage_error("--output: " + format.error().message);
     options.format = format.value();
   }
+  if (Status status = check_ball_options(options); !status) return status;
   if (!options.picture.empty() && options.picture != "-" && !is_png(options.picture)) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Options {
   std::string output;  ///< Never empty after parsing; "-": standard output.
   MedialFormat format = MedialFormat::kPly;
   bool ascii = false;
+  bool mesh_spheres = false;
+  bool gpu_instancing = false;
+  std::optional<std::uint32_t> sphere_detail;  ///< None: the usual one, or less for large files.
 
   ExtractionParameters parameters;
   double perturb = 0;  ///< Fraction of the longest side; 0: off.

@@ -21,6 +21,7 @@
 #include "medial/simplify.h"
 #include "medial/stopwatch.h"
 #include "output/atomic_file.h"
+#include "output/formats/encode_points.h"
 #include "output/picture.h"
 #include "output/report_json.h"
 #include "output/version.h"
@@ -68,7 +69,7 @@ class ExtractionRun {
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
     simplify();
-    encode_points();
+    if (Status status = encode(); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
     encode_report();
@@ -155,19 +156,24 @@ class ExtractionRun {
     record_.object_angles = range_of_object_angles(spheres_);
   }
 
-  void encode_points() {
+  Status encode() {
     header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
-    files_.push_back({options_.output, encode_medial_points(options_.format, options_.ascii, header_, spheres_)});
+    Result<std::string> bytes = encode_points(
+        {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
+        header_, spheres_);
+    if (!bytes) return bytes.error();
+    files_.push_back({options_.output, std::move(bytes).value()});
     output_bytes_ = files_.back().bytes.size();
+    return {};
   }
 
-  /// The numbers as written: read back from the bytes that go to the file. A table holds the same numbers as a PLY but
-  /// no grid, so its points are checked as that PLY.
+  /// The numbers as written: read back from the bytes that go to the file. The other formats are made from the same
+  /// numbers as a PLY, so their points are checked as that PLY.
   Status check() {
     if (!options_.check) return {};
     progress_.update("check", 0);
     Stopwatch stopwatch;
-    const bool is_ply = options_.format == MedialFormat::kPly;
+    const bool is_ply = options_.format == MedialFormat::kPly && !options_.mesh_spheres;
     const std::string ply = is_ply ? std::string() : encode_ply(header_, spheres_, false);
     const Result<MedialFile> written = decode_ply(is_ply ? files_.front().bytes : ply, options_.output);
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};

@@ -3,45 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
-#include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
+#include "output/little_endian.h"
 #include "output/version.h"
 
 namespace medial_vk {
 namespace {
 
-/// Appends the bytes of a number, least significant first, whatever the order of the machine.
-template <class T>
-void append_little_endian(std::string& out, T value) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(std::begin(bytes), std::end(bytes));
-  out.append(bytes, sizeof(T));
-}
-
 std::string ply_header(const MedialHeader& header, std::size_t points, bool ascii) {
-  // The shortest digits that read back exactly: 0.6 stays 0.6.
   return fmt::format(
       "ply\n"
       "format {} 1.0\n"
-      "comment medial-vk {}\n"
-      "comment grid_origin {} {} {}\n"
-      "comment voxel_size {}\n"
-      "comment epsilon {}\n"
-      "comment object_angle {}\n"
-      "comment radius_threshold {}\n"
+      "{}"
       "element vertex {}\n"
       "property double x\nproperty double y\nproperty double z\nproperty double radius\n"
       "property float spoke_a_x\nproperty float spoke_a_y\nproperty float spoke_a_z\n"
       "property float spoke_b_x\nproperty float spoke_b_y\nproperty float spoke_b_z\n"
       "property float object_angle\nproperty float flux\nproperty int sheet\n"
       "end_header\n",
-      ascii ? "ascii" : "binary_little_endian", header.version, header.grid_origin[0], header.grid_origin[1],
-      header.grid_origin[2], header.voxel_size, header.epsilon, header.object_angle, header.radius_threshold, points);
+      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points);
 }
 
 void append_binary(std::string& out, const MedialSphere& sphere) {
@@ -83,15 +67,30 @@ Result<MedialFormat> medial_format_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".ply") return MedialFormat::kPly;
-  if (extension == ".csv") return MedialFormat::kCsv;
-  return Error{ErrorCode::kUsage,
-               fmt::format("cannot tell a format from the extension of '{}': use .ply or .csv", path)};
+  const std::pair<const char*, MedialFormat> known[] = {{".ply", MedialFormat::kPly},
+                                                        {".csv", MedialFormat::kCsv},
+                                                        {".npz", MedialFormat::kNpz},
+                                                        {".json", MedialFormat::kJson},
+                                                        {".glb", MedialFormat::kGlb}};
+  for (const auto& [name, format] : known) {
+    if (extension == name) return format;
+  }
+  return Error{
+      ErrorCode::kUsage,
+      fmt::format("cannot tell a format from the extension of '{}': use .ply, .csv, .npz, .json or .glb", path)};
 }
 
-std::string encode_medial_points(MedialFormat format, bool ascii, const MedialHeader& header,
-                                 std::span<const MedialSphere> spheres) {
-  return format == MedialFormat::kCsv ? encode_csv(spheres) : encode_ply(header, spheres, ascii);
+std::string ply_comments(const MedialHeader& header) {
+  // The shortest digits that read back exactly: 0.6 stays 0.6.
+  return fmt::format(
+      "comment medial-vk {}\n"
+      "comment grid_origin {} {} {}\n"
+      "comment voxel_size {}\n"
+      "comment epsilon {}\n"
+      "comment object_angle {}\n"
+      "comment radius_threshold {}\n",
+      header.version, header.grid_origin[0], header.grid_origin[1], header.grid_origin[2], header.voxel_size,
+      header.epsilon, header.object_angle, header.radius_threshold);
 }
 
 std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii) {

@@ -29,14 +29,19 @@ struct MedialFile {
   std::vector<MedialSphere> spheres;
 };
 
-enum class MedialFormat { kPly, kCsv };
+enum class MedialFormat { kPly, kCsv, kNpz, kJson, kGlb };
 
 /// By extension, whatever its case. Error kUsage naming the known ones.
 Result<MedialFormat> medial_format_of(const std::string& path);
 
-/// `ascii` concerns PLY only. Doubles are written with 17 significant digits and floats with 9: both read back exactly.
-std::string encode_medial_points(MedialFormat format, bool ascii, const MedialHeader& header,
-                                 std::span<const MedialSphere> spheres);
+/// Balls as triangles: how often those of an icosahedron are cut into four (output/formats/icosphere.h).
+inline constexpr std::uint32_t kUsualSphereDetail = 2;
+inline constexpr std::uint32_t kGreatestSphereDetail = 5;
+
+/// The lines of the header that say what `header` says: "comment medial-vk VERSION" and so on.
+std::string ply_comments(const MedialHeader& header);
+
+/// `ascii`: doubles have 17 significant digits and floats 9; both read back exactly.
 std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii);
 /// One header line and one line per point; the grid is not in it.
 std::string encode_csv(std::span<const MedialSphere> spheres);

@@ -32,6 +32,7 @@ void require_in_range(const cli::Options& options) {
   require(options.threads <= 1024, "--threads keeps its range");
   require(p.memory_budget == 0 || p.memory_budget >= 64u << 20, "--memory keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
+  require(options.sphere_detail.value_or(0) <= kGreatestSphereDetail, "--sphere-detail keeps its range");
   if (options.action != cli::Action::kExtract) return;
   require(!options.mesh.empty(), "there is a mesh");
   require(!options.output.empty(), "there is an output");

@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Options, MessagesNameTheRange) {
   EXPECT_EQ(message_of({"a.obj", "--resolution", "5000"}), "--resolution: 5000 is not between 1 and 4096 voxels");
   EXPECT_EQ(message_of({"a.obj", "--mode", "fast"}), "--mode: 'fast' is unknown; use certified or thesis");
-  EXPECT_THAT(message_of({"a.obj", "-o", "b.stl"}), HasSubstr("use .ply or .csv"));
+  EXPECT_THAT(message_of({"a.obj", "-o", "b.stl"}), HasSubstr("use .ply, .csv, .npz, .json or .glb"));
 }
 
 TEST(Options, ContradictionsAreRefused) {
@@ -207,6 +207,29 @@ TEST(Options, ContradictionsAreRefused) {
   message_of({"a.obj", "--backend", "cpu", "--device", "0"});
   EXPECT_THAT(message_of({"a.ply", "-o", "./a.ply"}), HasSubstr("would overwrite the mesh"));
   EXPECT_THAT(message_of({"a.obj", "-o", "b.ply", "--report", "./b.ply"}), HasSubstr("same file"));
+}
+
+TEST(Options, BallsOfTrianglesHaveTheirOwnNameAndDetail) {
+  const Options balls = parsed({"models/a.obj", "--mesh-spheres", "--sphere-detail", "0"});
+  EXPECT_EQ(balls.output, "a.spheres.ply");
+  EXPECT_TRUE(balls.mesh_spheres);
+  EXPECT_EQ(balls.sphere_detail, 0u);
+  EXPECT_FALSE(parsed({"a.obj", "-o", "-", "--mesh-spheres"}).sphere_detail.has_value());
+  const Options glb = parsed({"a.obj", "-o", "a.GLB", "--gpu-instancing", "--sphere-detail", "5"});
+  EXPECT_EQ(glb.format, MedialFormat::kGlb);
+  EXPECT_TRUE(glb.gpu_instancing);
+}
+
+TEST(Options, BallsAreForFormatsThatHaveThem) {
+  for (const char* file : {"b.csv", "b.npz", "b.json"}) {
+    EXPECT_THAT(message_of({"a.obj", "-o", file, "--mesh-spheres"}), HasSubstr("use it with .ply or .glb"));
+  }
+  for (const char* file : {"b.ply", "b.npz", "-"}) {
+    EXPECT_THAT(message_of({"a.obj", "-o", file, "--gpu-instancing"}), HasSubstr("is for .glb"));
+    EXPECT_THAT(message_of({"a.obj", "-o", file, "--sphere-detail", "1"}), HasSubstr("--mesh-spheres"));
+  }
+  message_of({"a.obj", "-o", "b.glb", "--gpu-instancing", "--mesh-spheres"});
+  EXPECT_THAT(message_of({"a.obj", "-o", "b.glb", "--sphere-detail", "6"}), HasSubstr("not between 0 and 5"));
 }
 
 TEST(Options, TheMeshIsNotOverwrittenThroughALink) {

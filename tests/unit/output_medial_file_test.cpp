@@ -225,7 +225,10 @@ TEST(OutputMedialFile, CsvHasATitleAndALinePerPoint) {
 TEST(OutputMedialFile, FormatIsThatOfTheExtension) {
   EXPECT_EQ(medial_format_of("a/b.c/points.PLY").value(), MedialFormat::kPly);
   EXPECT_EQ(medial_format_of("points.csv").value(), MedialFormat::kCsv);
-  for (const char* path : {"points", "points.obj", "points.ply/", ".ply"}) {
+  EXPECT_EQ(medial_format_of("points.npz").value(), MedialFormat::kNpz);
+  EXPECT_EQ(medial_format_of("points.Json").value(), MedialFormat::kJson);
+  EXPECT_EQ(medial_format_of("points.glb").value(), MedialFormat::kGlb);
+  for (const char* path : {"points", "points.obj", "points.gltf", "points.ply/", ".ply"}) {
     const Result<MedialFormat> format = medial_format_of(path);
     ASSERT_FALSE(format.ok()) << path;
     EXPECT_EQ(format.error().code, ErrorCode::kUsage);

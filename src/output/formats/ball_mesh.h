@@ -1,0 +1,30 @@
+// Balls as one triangle mesh, for programs that draw meshes only: `--mesh-spheres`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "output/medial_file.h"
+
+namespace medial_vk {
+
+/// Files of balls are never larger, nor does the tool read larger ones.
+inline constexpr std::uint64_t kLargestBallFile = 4096ull << 20;
+
+/// The detail that was asked for; else the largest up to kUsualSphereDetail with which `balls` of `bytes(detail)` each
+/// stay below kLargestBallFile. Error kCannotWrite if they do not, with what to do about it.
+Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, std::uint64_t balls,
+                                           std::uint64_t (*bytes)(std::uint32_t detail));
+
+/// The radius with which vertices of a ball are computed, so that none is outside of the ball once its coordinates are
+/// rounded: `rounding` is 2^-50 for doubles, 2^-23 for floats (see the derivation beside the code).
+double inscribed_radius(const Point& centre, double radius, double rounding);
+
+/// A PLY with the vertices of ball after ball in the order of `spheres`, each with the radius, object angle, sheet and
+/// colour of its ball, and the triangles; the comments of the medial PLY, and the detail. Error: kCannotWrite.
+Result<std::string> encode_ball_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii,
+                                         std::optional<std::uint32_t> wanted_detail);
+
+}  // namespace medial_vk

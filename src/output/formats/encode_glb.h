@@ -1,0 +1,24 @@
+// Balls as a scene of glTF 2.0, in one file (GLB).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "output/medial_file.h"
+
+namespace medial_vk {
+
+enum class GlbLayout {
+  kNodes,         ///< A node per ball; balls of a colour share a mesh. Plain glTF: opens everywhere.
+  kGpuInstances,  ///< A node per colour with arrays of places and sizes: EXT_mesh_gpu_instancing, required.
+  kOneMesh,       ///< All balls in one mesh with colours at its vertices. Plain glTF, large.
+};
+
+/// Numbers are single precision about the middle of all centres, which the root node holds; every ball is inside of the
+/// exact one. docs/formats.md has the layout. Error: kCannotWrite if the file is too large.
+Result<std::string> encode_glb(const MedialHeader& header, std::span<const MedialSphere> spheres, GlbLayout layout,
+                               std::optional<std::uint32_t> detail);
+
+}  // namespace medial_vk

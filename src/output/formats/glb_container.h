@@ -1,0 +1,44 @@
+// The binary container of glTF 2.0: a JSON document and one buffer that its accessors describe.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+using GltfJson = nlohmann::ordered_json;
+
+/// The numbers and targets of glTF 2.0 are those of OpenGL.
+enum class GltfComponent : std::uint32_t { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+enum class GltfTarget : std::uint32_t { kNone = 0, kVertices = 34962, kIndices = 34963 };
+
+class GlbContainer {
+ public:
+  /// Everything but "accessors", "bufferViews" and "buffers", which are made here, and "nodes", which are given as text
+  /// at the end: as a tree, those of all balls would take several times the memory of the file.
+  GltfJson document;
+
+  /// Three floats each. `bounds`: the least and the greatest coordinates are named too, as positions need it. Returns
+  /// the index of the accessor; so do the others.
+  std::size_t add_vectors(std::span<const std::array<float, 3>> vectors, GltfTarget target, bool bounds);
+  std::size_t add_indices(std::span<const std::uint32_t> indices, GltfComponent component);
+  /// Fractions of 65535.
+  std::size_t add_colours(std::span<const std::array<std::uint16_t, 4>> colours);
+
+  /// The file. `nodes`: the text of a JSON array. Error kCannotWrite: it would be larger than its format can say.
+  Result<std::string> finish(const std::string& nodes);
+
+ private:
+  std::size_t add_accessor(std::size_t begin, GltfTarget target, GltfJson accessor);
+
+  GltfJson accessors_ = GltfJson::array();
+  GltfJson views_ = GltfJson::array();
+  std::string buffer_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,20 @@
+// A zip archive in memory, by libzip.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+struct ZipMember {
+  std::string name;
+  std::string bytes;
+};
+
+/// Stored without compression, with 1 January 1980 as the date of every member: the same members give the same bytes.
+/// Error: kOutOfMemory.
+Result<std::string> make_zip(std::span<const ZipMember> members);
+
+}  // namespace medial_vk

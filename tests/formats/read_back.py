@@ -1,0 +1,334 @@
+#!/usr/bin/env python3
+"""Writes the medial points of one solid in one format, opens the file with a reader that others wrote, and compares.
+
+    read_back.py CASE MEDIAL_VK ASSIMP
+
+The truth is the medial PLY of the same run: the same options give the same points. Ends with 77 if a reader is missing.
+"""
+import csv
+import json
+import math
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+
+try:
+    import meshio
+    import numpy as np
+except ImportError as error:
+    print(f"SKIPPED: {error}; Debian has it in python3-numpy and python3-meshio")
+    sys.exit(77)
+
+COLUMNS = ["x", "y", "z", "radius"] + [f"spoke_{s}_{a}" for s in "ab" for a in "xyz"] + ["object_angle", "flux", "sheet"]
+SINGLE = float(np.finfo(np.float32).eps)
+
+
+class Run:
+    """The tool in a folder of its own."""
+
+    def __init__(self, tool, assimp, folder):
+        self.tool, self.assimp, self.folder = tool, assimp, pathlib.Path(folder)
+        self.write_solid()
+        self.reference = self.read_ply(self.make("reference.ply"))
+        self.header = self.read_comments("reference.ply")
+
+    def write_solid(self):
+        """A wedge of a prism, far from the origin, so that places in single precision show what they lose."""
+        corners = [(0, 0), (2, 0), (2, 0.6), (0.7, 0.7), (0.5, 2), (0, 2)]
+        offset = (1000.25, -77.5, 3.125)
+        lines = []
+        for z in (0, 0.8):
+            lines += [f"v {x + offset[0]} {y + offset[1]} {z + offset[2]}" for x, y in corners]
+        n = len(corners)
+        lines.append("f " + " ".join(str(n - i) for i in range(n)))
+        lines.append("f " + " ".join(str(n + 1 + i) for i in range(n)))
+        for i in range(n):
+            j = (i + 1) % n
+            lines.append(f"f {i + 1} {j + 1} {n + j + 1} {n + i + 1}")
+        (self.folder / "solid.obj").write_text("\n".join(lines) + "\n")
+
+    def make(self, name, *options):
+        subprocess.run([self.tool, "solid.obj", "-q", "--backend", "cpu", "--resolution", "16", "-o", name, *options],
+                       cwd=self.folder, check=True)
+        return self.folder / name
+
+    def read_ply(self, path):
+        mesh = meshio.read(path)
+        columns = {name: np.asarray(values) for name, values in mesh.point_data.items()}
+        columns.update(zip("xyz", mesh.points.T))
+        assert mesh.points.dtype == np.float64, mesh.points.dtype
+        assert len(mesh.points) > 100, len(mesh.points)
+        return columns
+
+    def read_comments(self, name):
+        """meshio does not keep comments."""
+        text = (self.folder / name).read_bytes().split(b"end_header\n")[0].decode()
+        found = dict(re.findall(r"^comment (\S+) (.+)$", text, re.MULTILINE))
+        return {key: np.array([float(word) for word in value.split()]) for key, value in found.items()
+                if key != "medial-vk"} | {"version": found["medial-vk"]}
+
+    def centres(self):
+        return np.stack([self.reference[axis] for axis in "xyz"], axis=1)
+
+    def voxels(self):
+        return np.floor((self.centres() - self.header["grid_origin"]) / self.header["voxel_size"]).astype(np.int64)
+
+    def through_assimp(self, path):
+        """What Assimp understood, as it writes it again: a glTF document and its buffer."""
+        out = self.folder / "assimp.gltf"
+        try:
+            subprocess.run([self.assimp, "export", str(path), str(out)], check=True, stdout=subprocess.DEVNULL)
+        except FileNotFoundError:
+            print("SKIPPED: no assimp; Debian has it in assimp-utils")
+            sys.exit(77)
+        document = json.loads(out.read_text())
+        return document, (self.folder / document["buffers"][0]["uri"]).read_bytes()
+
+
+def expect_same(run, columns):
+    """Bit by bit, name by name."""
+    assert sorted(columns) == sorted(COLUMNS), columns.keys()
+    for name in COLUMNS:
+        wanted = run.reference[name]
+        assert columns[name].dtype == wanted.dtype, (name, columns[name].dtype, wanted.dtype)
+        assert np.array_equal(columns[name], wanted), name
+
+
+def by_column(run, words):
+    """Lists of numbers by name as arrays of the types that the PLY has."""
+    return {name: np.array(words[name], dtype=run.reference[name].dtype) for name in COLUMNS}
+
+
+def expect_header(run, values):
+    assert values["version"] == run.header["version"]
+    for name, comment in [("grid_origin", "grid_origin"), ("voxel_size", "voxel_size"), ("epsilon", "epsilon"),
+                          ("object_angle_threshold", "object_angle"), ("radius_threshold", "radius_threshold")]:
+        assert np.array_equal(np.ravel(values[name]), run.header[comment]), name
+
+
+def ply(run):
+    types = {"x": "f8", "y": "f8", "z": "f8", "radius": "f8", "sheet": "i4"}
+    assert sorted(run.reference) == sorted(COLUMNS)
+    for name, values in run.reference.items():
+        assert values.dtype == np.dtype(types.get(name, "f4")), (name, values.dtype)
+    assert np.all(run.reference["radius"] > 0)
+    assert len(np.unique(run.voxels(), axis=0)) == len(run.voxels())
+
+
+def ply_text(run):
+    expect_same(run, run.read_ply(run.make("text.ply", "--ascii")))
+
+
+def csv_table(run):
+    with open(run.make("table.csv"), newline="") as file:
+        rows = list(csv.DictReader(file))
+    expect_same(run, by_column(run, {name: [float(row[name]) for row in rows] for name in COLUMNS}))
+
+
+def npz(run):
+    arrays = np.load(run.make("points.npz"), allow_pickle=False)
+    columns = {name: arrays[name] for name in ("radius", "object_angle", "flux", "sheet")}
+    for name, prefix in [("centre", ""), ("spoke_a", "spoke_a_"), ("spoke_b", "spoke_b_")]:
+        assert arrays[name].shape == (len(columns["radius"]), 3)
+        columns |= {prefix + axis: arrays[name][:, i] for i, axis in enumerate("xyz")}
+    expect_same(run, columns)
+    assert arrays["voxel"].dtype == np.uint32 and np.array_equal(arrays["voxel"], run.voxels())
+    expect_header(run, {name: arrays[name] if name != "version" else str(arrays[name]) for name in arrays})
+
+
+def json_points(run):
+    document = json.loads(run.make("points.json").read_text())
+    points = document["points"]
+    words = {name: [point[name] for point in points] for name in ("radius", "object_angle", "flux", "sheet")}
+    for name, prefix in [("centre", ""), ("spoke_a", "spoke_a_"), ("spoke_b", "spoke_b_")]:
+        words |= {prefix + axis: [point[name][i] for point in points] for i, axis in enumerate("xyz")}
+    expect_same(run, by_column(run, words))
+    assert np.array_equal([point["voxel"] for point in points], run.voxels())
+    assert (document["format"], document["program"]) == (1, "medial-vk")
+    expect_header(run, document)
+
+
+def mesh_ply(run, *options):
+    path = run.make("balls.ply", "--mesh-spheres", *options)
+    mesh = meshio.read(path)
+    detail = int(run.read_comments("balls.ply")["sphere_detail"][0])
+    vertices, triangles = 10 * 4**detail + 2, 20 * 4**detail
+    n = len(run.reference["radius"])
+    assert detail == 2 and mesh.points.shape == (n * vertices, 3), (detail, mesh.points.shape)
+    expect_inside(run, mesh.points.reshape(n, vertices, 3))
+    for name in ("radius", "object_angle", "sheet"):
+        values = np.asarray(mesh.point_data[name]).reshape(n, vertices)
+        assert np.array_equal(values, np.repeat(run.reference[name].astype(values.dtype)[:, None], vertices, 1)), name
+    assert all(name in mesh.point_data for name in ("red", "green", "blue"))
+    expect_closed_balls(mesh.cells_dict["triangle"].reshape(n, triangles, 3), vertices)
+    expect_volumes(run, mesh.points, mesh.cells_dict["triangle"], detail)
+
+
+def expect_inside(run, balls):
+    """In exact arithmetic: no vertex outside of its ball. And in doubles: on its surface."""
+    off = np.linalg.norm(balls - run.centres()[:, None, :], axis=2) - run.reference["radius"][:, None]
+    assert np.abs(off).max() < 1e-11, np.abs(off).max()
+    for ball, centre, radius in zip(balls[::20], run.centres()[::20], run.reference["radius"][::20]):
+        for vertex in ball:
+            squared = sum((Fraction(p) - Fraction(c))**2 for p, c in zip(vertex.tolist(), centre.tolist()))
+            assert squared <= Fraction(float(radius))**2
+
+
+def expect_closed_balls(triangles, vertices):
+    for i, ball in enumerate(triangles):
+        assert ball.min() == i * vertices and ball.max() == (i + 1) * vertices - 1
+    edges = triangles[0][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    assert set(map(tuple, edges)) == set(map(tuple, edges[:, ::-1])) and len(edges) == len(set(map(tuple, edges)))
+
+
+def expect_volumes(run, points, triangles, detail):
+    """Triangles face outwards, and the solid misses little of the ball."""
+    a, b, c = (points[triangles[:, i]].reshape(len(run.reference["radius"]), -1, 3) - run.centres()[:, None, :]
+               for i in range(3))
+    volumes = np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6
+    share = volumes / (4 / 3 * math.pi * run.reference["radius"]**3)
+    assert np.all((share > 1 - 0.6 / 4**detail) & (share < 1)), (share.min(), share.max())
+
+
+def mesh_ply_text(run):
+    mesh_ply(run, "--ascii")
+
+
+def parse_glb(path):
+    """Section 4 of the specification, for what no reader of Debian knows."""
+    data = path.read_bytes()
+    magic, version, length, json_length, json_type = struct.unpack_from("<4sIII4s", data)
+    assert (magic, version, length, json_type) == (b"glTF", 2, len(data), b"JSON")
+    document = json.loads(data[20:20 + json_length])
+    buffer_length, buffer_type = struct.unpack_from("<I4s", data, 20 + json_length)
+    buffer = data[28 + json_length:]
+    assert buffer_type == b"BIN\0" and buffer_length == len(buffer) == document["buffers"][0]["byteLength"]
+    return document, buffer
+
+
+def accessor(document, buffer, index):
+    description = document["accessors"][index]
+    view = document["bufferViews"][description["bufferView"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[description["type"]]
+    dtype = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}[description["componentType"]]
+    offset = view.get("byteOffset", 0) + description.get("byteOffset", 0)
+    assert "byteStride" not in view or view["byteStride"] == width * np.dtype(dtype).itemsize
+    return np.frombuffer(buffer, dtype, description["count"] * width, offset).reshape(-1, width)
+
+
+def expect_glb_balls(run, indices, middle, centres, radii):
+    """Single precision about the middle, and inside of the exact ball."""
+    assert sorted(indices) == list(range(len(run.reference["radius"])))
+    exact, exact_radius = run.centres()[indices], run.reference["radius"][indices]
+    extent = np.abs(exact - middle).max()
+    assert extent < 2, "places are given from the middle of all"
+    distance = np.linalg.norm(middle + np.float64(centres) - exact, axis=1)
+    assert distance.max() <= SINGLE * extent, distance.max()
+    missing = exact_radius - np.float64(radii)
+    assert missing.min() >= 0 and missing.max() <= 2 * SINGLE * extent, (missing.min(), missing.max())
+    assert np.all(distance <= missing + 1e-13)
+
+
+def scene_of(document):
+    root = document["nodes"][document["scenes"][document["scene"]]["nodes"][0]]
+    assert root["children"] == list(range(1, len(document["nodes"])))
+    return np.array(root["translation"]), [document["nodes"][i] for i in root["children"]]
+
+
+def expect_unit_ball(points):
+    lengths = np.linalg.norm(np.float64(points), axis=1)
+    assert lengths.max() <= 1 and lengths.min() > 1 - 4 * SINGLE, (lengths.min(), lengths.max())
+
+
+def expect_brighter_with_angle(angles, colours):
+    """As Viridis is; `colours` are linear."""
+    light = (colours @ (0.2126, 0.7152, 0.0722))[np.argsort(angles)]
+    light /= light.max()
+    assert np.diff(light).min() >= -0.01 and light.min() < 0.5 * light.max(), (np.diff(light).min(), light.min())
+
+
+def glb(run):
+    document, buffer = parse_glb(run.make("balls.glb"))
+    middle, nodes = scene_of(document)
+    expect_glb_balls(run, [int(node["name"]) for node in nodes], middle, [node["translation"] for node in nodes],
+                     [node["scale"][0] for node in nodes])
+    for i, node in enumerate(nodes):
+        assert np.float32(node["extras"]["object_angle"]) == run.reference["object_angle"][i]
+        assert node["extras"]["sheet"] == run.reference["sheet"][i]
+    assert "extensionsUsed" not in document
+    for mesh in document["meshes"]:
+        expect_unit_ball(accessor(document, buffer, mesh["primitives"][0]["attributes"]["POSITION"]))
+
+
+def glb_nodes_by_assimp(run):
+    document, buffer = run.through_assimp(run.make("balls.glb"))
+    named = {node["name"]: node for node in document["nodes"]}
+    nodes = [node for node in document["nodes"] if "mesh" in node]
+    matrices = np.array([node["matrix"] for node in nodes], dtype=np.float32).reshape(-1, 4, 4)  # by columns
+    scales = matrices[:, [0, 1, 2], [0, 1, 2]]
+    assert np.array_equal(scales[:, 0], scales[:, 1]) and np.array_equal(scales[:, 0], scales[:, 2])
+    root = np.array(named["medial spheres"]["matrix"])[12:15]
+    expect_glb_balls(run, [int(node["name"]) for node in nodes], root, matrices[:, 3, :3], scales[:, 0])
+    assert document["meshes"], "colours"
+    for mesh in document["meshes"]:
+        primitive = mesh["primitives"][0]
+        expect_unit_ball(accessor(document, buffer, primitive["attributes"]["POSITION"]))
+        assert document["accessors"][primitive["indices"]]["count"] == 3 * 320
+    materials = [document["materials"][mesh["primitives"][0]["material"]] for mesh in document["meshes"]]
+    colours = [material["pbrMetallicRoughness"]["baseColorFactor"][:3] for material in materials]
+    expect_brighter_with_angle(run.reference["object_angle"][[int(node["name"]) for node in nodes]],
+                               np.array([colours[node["mesh"]] for node in nodes]))
+
+
+def glb_gpu_instancing(run):
+    document, buffer = parse_glb(run.make("instances.glb", "--gpu-instancing"))
+    assert document["extensionsRequired"] == ["EXT_mesh_gpu_instancing"] == document["extensionsUsed"]
+    middle, nodes = scene_of(document)
+    centres, sizes = [], []
+    for node in nodes:
+        attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]
+        centres.append(accessor(document, buffer, attributes["TRANSLATION"]))
+        sizes.append(accessor(document, buffer, attributes["SCALE"]))
+        assert len(centres[-1]) == len(sizes[-1]) > 0
+    centres, sizes = np.concatenate(centres), np.concatenate(sizes)
+    assert len(centres) == len(run.reference["radius"]), "an instance for each point"
+    assert np.array_equal(sizes[:, 0], sizes[:, 1]) and np.array_equal(sizes[:, 0], sizes[:, 2])
+    found = np.linalg.norm(run.centres()[None] - (middle + np.float64(centres))[:, None], axis=2).argmin(axis=1)
+    expect_glb_balls(run, found.tolist(), middle, centres, sizes[:, 0])
+
+
+def glb_mesh_by_assimp(run):
+    path = run.make("mesh.glb", "--mesh-spheres", "--sphere-detail", "1")
+    middle, nodes = scene_of(parse_glb(path)[0])
+    assert len(nodes) == 1
+    document, buffer = run.through_assimp(path)
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+    n = len(run.reference["radius"])
+    balls = middle + np.float64(accessor(document, buffer, attributes["POSITION"])).reshape(n, 42, 3)
+    off = np.linalg.norm(balls - run.centres()[:, None, :], axis=2) - run.reference["radius"][:, None]
+    assert off.max() <= 0 and off.min() > -8 * SINGLE, (off.min(), off.max())
+    normals = accessor(document, buffer, attributes["NORMAL"])
+    assert np.abs(np.linalg.norm(normals, axis=1) - 1).max() < 4 * SINGLE
+    colours = accessor(document, buffer, attributes["COLOR_0"]).reshape(n, 42, -1)
+    assert np.array_equal(colours, np.repeat(colours[:, :1], 42, axis=1)), "a ball has one colour"
+    expect_brighter_with_angle(run.reference["object_angle"], np.float64(colours[:, 0, :3]))
+
+
+CASES = {"ply": ply, "ply_text": ply_text, "csv": csv_table, "npz": npz, "json": json_points, "mesh_ply": mesh_ply,
+         "mesh_ply_text": mesh_ply_text, "glb": glb, "glb_nodes_by_assimp": glb_nodes_by_assimp,
+         "glb_gpu_instancing": glb_gpu_instancing, "glb_mesh_by_assimp": glb_mesh_by_assimp}
+
+
+def main():
+    case, tool, assimp = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        CASES[case](Run(tool, assimp, folder))
+    print(f"{case}: ok")
+
+
+if __name__ == "__main__":
+    main()
