@@ -23,6 +23,8 @@ Output:
                         output (default: MESH's name with .medial.ply, here)
       --ascii           PLY as text instead of binary
       --picture FILE    a .png of the mesh with its medial points
+      --html FILE       a page that shows mesh, balls, points and report in a
+                        browser: one file, no network
       --report FILE     everything about the run as JSON; "-": standard output
 
 What is looked for (lengths are fractions, so units do not matter):

@@ -85,6 +85,7 @@ void declare(CLI::App& app, Options& options) {
   add.flag("--ascii", options.ascii);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
+  add.text("--html", "file", options.html);
 
   add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
@@ -174,8 +175,10 @@ bool is_png(const std::string& path) {
 
 /// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.
 Status check_files_differ(const Options& options) {
-  const std::pair<const char*, const std::string*> outputs[] = {
-      {"--output", &options.output}, {"--report", &options.report}, {"--picture", &options.picture}};
+  const std::pair<const char*, const std::string*> outputs[] = {{"--output", &options.output},
+                                                                {"--report", &options.report},
+                                                                {"--picture", &options.picture},
+                                                                {"--html", &options.html}};
   for (const auto& [name, file] : outputs) {
     if (file->empty()) continue;
     if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
