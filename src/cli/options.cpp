@@ -166,11 +166,12 @@ bool same_file(const std::string& a, const std::string& b) {
   return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
-bool is_png(const std::string& path) {
+/// Is `path` empty or standard output, or does it end in `wanted`, whatever its case?
+bool may_end_in(const std::string& path, const char* wanted) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png";
+  return path.empty() || path == "-" || extension == wanted;
 }
 
 /// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.
@@ -206,8 +207,11 @@ Status complete_files(Options& options) {
     if (!format) return usage_error("--output: " + format.error().message);
     options.format = format.value();
   }
-  if (!options.picture.empty() && options.picture != "-" && !is_png(options.picture)) {
+  if (!may_end_in(options.picture, ".png")) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  if (!may_end_in(options.html, ".html")) {
+    return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
   }
   return check_files_differ(options);
 }
