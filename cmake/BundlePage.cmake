@@ -43,7 +43,7 @@ function(medial_vk_fetch_page_packages folder result)
         WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_QUIET)
     endif()
     if(failed)
-      string(STRIP "${why}" why)
+      string(REGEX MATCH "^[^\n]*(\n[^\n]*)?(\n[^\n]*)?(\n[^\n]*)?" why "${why}")  # Its first lines say it.
       message(STATUS "npm could not fetch the packages of the page (${failed}): the tool is built without it\n${why}")
       return()
     endif()

@@ -62,6 +62,7 @@ export class Controls {
     byId('ball-count').value = scene.points > 1
       ? Math.round(1000 * Math.log(Math.min(kFirstBalls, scene.points)) / Math.log(scene.points)) : 1000;
     byId('picked-number').max = Math.max(scene.points - 1, 0);
+    this.viewer.onRest = () => this.sayBalls();
     this.refresh();
   }
 
@@ -108,8 +109,15 @@ export class Controls {
   refreshBalls() {
     const count = Math.round(this.scene.points ** (byId('ball-count').value / 1000));
     const balls = Math.min(count, this.scene.points);
-    byId('ball-count-value').textContent = grouped(balls);
     this.viewer.setBallCount(balls);
+    this.sayBalls();
+  }
+
+  /** How many, and if the device is too slow for them, how many of those are drawn. */
+  sayBalls() {
+    const {ballCount, drawnBalls, shown} = this.viewer;
+    const fewer = shown.balls && drawnBalls < ballCount ? `, ${grouped(drawnBalls)} drawn` : '';
+    byId('ball-count-value').textContent = grouped(ballCount) + fewer;
   }
 
   refreshColour() {

@@ -170,6 +170,15 @@ export class PointLayers {
     return this.ballOrder;
   }
 
+  /** For each number of balls from the front, the sum of the squares of their radii: how much of the screen they take. */
+  get squares() {
+    if (!this.sums) {
+      this.sums = new Float64Array(this.scene.points + 1);
+      this.order.forEach((i, k) => { this.sums[k + 1] = this.sums[k] + this.scene.radii[i] ** 2; });
+    }
+    return this.sums;
+  }
+
   get(name) {
     return this.made[name] ??= placed(this.make(name), kOrder.content);
   }

@@ -11,7 +11,9 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 const kFieldOfView = 32;  // Degrees, of the shorter side.
 const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
 const kFilled = 0.88;  // Share of the picture that the model fills at first.
-const kSlowFrame = 60, kFastFrame = 30;  // Milliseconds, while the model is turned.
+// Milliseconds that the balls may take, so that the page always answers.
+const kTurningTime = 40, kRestingTime = 700;
+const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls in a millisecond: first that of a slow device, then learned.
 
 export class Viewer {
   /** `context`: of WebGL 2, without antialiasing. */
@@ -33,7 +35,10 @@ export class Viewer {
     this.plane = [0, 0, 0, 1];
     this.least = {angle: -Infinity, radius: -Infinity};
     this.ballCount = 0;
-    this.ballShare = 1;  // Of those, while the model is turned.
+    this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
+    this.pace = kFirstPace;
+    this.otherTime = [0, 0];  // Milliseconds of a frame without balls, quickly and at rest.
+    this.frame = 0;
     this.setUpCamera();
   }
 
@@ -235,7 +240,7 @@ export class Viewer {
       plane: this.plane,
       visible: (i) => this.passesFilter(i),
       order: this.shown.balls ? this.points.order : [],
-      ballCount: this.shown.balls ? this.ballCount : 0,
+      ballCount: this.shown.balls ? this.drawnBalls : 0,
       points: marks ? {radius} : null,
       unitsPerPixel: this.unitsPerPixel,
     });
@@ -244,25 +249,56 @@ export class Viewer {
   /** Draws at the next moment: quickly, and once more with care when nothing has changed for a while. */
   draw() {
     clearTimeout(this.rest);
-    this.rest = setTimeout(() => {
-      this.lastFrame = undefined;
-      this.drawNow(true);
-    }, 250);
+    this.rest = setTimeout(() => this.drawNow(true), 250);
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame((now) => {
+    requestAnimationFrame(() => {
       this.waiting = false;
-      this.adapt(now);
       this.drawNow(false);
     });
   }
 
-  /** While the model is turned: fewer balls if they are slow. Those left out hide behind those drawn, mostly. */
-  adapt(now) {
-    const last = now - (this.lastFrame ?? now);
-    this.lastFrame = now;
-    if (last > kSlowFrame && last < 2000) this.ballShare = Math.max(this.ballShare * 0.6, 0.002);
-    if (last > 0 && last < kFastFrame) this.ballShare = Math.min(this.ballShare * 1.25, 1);
+  /** Pixels of the squares around the first balls, if the model is as far away as its middle. */
+  pixelsOfBalls(count) {
+    const scale = 2 * this.uniforms.pixelsPerUnit.value / Math.max(this.camera.position.length(), 0.3);
+    return this.points.squares[count] * scale * scale;
+  }
+
+  /** How many of the balls can be drawn in the time; those left out hide behind those drawn, mostly. */
+  ballsWithin(milliseconds) {
+    let least = Math.min(20, this.ballCount), most = this.ballCount;
+    while (least < most) {
+      const middle = Math.ceil((least + most) / 2);
+      if (this.pixelsOfBalls(middle) <= this.pace * milliseconds) least = middle; else most = middle - 1;
+    }
+    return least;
+  }
+
+  /** Learns from a frame how fast the device is, without waiting for it; at rest, more balls may follow. */
+  learnPace(atRest) {
+    const gl = this.renderer.getContext();
+    const pixels = this.shown.balls ? this.pixelsOfBalls(this.drawnBalls) : 0, begin = performance.now(), frame = this.frame;
+    const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (gl.isContextLost()) return;
+      if (gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) {
+        setTimeout(look, 4);
+        return;
+      }
+      gl.deleteSync(sync);
+      const time = performance.now() - begin;
+      if (pixels === 0) {
+        this.otherTime[Number(atRest)] = time;
+        return;
+      }
+      // At least half of the time counts as that of the balls: other layers may have been shown when theirs was taken.
+      const pace = pixels / Math.max(time - Math.min(this.otherTime[Number(atRest)], time / 2), 1);
+      this.pace = Math.min(Math.max(pace, kLeastPace), 8 * this.pace);
+      const more = this.ballsWithin(kRestingTime) > 1.25 * this.drawnBalls;
+      if (atRest && frame === this.frame && more) this.drawNow(true);
+    };
+    setTimeout(look, 4);
   }
 
   drawNow(atRest) {
@@ -276,11 +312,14 @@ export class Viewer {
     camera.updateMatrixWorld();
     this.model.updateMatrixWorld();
     this.updatePlane();
-    if (this.points.made.balls) {
-      const count = Math.ceil(this.ballCount * (atRest ? 1 : this.ballShare));
-      this.points.made.balls.geometry.setDrawRange(0, kCornersOfABall * count);
+    this.frame += 1;
+    if (this.shown.balls) {
+      this.drawnBalls = this.ballsWithin(atRest ? kRestingTime : kTurningTime);
+      this.points.get('balls').geometry.setDrawRange(0, kCornersOfABall * this.drawnBalls);
     }
     this.renderer.render(this.root, camera);
+    this.learnPace(atRest);
+    if (atRest) this.onRest?.();
   }
 
   updatePlane() {

@@ -89,6 +89,24 @@ export const tests = {
     }
     await show(page, []);
     assert.equal((await look(page)).share, 0);
+
+    // All balls at once cover the picture a thousand times over; the page must still answer.
+    await show(page, ['balls']);
+    await focus(page, 'ball-count');
+    await page.press('End');
+    assert.equal(numbersIn((await page.text('ball-count-value')).replaceAll(',', ''))[0], points.length);
+    const answers = [];
+    for (let i = 0; i < 5; ++i) {
+      const begin = Date.now();
+      await page.press('[');
+      await page.evaluate('medialVk.viewer.turn(0.1, 0)');
+      await page.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))');
+      await page.evaluate('medialVk.viewer.finish()');
+      answers.push(Date.now() - begin);
+      await page.evaluate('new Promise((done) => setTimeout(done, 1000))');
+    }
+    console.log(`all balls: ${await page.text('ball-count-value')}; a turn takes ${answers} ms`);
+    assert.ok(Math.min(...answers) < 5000);
     assertQuiet(page);
   },
 
