@@ -217,12 +217,12 @@ export const tests = {
   async pick_by_keyboard_and_balls(context) {
     const {points, page} = await openPart(context, {mesh: box()});
     await show(page, ['balls']);
+    await look(page);  // Only what has been drawn can be picked.
     await focus(page, 'view');
     await page.press('Enter');
     const values = await pickedValues(page);
     assert.ok(values, 'the ball in the middle');
     assertSame(values, points[Number(values.point)], 1);
-    // What is picked is in front: no other drawn ball covers the middle and is nearer. Then the next ones by number.
     await page.press(']');
     assert.equal(Number((await pickedValues(page)).point), (Number(values.point) + 1) % points.length);
     await page.press('[');
