@@ -2,7 +2,7 @@
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
+import {join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
 /** A prism over a polygon (x, y), from z = 0 to `height`, moved. */
@@ -31,7 +31,7 @@ export function lShape(moved = [0, 0, 0]) {
 /** A folder that is gone after the test, and the tool in it. */
 export class Workshop {
   constructor(tool) {
-    this.tool = tool;
+    this.tool = resolve(tool);
     this.folder = mkdtempSync(join(tmpdir(), 'medial-vk-page-files-'));
   }
 
@@ -43,7 +43,7 @@ export class Workshop {
 
   run(...options) {
     const result = spawnSync(this.tool, options, {cwd: this.folder, encoding: 'utf8'});
-    if (result.status !== 0) throw Object.assign(new Error(`medial-vk: ${result.stderr}`), {status: result.status});
+    if (result.status !== 0) throw Object.assign(new Error(`medial-vk: ${result.error?.message ?? result.stderr}`), {status: result.status});
   }
 
   /** Writes the mesh, runs the reference on it and returns its points; the page is page.html. */
