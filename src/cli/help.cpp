@@ -33,6 +33,8 @@ Output:
       --gpu-instancing  .glb with the extension EXT_mesh_gpu_instancing: small
                         and fast, but some programs do not know it
       --picture FILE    a .png of the mesh with its medial points
+      --html FILE       a page that shows mesh, balls, points and report in a
+                        browser: one file, no network
       --report FILE     everything about the run as JSON; "-": standard output
 
 What is looked for (lengths are fractions, so units do not matter):

@@ -88,6 +88,7 @@ void declare(CLI::App& app, Options& options) {
   add.whole("--sphere-detail", 0, kGreatestSphereDetail, "", options.sphere_detail);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
+  add.text("--html", "file", options.html);
 
   add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
@@ -168,17 +169,20 @@ bool same_file(const std::string& a, const std::string& b) {
   return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
-bool is_png(const std::string& path) {
+/// Is `path` empty or standard output, or does it end in `wanted`, whatever its case?
+bool may_end_in(const std::string& path, const char* wanted) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png";
+  return path.empty() || path == "-" || extension == wanted;
 }
 
 /// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.
 Status check_files_differ(const Options& options) {
-  const std::pair<const char*, const std::string*> outputs[] = {
-      {"--output", &options.output}, {"--report", &options.report}, {"--picture", &options.picture}};
+  const std::pair<const char*, const std::string*> outputs[] = {{"--output", &options.output},
+                                                                {"--report", &options.report},
+                                                                {"--picture", &options.picture},
+                                                                {"--html", &options.html}};
   for (const auto& [name, file] : outputs) {
     if (file->empty()) continue;
     if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
@@ -223,8 +227,11 @@ Status complete_files(Options& options) {
     options.format = format.value();
   }
   if (Status status = check_ball_options(options); !status) return status;
-  if (!options.picture.empty() && options.picture != "-" && !is_png(options.picture)) {
+  if (!may_end_in(options.picture, ".png")) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  if (!may_end_in(options.html, ".html")) {
+    return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
   }
   return check_files_differ(options);
 }

@@ -37,6 +37,7 @@ struct Options {
 
   std::string report;   ///< Empty: none; "-": standard output.
   std::string picture;  ///< The same.
+  std::string html;     ///< The same.
   bool check = false;
 
   bool quiet = false;

@@ -22,6 +22,7 @@
 #include "medial/stopwatch.h"
 #include "output/atomic_file.h"
 #include "output/formats/encode_points.h"
+#include "output/page.h"
 #include "output/picture.h"
 #include "output/report_json.h"
 #include "output/version.h"
@@ -72,6 +73,7 @@ class ExtractionRun {
     if (Status status = encode(); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
+    make_page();
     encode_report();
     progress_.clear();
     if (interrupted()) return kStopped;
@@ -82,7 +84,10 @@ class ExtractionRun {
  private:
   /// Better now than after an hour of work.
   Status check_outputs() const {
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture}) {
+    if (!options_.html.empty()) {
+      if (Status status = check_page_available(); !status) return status;
+    }
+    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html}) {
       if (path->empty()) continue;
       if (Status status = check_writable(*path); !status) return status;
     }
@@ -197,6 +202,14 @@ class ExtractionRun {
     files_.push_back({options_.picture, std::move(png).value()});
     record_.host_times.push_back({"picture", stopwatch.lap()});
     return {};
+  }
+
+  void make_page() {
+    if (options_.html.empty()) return;
+    progress_.update("page", 0);
+    Stopwatch stopwatch;
+    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_)});
+    record_.host_times.push_back({"page", stopwatch.lap()});
   }
 
   void encode_report() {

@@ -57,7 +57,7 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.parameters.extra_levels, 6u);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
-  EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty());
+  EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty() && options.html.empty());
 }
 
 TEST(Options, AParserForgetsEarlierLines) {
@@ -84,6 +84,8 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "--ascii",
                                   "--report",
                                   "r.json",
+                                  "--html",
+                                  "p.html",
                                   "--picture",
                                   "p.png",
                                   "--resolution",
@@ -118,6 +120,7 @@ TEST(Options, EveryOptionIsUnderstood) {
   EXPECT_TRUE(options.parameters.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
+  EXPECT_EQ(options.html, "p.html");
   EXPECT_EQ(options.parameters.resolution, 80u);
   EXPECT_EQ(options.parameters.object_angle, 0.5);
   EXPECT_EQ(options.parameters.radius, 0.25);
@@ -193,8 +196,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadValue{"--mode", "fast"}, BadValue{"--backend", "cuda"}, BadValue{"--extra-levels", "9"},
                     BadValue{"--perturb", "0.2"}, BadValue{"--seed", "-1"}, BadValue{"--seed", "18446744073709551616"},
                     BadValue{"--memory", "63"}, BadValue{"--memory", "many"}, BadValue{"--memory", "2X"},
-                    BadValue{"--threads", "-1"}, BadValue{"--picture", "p.jpg"}, BadValue{"--output", "b.stl"},
-                    BadValue{"--output", "noextension"}));
+                    BadValue{"--threads", "-1"}, BadValue{"--picture", "p.jpg"}, BadValue{"--html", "p.png"},
+                    BadValue{"--output", "b.stl"}, BadValue{"--output", "noextension"}));
 
 TEST(Options, MessagesNameTheRange) {
   EXPECT_EQ(message_of({"a.obj", "--resolution", "5000"}), "--resolution: 5000 is not between 1 and 4096 voxels");
@@ -207,6 +210,7 @@ TEST(Options, ContradictionsAreRefused) {
   message_of({"a.obj", "--backend", "cpu", "--device", "0"});
   EXPECT_THAT(message_of({"a.ply", "-o", "./a.ply"}), HasSubstr("would overwrite the mesh"));
   EXPECT_THAT(message_of({"a.obj", "-o", "b.ply", "--report", "./b.ply"}), HasSubstr("same file"));
+  EXPECT_THAT(message_of({"a.obj", "--html", "-", "--report", "-"}), HasSubstr("same file"));
 }
 
 TEST(Options, BallsOfTrianglesHaveTheirOwnNameAndDetail) {
@@ -246,10 +250,10 @@ TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
 TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
   const std::string help = help_text();
   for (const char* name :
-       {"MESH",           "--output",  "--ascii",   "--report",       "--picture",  "--resolution", "--object-angle",
-        "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify", "--perturb",    "--seed",
-        "--list-devices", "--device",  "--backend", "--memory",       "--threads",  "--check",      "--kernel-times",
-        "--quiet",        "--verbose", "--version", "--help",         "130"}) {
+       {"MESH",           "--output",       "--ascii",   "--report",  "--picture",      "--html",     "--resolution",
+        "--object-angle", "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify", "--perturb",
+        "--seed",         "--list-devices", "--device",  "--backend", "--memory",       "--threads",  "--check",
+        "--kernel-times", "--quiet",        "--verbose", "--version", "--help",         "130"}) {
     EXPECT_THAT(help, HasSubstr(name));
   }
   std::size_t begin = 0;

@@ -1,0 +1,80 @@
+# Puts the page of --html together from src/page/ and three.js, and embeds it.
+#   medial_vk_bundle_page(TARGET)
+# adds to TARGET a source that defines page::embedded_page() (src/output/page/embedded_page.h). Without npm, or where its
+# packages cannot be had, that is empty and the build goes on: --html then says what is missing. The packages are looked
+# for anew at every configuration until they are there.
+option(MEDIAL_VK_PAGE "Bundle the page that --html writes (needs node and npm)" ON)
+
+# Sets RESULT to the folder with the packages of src/page/package-lock.json, or to nothing, having said why.
+function(medial_vk_fetch_page_packages folder result)
+  set(${result} "" PARENT_SCOPE)
+  if(NOT MEDIAL_VK_PAGE)
+    return()
+  endif()
+  find_program(NODE_PROGRAM NAMES node nodejs)
+  find_program(NPM_PROGRAM npm)
+  if(NOT NODE_PROGRAM OR NOT NPM_PROGRAM)
+    message(STATUS "No npm: the tool is built without the page of --html (docs/viewer.md)")
+    return()
+  endif()
+  execute_process(COMMAND ${NODE_PROGRAM} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  string(REPLACE "v" "" version "${version}")
+  if(version VERSION_LESS 18)
+    message(STATUS "node ${version} is older than 18: the tool is built without the page of --html (docs/viewer.md)")
+    return()
+  endif()
+  set(inputs ${PROJECT_SOURCE_DIR}/src/page/package.json ${PROJECT_SOURCE_DIR}/src/page/package-lock.json)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${inputs})
+  file(SHA256 ${PROJECT_SOURCE_DIR}/src/page/package-lock.json wanted)
+  set(there "")
+  if(EXISTS ${folder}/fetched)
+    file(READ ${folder}/fetched there)
+  endif()
+  if(NOT there STREQUAL wanted)
+    file(MAKE_DIRECTORY ${folder})
+    file(COPY ${inputs} DESTINATION ${folder})
+    message(STATUS "Fetching the packages of the page (npm ci)")
+    execute_process(
+      COMMAND ${NPM_PROGRAM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1
+              --fetch-timeout=60000 --loglevel=error
+      WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_QUIET TIMEOUT 300)
+    if(NOT failed)  # The program that bundles is one for this kind of machine: does it run?
+      execute_process(COMMAND ${NODE_PROGRAM} node_modules/esbuild/bin/esbuild --version
+        WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_QUIET)
+    endif()
+    if(failed)
+      string(REGEX MATCH "^[^\n]*(\n[^\n]*)?(\n[^\n]*)?(\n[^\n]*)?" why "${why}")  # Its first lines say it.
+      message(STATUS "npm could not fetch the packages of the page (${failed}): the tool is built without it\n${why}")
+      return()
+    endif()
+    file(WRITE ${folder}/fetched ${wanted})
+  endif()
+  set(${result} ${folder}/node_modules PARENT_SCOPE)
+endfunction()
+
+function(medial_vk_bundle_page target)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/page)
+  medial_vk_fetch_page_packages(${out} packages)
+  set(page "")
+  if(packages)
+    set(page ${out}/page.html)
+    set(sources ${PROJECT_SOURCE_DIR}/src/page)
+    file(GLOB inputs CONFIGURE_DEPENDS ${sources}/*.js ${sources}/*.mjs ${sources}/*.css ${sources}/*.html
+         ${sources}/shaders/*.glsl)
+    add_custom_command(OUTPUT ${page}
+      COMMAND ${NODE_PROGRAM} ${sources}/bundle.mjs ${packages} ${page}
+      DEPENDS ${inputs} ${out}/fetched COMMENT "Page of --html" VERBATIM)
+  endif()
+  set(script ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedPage.cmake)
+  # Named by whether there is a page, so that the other one is made when npm comes or goes.
+  if(packages)
+    set(embedded ${out}/embedded_page.cpp)
+  else()
+    set(embedded ${out}/no_page.cpp)
+    file(REMOVE ${out}/page.html)
+  endif()
+  add_custom_command(OUTPUT ${embedded}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded} -DPAGE=${page} -P ${script}
+    DEPENDS ${page} ${script} COMMENT "Embedding the page of --html" VERBATIM)
+  target_sources(${target} PRIVATE ${embedded})
+endfunction()

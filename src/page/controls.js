@@ -1,0 +1,310 @@
+// The form beside the canvas, the keys, and what is picked.
+import {kAttributes, kSheetColours, sheetColour, viridisGradient} from './colours.js';
+import {brief, grouped, lengthFormat} from './format.js';
+import {kLayers} from './viewer.js';
+
+const byId = (id) => document.getElementById(id);
+const kStep = Math.PI / 36;      // One press of an arrow.
+const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to be told apart.
+const kClick = 4;                // Pixels that the mouse may move in a click.
+
+function rangeOf(numbers) {
+  let least = Infinity, greatest = -Infinity;
+  for (const x of numbers) {
+    if (x < least) least = x;
+    if (x > greatest) greatest = x;
+  }
+  return numbers.length ? [least, greatest] : [0, 0];
+}
+
+function rows(list, pairs) {
+  list.replaceChildren(...pairs.flatMap(([name, value]) => {
+    const dt = document.createElement('dt'), dd = document.createElement('dd');
+    dt.textContent = name;
+    dd.textContent = value;
+    return [dt, dd];
+  }));
+}
+
+export class Controls {
+  constructor(viewer, scene, report) {
+    this.viewer = viewer;
+    this.scene = scene;
+    this.report = report;
+    this.pickedPoint = -1;
+  }
+
+  describeRun() {
+    const {input, mesh, points} = this.report;
+    byId('name').textContent = input === '-' ? 'standard input' : input.split('/').pop();
+    byId('facts').textContent = `${grouped(points.written)} medial points, ${grouped(mesh.triangles)} triangles`;
+  }
+
+  start() {
+    const {scene} = this;
+    this.length = lengthFormat(scene.scale);
+    this.ranges = {
+      angle: rangeOf(scene.angles),
+      radius: rangeOf(scene.radii),
+      flux: rangeOf(scene.fluxes),
+      sheet: rangeOf(scene.sheets),
+    };
+    // Angles are shown between the threshold and the greatest there is, as in --picture.
+    this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
+      Math.PI / 2]};
+    this.describeRun();
+    this.bind();
+    this.bindKeys();
+    this.bindCanvas();
+    this.bindDialogs();
+    this.followTheme();
+    for (const name of kLayers) this.viewer.showLayer(name, byId(`layer-${name}`).checked);
+    byId('ball-count').value = scene.points > 1
+      ? Math.round(1000 * Math.log(Math.min(kFirstBalls, scene.points)) / Math.log(scene.points)) : 1000;
+    byId('picked-number').max = Math.max(scene.points - 1, 0);
+    this.viewer.onRest = () => this.sayBalls();
+    this.refresh();
+  }
+
+  bind() {
+    for (const name of kLayers) {
+      byId(`layer-${name}`).addEventListener('change', (event) => this.viewer.showLayer(name, event.target.checked));
+    }
+    for (const id of ['opacity', 'ball-count', 'colour-by', 'least-angle', 'least-radius', 'cut', 'cut-axis',
+      'cut-flip', 'cut-offset']) {
+      byId(id).addEventListener('input', () => this.refresh());
+    }
+    byId('up').addEventListener('change', (event) => this.viewer.setUp(event.target.value));
+    byId('reset').addEventListener('click', () => this.viewer.resetView());
+    byId('clear-picked').addEventListener('click', () => this.choose(-1));
+    byId('picked-number').addEventListener('change', (event) => {
+      const number = event.target.value === '' ? -1 : Math.trunc(Number(event.target.value));
+      this.choose(number >= 0 && number < this.scene.points ? number : -1);
+    });
+    byId('controls').addEventListener('submit', (event) => event.preventDefault());
+    byId('fold').addEventListener('click', () => this.fold(byId('panel').classList.contains('open')));
+  }
+
+  /** On a narrow screen the controls are folded away. */
+  fold(closed) {
+    byId('panel').classList.toggle('open', !closed);
+    byId('fold').setAttribute('aria-expanded', String(!closed));
+  }
+
+  /** From the form to the picture; cheap, so always all of it. */
+  refresh() {
+    this.refreshOpacity();
+    this.refreshBalls();
+    this.refreshColour();
+    this.refreshCut();
+    this.refreshFilter();
+  }
+
+  refreshOpacity() {
+    const percent = Number(byId('opacity').value);
+    byId('opacity-value').textContent = `${percent} %`;
+    this.viewer.setOpacity(percent / 100);
+  }
+
+  refreshBalls() {
+    const count = Math.round(this.scene.points ** (byId('ball-count').value / 1000));
+    const balls = Math.min(count, this.scene.points);
+    this.viewer.setBallCount(balls);
+    this.sayBalls();
+  }
+
+  /** How many, and if the device is too slow for them, how many of those are drawn. */
+  sayBalls() {
+    const {ballCount, drawnBalls, shown} = this.viewer;
+    const fewer = shown.balls && drawnBalls < ballCount ? `, ${grouped(drawnBalls)} drawn` : '';
+    byId('ball-count-value').textContent = grouped(ballCount) + fewer;
+  }
+
+  refreshColour() {
+    const attribute = byId('colour-by').value;
+    const [least, greatest] = this.colourRanges[attribute];
+    this.viewer.setColour(attribute, least, greatest);
+    const scale = attribute === 'radius' ? this.scene.scale : 1;
+    const legend = byId('legend');
+    const title = document.createElement('p');
+    title.textContent = kAttributes[attribute].label;
+    legend.replaceChildren(title, ...(attribute === 'sheet' ? this.swatches() : this.bar(scale * least, scale * greatest)));
+  }
+
+  bar(least, greatest) {
+    const bar = document.createElement('div'), ends = document.createElement('div');
+    bar.className = 'bar';
+    bar.style.background = viridisGradient();
+    ends.className = 'ends';
+    for (const value of [least, (least + greatest) / 2, greatest]) {
+      ends.append(Object.assign(document.createElement('span'), {textContent: brief(value)}));
+    }
+    return [bar, ends];
+  }
+
+  /** Sheets by number; there may be more than colours, then those come again. */
+  swatches() {
+    const numbers = [...new Set(this.scene.sheets)].sort((a, b) => a - b);
+    const list = document.createElement('ul');
+    for (const sheet of numbers.slice(0, kSheetColours + 1)) {
+      const item = document.createElement('li'), swatch = document.createElement('i');
+      swatch.style.background = sheetColour(sheet);
+      item.append(swatch, sheet < 0 ? 'none (sheets not grown)' : String(sheet));
+      list.append(item);
+    }
+    const more = numbers.length - (kSheetColours + 1);
+    if (more > 0) list.append(Object.assign(document.createElement('li'), {textContent: `and ${grouped(more)} more`}));
+    return [list];
+  }
+
+  refreshCut() {
+    const {lower, upper, origin, scale} = this.scene;
+    const axis = Number(byId('cut-axis').value);
+    const share = byId('cut-offset').value / 1000;
+    const place = lower[axis] + share * (upper[axis] - lower[axis]);
+    const flipped = byId('cut-flip').checked;
+    byId('cut-offset-value').textContent = `${'xyz'[axis]} ${flipped ? '≥' : '≤'} ${this.length(place)}`;
+    for (const id of ['cut-axis', 'cut-flip', 'cut-offset']) byId(id).disabled = !byId('cut').checked;
+    if (!byId('cut').checked) {
+      this.viewer.setPlane([0, 0, 0, 1]);
+    } else {
+      const sign = flipped ? 1 : -1;
+      const plane = [0, 0, 0, -sign * (place - origin[axis]) / scale];
+      plane[axis] = sign;
+      this.viewer.setPlane(plane);
+    }
+  }
+
+  /** The smallest value of a slider lets everything through, whatever its rounding. */
+  leastOf(id, range) {
+    const share = byId(id).value / 1000;
+    return share === 0 ? -Infinity : Math.fround(range[0] + share * (range[1] - range[0]));
+  }
+
+  refreshFilter() {
+    const angle = this.leastOf('least-angle', this.ranges.angle);
+    const radius = this.leastOf('least-radius', this.ranges.radius);
+    byId('least-angle-value').textContent = `${Math.max(angle, this.ranges.angle[0]).toFixed(3)} rad`;
+    byId('least-radius-value').textContent = brief(Math.max(radius, this.ranges.radius[0]) * this.scene.scale);
+    this.viewer.setLeast(angle, radius);
+    byId('count').textContent = `${grouped(this.viewer.countVisible())} of ${grouped(this.scene.points)} points shown`;
+  }
+
+  /** Picks point i; -1: none. */
+  choose(i) {
+    this.pickedPoint = i;
+    this.viewer.highlight(i);
+    byId('picked-none').hidden = i >= 0;
+    byId('picked-values').hidden = i < 0;
+    byId('picked-number').value = i < 0 ? '' : i;
+    byId('clear-picked').disabled = i < 0;
+    if (i >= 0) rows(byId('picked-values'), this.valuesOf(i));
+  }
+
+  valuesOf(i) {
+    const {scene} = this;
+    const place = (k) => this.length(scene.origin[k] + scene.scale * scene.centres[3 * i + k]);
+    const spoke = (from) => [0, 1, 2].map((k) => (scene.spokes[6 * i + from + k] / 32767).toFixed(4)).join(', ');
+    const angle = scene.angles[i];
+    return [
+      ['point', String(i)],
+      ['centre', [place(0), place(1), place(2)].join(', ')],
+      ['radius', this.length(scene.scale * scene.radii[i])],
+      ['object angle', `${angle.toFixed(6)} rad (${(angle * 180 / Math.PI).toFixed(1)}°)`],
+      ['flux', scene.fluxes[i].toFixed(6)],
+      ['sheet', scene.sheets[i] < 0 ? `${scene.sheets[i]} (not grown)` : String(scene.sheets[i])],
+      ['voxel', Array.from(scene.voxels.subarray(3 * i, 3 * i + 3)).join(', ')],
+      ['spoke a', spoke(0)],
+      ['spoke b', spoke(3)],
+    ];
+  }
+
+  /** The next or previous point that is shown. */
+  step(by) {
+    const count = this.scene.points;
+    for (let k = 1; k <= count; ++k) {
+      const i = ((this.pickedPoint < 0 && by < 0 ? 0 : this.pickedPoint) + by * k + count * 2) % count;
+      if (this.viewer.isVisible(i)) return this.choose(i);
+    }
+  }
+
+  bindCanvas() {
+    const canvas = this.viewer.canvas;
+    let down = null;
+    canvas.addEventListener('pointerdown', (event) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; });
+    canvas.addEventListener('pointerup', (event) => {
+      const moved = down ? Math.hypot(event.clientX - down[0], event.clientY - down[1]) : Infinity;
+      down = null;
+      if (moved > kClick) return;
+      const {left, top} = canvas.getBoundingClientRect();
+      this.choose(this.viewer.pickAt(event.clientX - left, event.clientY - top));
+    });
+  }
+
+  pickMiddle() {
+    const {clientWidth, clientHeight} = this.viewer.canvas;
+    this.choose(this.viewer.pickAt(clientWidth / 2, clientHeight / 2));
+  }
+
+  /** Keys, what they are called, and what they do. */
+  keys() {
+    const click = (id) => () => byId(id).click();
+    const turn = (right, up) => () => this.viewer.turn(right * kStep, up * kStep);
+    return [
+      [['ArrowLeft'], 'Arrows', 'turn', turn(-1, 0)],
+      [['ArrowRight'], null, null, turn(1, 0)],
+      [['ArrowUp'], null, null, turn(0, -1)],
+      [['ArrowDown'], null, null, turn(0, 1)],
+      [['+', '='], '+ and -', 'zoom', () => this.viewer.turn(0, 0, 1.15)],
+      [['-', '_'], null, null, () => this.viewer.turn(0, 0, 1 / 1.15)],
+      [['0', 'r', 'R'], '0 or R', 'reset the view', () => this.viewer.resetView()],
+      ...kLayers.map((name, i) => [[String(i + 1)], i === 0 ? '1 to 5' : null,
+        'show or hide mesh, balls, medial points, spokes, sheets', click(`layer-${name}`)]),
+      [['c', 'C'], 'C', 'cut by a plane', click('cut')],
+      [['f', 'F'], 'F', 'keep the other side of the cut', click('cut-flip')],
+      [['Enter'], 'Enter', 'pick what is in the middle of the picture (keyboard on the picture)', () => this.pickMiddle(), true],
+      [['['], '[ and ]', 'pick the point before or after', () => this.step(-1)],
+      [[']'], null, null, () => this.step(1)],
+      [['Escape'], 'Escape', 'pick nothing; close what is open', () => this.choose(-1)],
+      [['h', 'H', '?'], 'H', 'this help', click('open-help')],
+    ];
+  }
+
+  bindKeys() {
+    const keys = this.keys();
+    const list = byId('keys');
+    rows(list, keys.filter(([, name]) => name).map(([, name, what]) => [name, what]));
+    document.addEventListener('keydown', (event) => {
+      if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector('dialog[open]')) return;
+      const found = keys.find(([names]) => names.includes(event.key));
+      if (!found || this.ownsKey(event.target, event.key, found[4])) return;
+      event.preventDefault();
+      found[3]();
+    });
+  }
+
+  /** Keys that an element of the form takes for itself. */
+  ownsKey(target, key, onPictureOnly) {
+    if (key === 'Escape') return false;
+    if (onPictureOnly) return target !== this.viewer.canvas && target !== document.body;
+    if (target.matches('select, input[type=number]')) return true;
+    return target.matches('input[type=range]') && (key.startsWith('Arrow') || key === '+' || key === '-');
+  }
+
+  bindDialogs() {
+    for (const name of ['report', 'help']) {
+      const dialog = byId(`${name}-dialog`);
+      byId(`open-${name}`).addEventListener('click', () => dialog.showModal());
+      dialog.querySelector('[data-close]').addEventListener('click', () => dialog.close());
+      // A click beside it.
+      dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
+    }
+  }
+
+  followTheme() {
+    const dark = window.matchMedia('(prefers-color-scheme: dark)');
+    const follow = () => this.viewer.setTheme(dark.matches ? 'dark' : 'light');
+    dark.addEventListener('change', follow);
+    follow();
+  }
+}

@@ -1,0 +1,230 @@
+// What is drawn: one geometry and one kernel per layer.
+import {
+  BackSide, BufferAttribute, BufferGeometry, CustomBlending, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3,
+  LineSegments, Mesh, OneFactor, OneMinusSrcAlphaFactor, Points, RawShaderMaterial, RedIntegerFormat, RGBAFormat,
+  RGBAIntegerFormat, ShortType, Sphere, UnsignedIntType, Vector2, Vector3, Vector4,
+} from 'three';
+
+import {coverOrder} from './ball_order.js';
+import {colourTexels} from './colours.js';
+import attributes from './shaders/attributes.glsl';
+import ballFragment from './shaders/ball.frag.glsl';
+import ballVertex from './shaders/ball.vert.glsl';
+import common from './shaders/common.glsl';
+import discFragment from './shaders/disc.frag.glsl';
+import discVertex from './shaders/disc.vert.glsl';
+import flatFragment from './shaders/flat.frag.glsl';
+import meshFragment from './shaders/mesh.frag.glsl';
+import meshVertex from './shaders/mesh.vert.glsl';
+import pointFragment from './shaders/point.frag.glsl';
+import pointVertex from './shaders/point.vert.glsl';
+import spokeFragment from './shaders/spoke.frag.glsl';
+import spokeVertex from './shaders/spoke.vert.glsl';
+import wideLineVertex from './shaders/wide_line.vert.glsl';
+import {cornerGeometry, creaseLines} from './surface.js';
+
+const kDiscRadius = 0.75;   // In voxels: the discs of neighbouring voxels overlap into a sheet.
+const kPointRadius = 0.32;  // In voxels: neighbours can be told apart.
+
+// The order of drawing: what is behind the glass, what is in it, its near side (depth first, so that only the nearest
+// wall is seen), and what is shown whatever is in front of it.
+const kOrder = {back: 0, content: 1, depth: 2, front: 3, crease: 4, picked: 5};
+
+function colourMap() {
+  const texture = new DataTexture(colourTexels(), 256, 2);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** Uniforms that all layers share: set once, seen by every kernel. */
+export function makeUniforms(scene) {
+  const voxel = scene.voxel_size / scene.scale;
+  return {
+    cutPlane: {value: new Vector4(0, 0, 0, 1)},
+    leastAngleRadius: {value: new Vector2(-Infinity, -Infinity)},
+    colourBy: {value: 0},
+    colourRange: {value: new Vector2(0, 1)},
+    colourMap: {value: colourMap()},
+    discRadius: {value: kDiscRadius * voxel},
+    pointRadius: {value: kPointRadius * voxel},
+    pixelRatio: {value: 1},
+    pixelsPerUnit: {value: 1},
+    viewport: {value: new Vector2(1, 1)},
+    width: {value: 3},
+    density: {value: 1},
+    glass: {value: new Vector3()},
+    crease: {value: new Vector3()},
+  };
+}
+
+function material(vertex, fragment, uniforms, options = {}) {
+  return new RawShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader: vertex,
+    fragmentShader: fragment,
+    uniforms,
+    transparent: true,  // All in one list, so that `renderOrder` alone decides.
+    ...options,
+  });
+}
+
+/** Over what is there, the colour already multiplied by its share. */
+const kOver = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, depthWrite: false};
+const kOpaque = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor};
+
+function placed(object, order) {
+  object.renderOrder = order;
+  object.frustumCulled = false;
+  object.geometry.boundingSphere = new Sphere();  // Not needed, and three.js would take a vertex for a place.
+  return object;
+}
+
+export class MeshLayer {
+  constructor(scene, uniforms) {
+    this.scene = scene;
+    this.uniforms = uniforms;
+    const {positions, normals} = cornerGeometry(scene.vertices, scene.triangles);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    const packed = new BufferAttribute(normals, 4, true);
+    geometry.setAttribute('normal', packed);
+    const vertex = common + meshVertex, fragment = common + meshFragment;
+    const plain = {defines: {PLAIN: ''}};
+    this.objects = [
+      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: BackSide, defines: {BACK: ''}})),
+        kOrder.back),
+      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...plain, side: FrontSide, colorWrite: false,
+        polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2})), kOrder.depth),
+      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: FrontSide})), kOrder.front),
+    ];
+  }
+
+  /** Lines along creases: after the first frame, as finding them takes a while. */
+  addCreases() {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(creaseLines(this.scene.vertices, this.scene.triangles), 3));
+    const uniforms = {...this.uniforms, glass: this.uniforms.crease};
+    const lines = new LineSegments(geometry, material(common + meshVertex, common + meshFragment, uniforms,
+      {...kOver, defines: {PLAIN: ''}}));
+    this.objects.push(placed(lines, kOrder.crease));
+    return lines;
+  }
+}
+
+/** Numbers as a texture, row by row; the last row is filled up with zeros. */
+function numbers(array, components, format, type, internalFormat, widest) {
+  const texels = Math.max(array.length / components, 1);
+  const width = Math.min(texels, widest), height = Math.ceil(texels / width);
+  const filled = new array.constructor(width * height * components);
+  filled.set(array);
+  const texture = new DataTexture(filled, width, height, format, type);
+  texture.internalFormat = internalFormat;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** What the kernels read of the points (shaders/attributes.glsl). */
+function pointTextures(scene, widest) {
+  const places = new Float32Array(4 * scene.points), others = new Float32Array(4 * scene.points);
+  const spokes = new Int16Array(8 * scene.points);
+  for (let i = 0; i < scene.points; ++i) {
+    for (let k = 0; k < 3; ++k) {
+      places[4 * i + k] = scene.centres[3 * i + k];
+      spokes[8 * i + k] = scene.spokes[6 * i + k];
+      spokes[8 * i + 4 + k] = scene.spokes[6 * i + 3 + k];
+    }
+    places[4 * i + 3] = scene.radii[i];
+    others[4 * i] = scene.angles[i];
+    others[4 * i + 1] = scene.fluxes[i];
+    others[4 * i + 2] = scene.sheets[i];
+  }
+  return {
+    places: {value: numbers(places, 4, RGBAFormat, FloatType, 'RGBA32F', widest)},
+    others: {value: numbers(others, 4, RGBAFormat, FloatType, 'RGBA32F', widest)},
+    spokes: {value: numbers(spokes, 4, RGBAIntegerFormat, ShortType, 'RGBA16I', widest)},
+    order: {value: null},
+  };
+}
+
+/** As many corners as there are; the kernels know them by their number. */
+function corners(count) {
+  const geometry = new BufferGeometry();
+  geometry.setDrawRange(0, count);
+  return geometry;
+}
+
+export const kCornersOfABall = 6;
+
+/** The layers of points, each made when it is first shown. */
+export class PointLayers {
+  /** `widest`: the greatest width of a texture. */
+  constructor(scene, uniforms, widest) {
+    this.scene = scene;
+    this.widest = widest;
+    this.uniforms = {...uniforms, ...pointTextures(scene, widest)};
+    this.made = {};
+  }
+
+  get order() {
+    this.ballOrder ??= coverOrder(this.scene.centres, this.scene.radii, this.scene.voxel_size / this.scene.scale);
+    return this.ballOrder;
+  }
+
+  /** For each number of balls from the front, the sum of the squares of their radii: how much of the screen they take. */
+  get squares() {
+    if (!this.sums) {
+      this.sums = new Float64Array(this.scene.points + 1);
+      this.order.forEach((i, k) => { this.sums[k + 1] = this.sums[k] + this.scene.radii[i] ** 2; });
+    }
+    return this.sums;
+  }
+
+  get(name) {
+    return this.made[name] ??= placed(this.make(name), kOrder.content);
+  }
+
+  make(name) {
+    const {points} = this.scene;
+    const kernel = (vertex, fragment, options) =>
+      material(common + attributes + vertex, common + fragment, this.uniforms, {...kOpaque, ...options});
+    if (name === 'points') return new Points(corners(points), kernel(pointVertex, pointFragment));
+    if (name === 'sheets') return new Mesh(corners(3 * points), kernel(discVertex, discFragment, {side: DoubleSide}));
+    if (name === 'spokes') return new LineSegments(corners(4 * points), kernel(spokeVertex, spokeFragment));
+    this.uniforms.order.value = numbers(this.order, 1, RedIntegerFormat, UnsignedIntType, 'R32UI', this.widest);
+    return new Mesh(corners(kCornersOfABall * points), kernel(ballVertex, ballFragment, {defines: {ORDERED: ''}}));
+  }
+}
+
+/** The picked ball as glass, its two spokes and the places that it touches. */
+export class PickedLayer {
+  constructor(uniforms) {
+    this.colours = {picked: new Vector3(), spokeA: new Vector3(), spokeB: new Vector3()};
+    this.place = new Vector4();
+    const seen = {...kOver, depthTest: false};
+    const ballUniforms = {...uniforms, picked: {value: this.place}, pickedColour: {value: this.colours.picked}};
+    const ball = new Mesh(corners(kCornersOfABall), material(common + attributes + ballVertex, common + ballFragment,
+      ballUniforms, {...seen, defines: {PICKED: ''}}));
+    this.spokes = ['spokeA', 'spokeB'].map((name) => {
+      const own = {...uniforms, from: {value: new Vector3()}, to: {value: new Vector3()},
+        colour: {value: this.colours[name]}};
+      return new Mesh(corners(6), material(common + wideLineVertex, common + flatFragment, own,
+        {...seen, side: DoubleSide}));
+    });
+    this.objects = [placed(ball, kOrder.picked), ...this.spokes.map((line) => placed(line, kOrder.picked + 1))];
+    this.show(false);
+  }
+
+  show(visible) {
+    for (const object of this.objects) object.visible = visible;
+  }
+
+  /** `tips`: where the spokes end. */
+  set(centre, radius, tips) {
+    this.place.set(...centre, radius);
+    this.spokes.forEach((line, i) => {
+      line.material.uniforms.from.value.set(...centre);
+      line.material.uniforms.to.value.set(...tips[i]);
+    });
+    this.show(true);
+  }
+}

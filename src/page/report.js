@@ -1,0 +1,110 @@
+// The report of the run, for reading: docs/report.md says what each key means.
+import {bytes, plain} from './format.js';
+
+const kBytes = new Set(['memory_bytes']);
+const kHidden = new Set(['format', 'program', 'version', 'input', 'output', 'seconds', 'assumptions']);
+const kTitles = {
+  parameters: 'Parameters', mesh: 'Mesh', grid: 'Grid', voxels: 'Voxels', levels: 'Levels', points: 'Points',
+  device: 'Device', certificate: 'Check',
+};
+const kNames = {
+  undecided_kinds: 'undecided: ', object_angle: 'object angle', api_version: 'Vulkan version',
+  memory_bytes: 'memory',
+};
+// What matters about a mesh even if it is 0; other counts are named only if something happened.
+const kAlways = new Set(['vertices', 'triangles', 'components', 'open_edges', 'undecided', 'rejected', 'found',
+  'written', 'proved_empty', 'radius', 'perturb', 'extra_levels', 'signed_volume']);
+
+function element(tag, text, ...children) {
+  const made = document.createElement(tag);
+  if (text !== undefined && text !== null) made.textContent = text;
+  made.append(...children);
+  return made;
+}
+
+const nameOf = (key) => kNames[key] ?? key.replaceAll('_', ' ');
+
+function vulkanVersion(packed) {
+  return `${packed >>> 22 & 127}.${packed >>> 12 & 1023}.${packed & 4095}`;
+}
+
+function textOf(key, value) {
+  if (value === null) return 'none';
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (key === 'api_version') return vulkanVersion(value);
+  if (key === 'seed') return String(value);
+  if (typeof value === 'number') return kBytes.has(key) ? bytes(value) : plain(value);
+  if (Array.isArray(value)) return value.map((x) => textOf(key, x)).join(key === 'size' ? ' × ' : ', ');
+  if (typeof value === 'object' && 'least' in value) return `${plain(value.least)} to ${plain(value.greatest)}`;
+  return String(value);
+}
+
+function rows(list, object, prefix = '') {
+  for (const [key, value] of Object.entries(object)) {
+    if (kHidden.has(key) || (value === 0 && !kAlways.has(key))) continue;
+    const nested = value !== null && typeof value === 'object' && !Array.isArray(value) && !('least' in value);
+    if (nested) {
+      rows(list, value, key === 'undecided_kinds' ? 'undecided, ' : `${nameOf(key)}, `);
+    } else {
+      list.append(element('dt', prefix + nameOf(key)), element('dd', textOf(key, value)));
+    }
+  }
+  return list;
+}
+
+/** An array of objects with the same keys. */
+function table(objects) {
+  const keys = Object.keys(objects[0]).filter((key) => objects.some((object) => object[key] !== 0 && object[key] !== ''));
+  const head = element('tr', null, ...keys.map((key) => {
+    const cell = element('th', nameOf(key));
+    cell.scope = 'col';
+    if (typeof objects[0][key] === 'number') cell.className = 'number';
+    return cell;
+  }));
+  const body = objects.map((object) => element('tr', null, ...keys.map((key) => {
+    const cell = element('td', textOf(key, object[key]));
+    if (typeof object[key] === 'number') cell.className = 'number';
+    return cell;
+  })));
+  const wide = element('div', null, element('table', null, element('thead', null, head), element('tbody', null, ...body)));
+  wide.className = 'wide';
+  wide.tabIndex = 0;
+  return wide;
+}
+
+function section(title, ...content) {
+  return element('section', null, element('h3', title), ...content);
+}
+
+function run(report) {
+  const list = element('dl');
+  for (const [name, text] of [['input', report.input], ['output', report.output],
+    ['made by', `${report.program} ${report.version}`]]) {
+    list.append(element('dt', name), element('dd', text));
+  }
+  return section('Run', list);
+}
+
+function certificate(value) {
+  if (!value) return section('Check', element('p', 'Not asked for (--check).'));
+  const verdict = value.passed ? 'Every ball satisfies its certificate.' : 'Some balls do not satisfy their certificate.';
+  return section('Check', element('p', verdict), table(value.conditions));
+}
+
+/** Fills `target`. */
+export function showReport(target, report) {
+  target.append(run(report));
+  for (const key of ['points', 'voxels', 'parameters', 'mesh', 'grid']) {
+    if (report[key]) target.append(section(kTitles[key], rows(element('dl'), report[key])));
+    const assumptions = report[key]?.assumptions ?? [];
+    if (assumptions.length) target.lastChild.append(element('ul', null, ...assumptions.map((x) => element('li', x))));
+  }
+  if (report.levels?.length) target.append(section(kTitles.levels, table(report.levels)));
+  target.append(certificate(report.certificate));
+  target.append(report.device ? section(kTitles.device, rows(element('dl'), report.device))
+    : section(kTitles.device, element('p', 'None: the reference on the CPU.')));
+  const raw = element('details', null, element('summary', 'As JSON (but for the times)'),
+    element('pre', JSON.stringify(report, null, 2)));
+  raw.lastChild.tabIndex = 0;
+  target.append(raw);
+}

@@ -1,0 +1,72 @@
+// A medial point by its number: its place, its values, its colour, and whether the filter lets it through. The numbers
+// are read from textures, not from attributes of instances: a hundred thousand instances of three corners each are slow
+// on many devices, one list of three hundred thousand corners is not.
+uniform mat4 projectionMatrix, modelViewMatrix;
+uniform vec2 leastAngleRadius;
+uniform int colourBy;             // A component of `values`.
+uniform vec2 colourRange;
+uniform sampler2D colourMap;      // Row 0: the map of numbers; row 1: one colour per sheet, by turns.
+#ifdef PICKED
+uniform vec4 picked;              // Centre and radius.
+uniform vec3 pickedColour;
+#else
+uniform sampler2D places;         // Centre and radius.
+uniform sampler2D others;         // Object angle, flux, sheet.
+uniform highp isampler2D spokes;  // Two texels a point, in 32767ths.
+uniform highp usampler2D order;   // Which ball comes when (ORDERED).
+#endif
+
+struct MedialPoint {
+  vec3 centre;
+  float radius;
+  vec4 values;  // Object angle, radius, flux, sheet.
+  int index;
+};
+
+ivec2 texel_of(int index, int width) { return ivec2(index % width, index / width); }
+
+#ifdef PICKED
+MedialPoint medial_point(int number) { return MedialPoint(picked.xyz, picked.w, vec4(0), number); }
+#else
+MedialPoint medial_point(int number) {
+#ifdef ORDERED
+  int index = int(texelFetch(order, texel_of(number, textureSize(order, 0).x), 0).r);
+#else
+  int index = number;
+#endif
+  ivec2 texel = texel_of(index, textureSize(places, 0).x);
+  vec4 place = texelFetch(places, texel, 0);
+  vec4 other = texelFetch(others, texel, 0);
+  return MedialPoint(place.xyz, place.w, vec4(other.x, place.w, other.yz), index);
+}
+
+// Which: 0 or 1.
+vec3 spoke_of(MedialPoint point, int which) {
+  ivec2 texel = texel_of(2 * point.index + which, textureSize(spokes, 0).x);
+  return vec3(texelFetch(spokes, texel, 0).xyz) / 32767.0;
+}
+#endif
+
+bool filtered_out(MedialPoint point) {
+#ifdef PICKED
+  return false;
+#else
+  return point.values.x < leastAngleRadius.x || point.values.y < leastAngleRadius.y;
+#endif
+}
+
+// Outside of everything that is drawn.
+vec4 nowhere() { return vec4(2.0, 2.0, 2.0, 1.0); }
+
+vec3 attribute_colour(MedialPoint point) {
+#ifdef PICKED
+  return pickedColour;
+#else
+  if (colourBy == 3) {
+    if (point.values.w < 0.0) return vec3(0.55, 0.58, 0.62);
+    return texelFetch(colourMap, ivec2(int(mod(point.values.w, 12.0)), 1), 0).rgb;
+  }
+  float share = (point.values[colourBy] - colourRange.x) / max(colourRange.y - colourRange.x, 1e-12);
+  return texelFetch(colourMap, ivec2(int(clamp(share, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
+#endif
+}

@@ -1,0 +1,28 @@
+// A ball: a square that covers it on the screen. The fragments find the ball by its equation, so it is round at any size
+// and costs six corners.
+out vec3 colour, ray;
+flat out vec4 ball;  // Centre and radius in view space.
+
+const vec2 kCorners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+
+void main() {
+  MedialPoint point = medial_point(gl_VertexID / 6);
+  vec3 middle = (modelViewMatrix * vec4(point.centre, 1.0)).xyz;
+  float radius = point.radius;
+  float away = length(middle);
+  if (filtered_out(point) || away <= 1.01 * radius) {  // Seen from inside it is nothing.
+    gl_Position = nowhere();
+    return;
+  }
+  // The square is perpendicular to the line of sight and as large as the cone of tangents is there.
+  float size = radius * away / sqrt(away * away - radius * radius);
+  vec3 towards = middle / away;
+  vec3 other = abs(towards.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0);
+  vec3 u = normalize(cross(towards, other));
+  vec3 v = cross(u, towards);
+  vec2 corner = kCorners[gl_VertexID % 6];
+  ray = middle + 1.02 * size * (corner.x * u + corner.y * v);
+  ball = vec4(middle, radius);
+  gl_Position = projectionMatrix * vec4(ray, 1.0);
+  colour = attribute_colour(point);
+}

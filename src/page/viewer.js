@@ -1,0 +1,341 @@
+// The canvas: camera, layers, cut, filter and picking. Draws when something has changed, and only then.
+import {Group, MathUtils, Matrix4, PerspectiveCamera, Plane, Scene, Spherical, Vector3, WebGLRenderer} from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+
+import {kAttributes, kThemes} from './colours.js';
+import {kCornersOfABall, makeUniforms, MeshLayer, PickedLayer, PointLayers} from './layers.js';
+import {pick} from './pick.js';
+
+export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
+
+const kFieldOfView = 32;  // Degrees, of the shorter side.
+const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
+const kFilled = 0.88;  // Share of the picture that the model fills at first.
+// Milliseconds that the balls may take, so that the page always answers.
+const kTurningTime = 40, kRestingTime = 700;
+const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls in a millisecond: first that of a slow device, then learned.
+
+export class Viewer {
+  /** `context`: of WebGL 2, without antialiasing. */
+  constructor(canvas, context, scene) {
+    this.canvas = canvas;
+    this.scene = scene;
+    this.renderer = new WebGLRenderer({canvas, context});
+    this.renderer.setClearColor(0, 0);
+    this.renderer.outputColorSpace = 'srgb-linear';  // Colours are given as they are to be seen.
+    this.root = new Scene();
+    this.model = new Group();
+    this.root.add(this.model);
+    this.uniforms = makeUniforms(scene);
+    this.mesh = new MeshLayer(scene, this.uniforms);
+    this.points = new PointLayers(scene, this.uniforms, this.renderer.capabilities.maxTextureSize);
+    this.picked = new PickedLayer(this.uniforms);
+    this.model.add(...this.mesh.objects, ...this.picked.objects);
+    this.shown = {mesh: true, balls: false, points: false, spokes: false, sheets: false};
+    this.plane = [0, 0, 0, 1];
+    this.least = {angle: -Infinity, radius: -Infinity};
+    this.ballCount = 0;
+    this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
+    this.pace = kFirstPace;
+    this.otherTime = [0, 0];  // Milliseconds of a frame without balls, quickly and at rest.
+    this.frame = 0;
+    this.setUpCamera();
+  }
+
+  setUpCamera() {
+    this.half = [0, 1, 2].map((k) => (this.scene.upper[k] - this.scene.lower[k]) / 2 / this.scene.scale);
+    this.size = Math.hypot(...this.half) || 1;
+    this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.minDistance = 0.02;
+    this.controls.maxDistance = 40;
+    this.controls.addEventListener('start', () => { this.chosen = true; });
+    this.controls.addEventListener('change', () => this.draw());
+    this.resize();
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
+  }
+
+  resize() {
+    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    // The field of view is that of the shorter side.
+    const half = Math.tan(MathUtils.degToRad(kFieldOfView / 2)) / Math.min(this.camera.aspect, 1);
+    this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(half));
+    this.camera.updateProjectionMatrix();
+    this.unitsPerPixel = 2 * half / height;
+    this.uniforms.viewport.value.set(width, height);
+    this.refit();
+    this.draw();
+  }
+
+  /** The model fills the picture again, unless somebody has chosen a view. */
+  refit() {
+    if (!this.chosen) this.resetView();
+  }
+
+  /** At rest twice as many pixels each way as the screen has, if those are large: no edge is jagged then. */
+  setSharpness(atRest) {
+    const screen = Math.min(window.devicePixelRatio, 2);
+    const ratio = atRest && screen < 2 ? 2 * screen : screen;
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
+    this.uniforms.pixelRatio.value = ratio;
+    this.uniforms.pixelsPerUnit.value = ratio / this.unitsPerPixel;
+  }
+
+  /** Far enough away that every vertex is seen from the first place. Some thousand of them are enough. */
+  restingDistance() {
+    const {vertices} = this.scene;
+    const toView = new Matrix4().lookAt(kFrom, new Vector3(), this.camera.up).invert().multiply(this.model.matrixWorld);
+    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)) * kFilled, right = up * this.camera.aspect;
+    const place = new Vector3();
+    const stride = 3 * Math.ceil(vertices.length / 3 / 5000);
+    let distance = 0.1 * this.size;
+    for (let i = 0; i < vertices.length; i += stride) {
+      place.fromArray(vertices, i).applyMatrix4(toView);
+      distance = Math.max(distance, place.z + Math.abs(place.x) / right, place.z + Math.abs(place.y) / up);
+    }
+    return distance;
+  }
+
+  resetView() {
+    this.chosen = false;
+    this.model.updateMatrixWorld();
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.copy(kFrom).multiplyScalar(this.restingDistance());
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Turns about what is looked at, in radians, and goes `nearer` times as close. */
+  turn(right, up, nearer = 1) {
+    this.chosen = true;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const spherical = new Spherical().setFromVector3(offset);
+    spherical.theta += right;
+    spherical.phi = MathUtils.clamp(spherical.phi + up, 0.01, Math.PI - 0.01);
+    spherical.radius = MathUtils.clamp(spherical.radius / nearer, this.controls.minDistance, this.controls.maxDistance);
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(spherical));
+    this.controls.update();
+    this.draw();
+  }
+
+  setUp(axis) {
+    this.model.rotation.x = axis === 'z' ? -Math.PI / 2 : 0;
+    this.resetView();
+  }
+
+  showLayer(name, visible) {
+    this.shown[name] = visible;
+    if (name === 'mesh') {
+      for (const object of this.mesh.objects) object.visible = visible;
+    } else if (visible || this.points.made[name]) {
+      const object = this.points.get(name);
+      if (!object.parent) this.model.add(object);
+      object.visible = visible && this.scene.points > 0;
+    }
+    this.draw();
+  }
+
+  addCreases() {
+    const lines = this.mesh.addCreases();
+    lines.visible = this.shown.mesh;
+    this.model.add(lines);
+    this.draw();
+  }
+
+  setTheme(name) {
+    const theme = kThemes[name];
+    this.uniforms.glass.value.set(...theme.glass);
+    this.uniforms.crease.value.set(...theme.crease);
+    for (const part of ['picked', 'spokeA', 'spokeB']) this.picked.colours[part].set(...theme[part]);
+    this.draw();
+  }
+
+  /** 0: nothing of the mesh, 0.5: glass, 1: nothing through it. */
+  setOpacity(share) {
+    this.uniforms.density.value = share < 1 ? share / (1 - share) : 1e4;
+    this.draw();
+  }
+
+  setColour(attribute, least, greatest) {
+    this.uniforms.colourBy.value = kAttributes[attribute].component;
+    this.uniforms.colourRange.value.set(least, greatest);
+    this.draw();
+  }
+
+  setLeast(angle, radius) {
+    this.least = {angle, radius};
+    this.uniforms.leastAngleRadius.value.set(angle, radius);
+    this.draw();
+  }
+
+  /** Kept is where dot(plane, p) + plane[3] >= 0, in the model. */
+  setPlane(plane) {
+    this.plane = plane;
+    this.draw();
+  }
+
+  setBallCount(count) {
+    this.ballCount = count;
+    this.draw();
+  }
+
+  passesFilter(i) {
+    return this.scene.angles[i] >= this.least.angle && this.scene.radii[i] >= this.least.radius;
+  }
+
+  centre(i) { return Array.from(this.scene.centres.subarray(3 * i, 3 * i + 3)); }
+
+  isVisible(i) {
+    const [x, y, z] = this.centre(i);
+    const p = this.plane;
+    return this.passesFilter(i) && p[0] * x + p[1] * y + p[2] * z + p[3] >= 0;
+  }
+
+  countVisible() {
+    const {centres, angles, radii, points} = this.scene;
+    const [x, y, z, w] = this.plane;
+    let count = 0;
+    for (let i = 0; i < points; ++i) {
+      const kept = x * centres[3 * i] + y * centres[3 * i + 1] + z * centres[3 * i + 2] + w >= 0;
+      if (kept && angles[i] >= this.least.angle && radii[i] >= this.least.radius) ++count;
+    }
+    return count;
+  }
+
+  /** Shows point i as picked; -1: none. */
+  highlight(i) {
+    if (i < 0) {
+      this.picked.show(false);
+    } else {
+      const centre = this.centre(i), radius = this.scene.radii[i];
+      const tip = (from) => centre.map((c, k) => c + radius * this.scene.spokes[6 * i + from + k] / 32767);
+      this.picked.set(centre, radius, [tip(0), tip(3)]);
+    }
+    this.draw();
+  }
+
+  /** Where point i is on the canvas, in CSS pixels. */
+  project(i) {
+    const place = this.model.localToWorld(new Vector3(...this.centre(i))).project(this.camera);
+    const {clientWidth, clientHeight} = this.canvas;
+    return [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
+  }
+
+  /** The point or ball at a place of the canvas, in CSS pixels; -1: none. */
+  pickAt(x, y) {
+    const {clientWidth, clientHeight} = this.canvas;
+    this.root.updateMatrixWorld();
+    const inverse = new Matrix4().copy(this.model.matrixWorld).invert();
+    const origin = this.camera.position.clone();
+    const direction = new Vector3(2 * x / clientWidth - 1, 1 - 2 * y / clientHeight, 0.5).unproject(this.camera)
+      .sub(origin).transformDirection(inverse);
+    const marks = this.shown.points || this.shown.sheets || this.shown.spokes;
+    const radius = this.shown.sheets ? this.uniforms.discRadius.value : this.uniforms.pointRadius.value;
+    return pick(this.scene, {
+      ray: {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()},
+      plane: this.plane,
+      visible: (i) => this.passesFilter(i),
+      order: this.shown.balls ? this.points.order : [],
+      ballCount: this.shown.balls ? this.drawnBalls : 0,
+      points: marks ? {radius} : null,
+      unitsPerPixel: this.unitsPerPixel,
+    });
+  }
+
+  /** Draws at the next moment: quickly, and once more with care when nothing has changed for a while. */
+  draw() {
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.drawNow(true), 250);
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.drawNow(false);
+    });
+  }
+
+  /** Pixels of the squares around the first balls, if the model is as far away as its middle. */
+  pixelsOfBalls(count) {
+    const scale = 2 * this.uniforms.pixelsPerUnit.value / Math.max(this.camera.position.length(), 0.3);
+    return this.points.squares[count] * scale * scale;
+  }
+
+  /** How many of the balls can be drawn in the time; those left out hide behind those drawn, mostly. */
+  ballsWithin(milliseconds) {
+    let least = Math.min(20, this.ballCount), most = this.ballCount;
+    while (least < most) {
+      const middle = Math.ceil((least + most) / 2);
+      if (this.pixelsOfBalls(middle) <= this.pace * milliseconds) least = middle; else most = middle - 1;
+    }
+    return least;
+  }
+
+  /** Learns from a frame how fast the device is, without waiting for it; at rest, more balls may follow. */
+  learnPace(atRest) {
+    const gl = this.renderer.getContext();
+    const pixels = this.shown.balls ? this.pixelsOfBalls(this.drawnBalls) : 0, begin = performance.now(), frame = this.frame;
+    const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (gl.isContextLost()) return;
+      if (gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) {
+        setTimeout(look, 4);
+        return;
+      }
+      gl.deleteSync(sync);
+      const time = performance.now() - begin;
+      if (pixels === 0) {
+        this.otherTime[Number(atRest)] = time;
+        return;
+      }
+      // At least half of the time counts as that of the balls: other layers may have been shown when theirs was taken.
+      const pace = pixels / Math.max(time - Math.min(this.otherTime[Number(atRest)], time / 2), 1);
+      this.pace = Math.min(Math.max(pace, kLeastPace), 8 * this.pace);
+      const more = this.ballsWithin(kRestingTime) > 1.25 * this.drawnBalls;
+      if (atRest && frame === this.frame && more) this.drawNow(true);
+    };
+    setTimeout(look, 4);
+  }
+
+  drawNow(atRest) {
+    const {camera} = this;
+    this.setSharpness(atRest);
+    const away = camera.position.length();
+    const reach = 1.5 * this.size;
+    camera.near = Math.max(away - reach, 0.002 * this.size);
+    camera.far = away + reach;
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    this.model.updateMatrixWorld();
+    this.updatePlane();
+    this.frame += 1;
+    if (this.shown.balls) {
+      this.drawnBalls = this.ballsWithin(atRest ? kRestingTime : kTurningTime);
+      this.points.get('balls').geometry.setDrawRange(0, kCornersOfABall * this.drawnBalls);
+    }
+    this.renderer.render(this.root, camera);
+    this.learnPace(atRest);
+    if (atRest) this.onRest?.();
+  }
+
+  updatePlane() {
+    const [x, y, z, w] = this.plane;
+    if (x === 0 && y === 0 && z === 0) {
+      this.uniforms.cutPlane.value.set(0, 0, 0, 1);
+      return;
+    }
+    const toView = new Matrix4().multiplyMatrices(this.camera.matrixWorldInverse, this.model.matrixWorld);
+    const plane = new Plane(new Vector3(x, y, z), w).applyMatrix4(toView);
+    this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
+  }
+
+  /** Waits for the device: the frame is there when this returns. */
+  finish() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+}

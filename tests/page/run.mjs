@@ -1,0 +1,31 @@
+// Runs one test of the page in headless Chromium.
+//   node run.mjs TOOL TEST
+// Ends with 77 if there is no Chromium, or if the tool was built without its page.
+import {Browser, findChromium} from './browser.mjs';
+import {Workshop} from './fixtures.mjs';
+import {tests} from './tests.mjs';
+
+function skip(why) {
+  console.log(`SKIPPED: ${why}`);
+  process.exit(77);
+}
+
+const [tool, name] = process.argv.slice(2);
+const test = tests[name];
+if (!test) throw new Error(`no test ${name}; there are: ${Object.keys(tests).join(' ')}`);
+const chromium = findChromium();
+if (!chromium) skip('no Chromium (Debian: apt install chromium; elsewhere: CHROMIUM=program)');
+
+const workshop = new Workshop(tool);
+const browser = new Browser(chromium, {webGl: name !== 'no_webgl'});
+try {
+  await test({workshop, browser});
+  console.log(`${name}: ok`);
+} catch (error) {
+  if (error.message.includes('was built without its page')) process.exitCode = 77;
+  else process.exitCode = 1;
+  console.log(process.exitCode === 77 ? `SKIPPED: ${error.message}` : error.stack);
+} finally {
+  await browser.close();
+  workshop.close();
+}
