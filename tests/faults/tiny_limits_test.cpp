@@ -143,7 +143,8 @@ TEST_F(PoorDevice, ReadsALargeMeshThroughStorageBuffers) {
   EXPECT_TRUE(answers[0].value() == answers[1].value());
 }
 
-// A mesh that is larger than what kernels see of a storage buffer is read as texels: as many answers, of the same bytes.
+// A mesh that is larger than what kernels see of a storage buffer is read as texels: as many answers, of the same
+// bytes.
 TEST_F(PoorDevice, ReadsAMeshBeyondTheStorageBuffersAsTexels) {
   constexpr std::uint32_t kBytes = 1u << 22;  // below what Vulkan allows, so that a small mesh is too large
   const PreparedMesh mesh = torus(280, 120);
