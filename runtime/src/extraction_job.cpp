@@ -200,10 +200,11 @@ Placement ExtractionJob::placement() const { return impl_->recorded; }
 RecordedCounts ExtractionJob::counts() {
   RecordedCounts counts;
   std::uint32_t overflow = 0;
-  const auto* memory = static_cast<const std::byte*>(impl_->frames[impl_->next].counts.mapped);
+  auto* memory = static_cast<std::byte*>(impl_->frames[impl_->next].counts.mapped);
   std::memcpy(&counts, memory, sizeof(counts));
   std::memcpy(&overflow, memory + sizeof(counts), sizeof(overflow));
   if (overflow == gpu::kTooFewRounds) impl_->pipeline->add_rounds();
+  std::memset(memory + sizeof(counts), 0, sizeof(overflow));  // once for every sequence
   return counts;
 }
 

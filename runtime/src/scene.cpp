@@ -139,8 +139,9 @@ Status DeviceMesh::fill(const Uploader& uploader, std::span<const std::byte> byt
 Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose,
                                VkFormat format, Buffer& buffer, VkBufferView& view) {
   const MemoryKind kind = use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
+  const VkBuffer before = buffer.handle;
   if (Status status = fill(uploader, bytes, kind, purpose, buffer); !status.ok()) return status;
-  if (view != VK_NULL_HANDLE) return {};
+  if (view != VK_NULL_HANDLE && buffer.handle == before) return {};
   Result<Buffer> viewed = buffer;
   if (!use_texels) viewed = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
   if (!viewed.ok()) return viewed.error();
