@@ -1,0 +1,28 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+#include "panel.glsl"
+#include "marks.glsl"
+layout(location = 0) out vec2 at;            // samples
+layout(location = 1) flat out vec4 ball;     // centre from the eye, y down and z away; radius
+layout(location = 2) flat out float value;
+
+// Where the shadow of the ball begins and ends on a line at a distance of 1 from the eye: the tangents in a plane
+// through the eye.
+vec2 shadow(float across, float away, float radius) {
+  float square = away * away - radius * radius;
+  float root = radius * sqrt(max(across * across + square, 0.0));
+  return vec2(across * away - root, across * away + root) / square;
+}
+
+void main() {
+  Mark m = mark();
+  vec3 seen = turn(m.centre.xyz);
+  ball = vec4(seen.x, -seen.y, panel.layer.w - seen.z, m.centre.w);
+  value = m.normal.w;
+  at = vec2(0.0);
+  gl_Position = vec4(2.0, 2.0, 0.5, 1.0);  // outside
+  if (ball.z <= 1.01 * ball.w) return;
+  vec2 x = shadow(ball.x, ball.z, ball.w), y = shadow(ball.y, ball.z, ball.w), c = 0.5 * corner() + 0.5;
+  at = vec2(panel.right.w, panel.up.w) + panel.towards.w * vec2(mix(x.x, x.y, c.x), mix(y.x, y.y, c.y));
+  gl_Position = clip_of(at);
+}
