@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "output/picture/camera.h"
 #include "output/picture/panel.h"
 #include "output/picture/scene.h"
 #include "output/picture/vulkan/device_painter.h"
@@ -10,7 +9,6 @@
 namespace medial_vk {
 namespace {
 
-using picture::Camera;
 using picture::Panel;
 using picture::Scene;
 
@@ -41,8 +39,7 @@ Result<DrawnPicture> draw_on_device(const Scene& scene, const PictureOptions& op
 Picture draw_on_cpu(const Scene& scene, const PictureOptions& options) {
   Picture out = blank(options);
   for (const Panel& panel : picture::panels_of(options.show, out.width)) {
-    const Camera camera(scene.mesh.positions, options.view, picture::frame_of(panel, out, picture::kCpuSamples));
-    draw_panel(scene, panel, camera, out);
+    draw_panel(scene, panel, options.view, out);
   }
   draw_legend(scene, out);
   return out;

@@ -164,10 +164,17 @@ std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
   return {{0, width / 2, false}, {width / 2, width - width / 2, true}};
 }
 
-void draw_panel(const Scene& scene, const Panel& panel, const Camera& camera, Picture& picture) {
+std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const std::array<double, 3>& view,
+                              const Picture& picture) {
+  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, 1));
+  return seen_balls(scene.balls, camera, panel.width, picture.height);
+}
+
+void draw_panel(const Scene& scene, const Panel& panel, const std::array<double, 3>& view, Picture& picture) {
+  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
   Layers layers(panel.width * kCpuSamples, picture.height * kCpuSamples);
   if (panel.balls) {
-    draw_balls(scene.balls, camera, layers.marks);
+    draw_balls(panel_balls(scene, panel, view, picture), camera, kCpuSamples, layers.marks);
   } else {
     draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
     draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);

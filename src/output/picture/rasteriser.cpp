@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace medial_vk::picture {
 namespace {
@@ -124,19 +125,25 @@ std::pair<float, float> shadow(float across, float away, float radius) {
   return {(across * away - root) / square, (across * away + root) / square};
 }
 
-void draw_ball(const Mark& ball, const Camera& camera, MarkLayer& layer) {
+/// Calls `put(x, y, nearness, normal)` for the pixels of a ball within `part`, unless `hides(x, y, nearness)` says that
+/// even the nearest point of the ball is hidden there.
+template <class Hides, class Put>
+void draw_ball(const Mark& ball, const Camera& camera, const Frame& part, const Hides& hides, const Put& put) {
   const Vector3f seen = camera.turn(ball.centre);
   const Vector3f centre(seen.x(), -seen.y(), Camera::kDistance - seen.z());  // From the eye; y down, z away.
   if (!(centre.z() > 1.01f * ball.radius)) return;
   const auto [left, right] = shadow(centre.x(), centre.z(), ball.radius);
   const auto [top, bottom] = shadow(centre.y(), centre.z(), ball.radius);
-  const float pixels = camera.pixels();
+  const float pixels = camera.pixels(), greatest_nearness = 1.0f / (centre.z() - ball.radius);
   const PixelRange columns =
-      pixels_between(camera.offset_x() + pixels * left, camera.offset_x() + pixels * right, layer.surface.width);
-  const PixelRange rows =
-      pixels_between(camera.offset_y() + pixels * top, camera.offset_y() + pixels * bottom, layer.surface.height);
+      pixels_between(std::max(camera.offset_x() + pixels * left, part.left),
+                     std::min(camera.offset_x() + pixels * right, part.right), static_cast<std::uint32_t>(part.right));
+  const PixelRange rows = pixels_between(std::max(camera.offset_y() + pixels * top, part.top),
+                                         std::min(camera.offset_y() + pixels * bottom, part.bottom),
+                                         static_cast<std::uint32_t>(part.bottom));
   for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
     for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
+      if (hides(x, y, greatest_nearness)) continue;
       // The ray through the sample is t * d. With w from where it is as far away as the centre, to the centre, nothing
       // large cancels: the distance of the ray from the centre is |d x w| / |d|.
       const Vector3f d((static_cast<float>(x) + 0.5f - camera.offset_x()) / pixels,
@@ -145,9 +152,8 @@ void draw_ball(const Mark& ball, const Camera& camera, MarkLayer& layer) {
       const float root = ball.radius * ball.radius * d.squaredNorm() - d.cross(w).squaredNorm();
       if (!(root > 0)) continue;
       const float step = (d.dot(w) - std::sqrt(root)) / d.squaredNorm();
-      const float nearness = 1.0f / (centre.z() + step);
       const Vector3f out = (step * d - w) / ball.radius;
-      layer.put(x, y, nearness, Vector3f(out.x(), -out.y(), -out.z()).normalized(), ball.value, 0.0f);
+      put(x, y, 1.0f / (centre.z() + step), Vector3f(out.x(), -out.y(), -out.z()));
     }
   }
 }
@@ -184,8 +190,63 @@ void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_r
   }
 }
 
-void draw_balls(std::span<const Mark> balls, const Camera& camera, MarkLayer& layer) {
-  for (const Mark& ball : balls) draw_ball(ball, camera, layer);
+void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer) {
+  const std::vector<float>& nearest = layer.surface.nearness;
+  const std::uint32_t width = layer.surface.width;
+  for (const Mark& ball : balls) {
+    const Frame part = {samples * ball.seen.left, samples * ball.seen.top, samples * ball.seen.right,
+                        samples * ball.seen.bottom};
+    draw_ball(
+        ball, camera, part,
+        [&](std::uint32_t x, std::uint32_t y, float nearness) {
+          return nearness <= nearest[std::size_t{y} * width + x];
+        },
+        [&](std::uint32_t x, std::uint32_t y, float nearness, const Vector3f& normal) {
+          layer.put(x, y, nearness, normal.normalized(), ball.value, 0.0f);
+        });
+  }
+}
+
+std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
+                             std::uint32_t height) {
+  // The nearest first: what is behind them is passed over quickly.
+  std::vector<std::size_t> order(balls.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<float> front(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) front[i] = camera.turn(balls[i].centre).z() + balls[i].radius;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return front[a] > front[b]; });
+
+  std::vector<float> nearest(std::size_t{width} * height, 0.0f);
+  std::vector<std::size_t> owner(nearest.size());
+  const Frame whole = {0, 0, static_cast<float>(width), static_cast<float>(height)};
+  for (const std::size_t i : order) {
+    draw_ball(
+        balls[i], camera, whole,
+        [&](std::uint32_t x, std::uint32_t y, float nearness) {
+          return nearness <= nearest[std::size_t{y} * width + x];
+        },
+        [&](std::uint32_t x, std::uint32_t y, float nearness, const Vector3f&) {
+          const std::size_t pixel = std::size_t{y} * width + x;
+          if (nearness <= nearest[pixel]) return;
+          nearest[pixel] = nearness;
+          owner[pixel] = i;
+        });
+  }
+  std::vector<Frame> parts(balls.size(), {whole.right, whole.bottom, 0, 0});
+  for (std::size_t pixel = 0; pixel < owner.size(); ++pixel) {
+    if (nearest[pixel] == 0) continue;
+    const auto x = static_cast<float>(pixel % width), y = static_cast<float>(pixel / width);
+    Frame& part = parts[owner[pixel]];  // and a pixel around it, where it may still hide half of a neighbour's
+    part = {std::min(part.left, std::max(x - 1, 0.0f)), std::min(part.top, std::max(y - 1, 0.0f)),
+            std::max(part.right, std::min(x + 2, whole.right)), std::max(part.bottom, std::min(y + 2, whole.bottom))};
+  }
+  std::vector<Mark> seen;
+  for (const std::size_t i : order) {
+    if (parts[i].right == 0) continue;
+    seen.push_back(balls[i]);
+    seen.back().seen = parts[i];
+  }
+  return seen;
 }
 
 }  // namespace medial_vk::picture

@@ -43,6 +43,11 @@ void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLaye
 /// Discs of at least `least_radius` pixels. Those seen from the edge are kept thick enough to be seen.
 void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer);
 
-void draw_balls(std::span<const Mark> balls, const Camera& camera, MarkLayer& layer);
+/// Each within the part where it is seen; `samples` per pixel and side.
+void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer);
+
+/// Those of the balls that are the nearest in the middle of a pixel, the nearest first, and where they are.
+std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
+                             std::uint32_t height);
 
 }  // namespace medial_vk::picture

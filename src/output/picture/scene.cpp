@@ -131,16 +131,13 @@ Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double
   Scene scene;
   scene.mesh = make_surface(mesh, placement);
   for (const MedialSphere& sphere : spheres) {
-    Mark mark = {placement.point(sphere.centre), placement.length(sphere.radius), sheet_normal(sphere),
-                 scale.value(sphere)};
+    Mark mark = {
+        placement.point(sphere.centre), placement.length(sphere.radius), sheet_normal(sphere), scale.value(sphere), {}};
     if (options.show != PictureShow::kPoints) scene.balls.push_back(mark);
     // No larger than its ball: where a sheet ends near the boundary, balls are much smaller than voxels.
     mark.radius = std::min(mark.radius, placement.length(kDiscRadius * voxel_size));
     if (options.show != PictureShow::kBalls) scene.discs.push_back(mark);
   }
-  // The largest first: they hide most of the others.
-  std::stable_sort(scene.balls.begin(), scene.balls.end(),
-                   [](const Mark& a, const Mark& b) { return a.radius > b.radius; });
   scene.palette = scale.palette();
   scene.legend = scale.legend(spheres);
   return scene;

@@ -9,6 +9,7 @@
 
 #include "medial_vk/extraction.h"
 #include "mesh/mesh.h"
+#include "output/picture/camera.h"
 #include "output/picture/options.h"
 
 namespace medial_vk::picture {
@@ -25,8 +26,9 @@ struct Mark {
   float radius = 0;        // Of the disc or of the ball.
   Eigen::Vector3f normal;  // Of the sheet; unit length, either side. Nobody asks a ball.
   float value = 0;         // Where in the palette its colour is: 2.5 is half way from the third to the fourth.
+  Frame seen = {};         // The part of the panel outside of which a ball is hidden, pixels. Nobody asks a disc.
 };
-static_assert(sizeof(Mark) == 32);  // As the shaders read it.
+static_assert(sizeof(Mark) == 48);  // As the shaders read it.
 
 struct Legend {
   std::string title;

@@ -22,7 +22,10 @@ void main() {
   at = vec2(0.0);
   gl_Position = vec4(2.0, 2.0, 0.5, 1.0);  // outside
   if (ball.z <= 1.01 * ball.w) return;
-  vec2 x = shadow(ball.x, ball.z, ball.w), y = shadow(ball.y, ball.z, ball.w), c = 0.5 * corner() + 0.5;
-  at = vec2(panel.right.w, panel.up.w) + panel.towards.w * vec2(mix(x.x, x.y, c.x), mix(y.x, y.y, c.y));
+  vec2 x = shadow(ball.x, ball.z, ball.w), y = shadow(ball.y, ball.z, ball.w);
+  vec2 offset = vec2(panel.right.w, panel.up.w), first = panel.layer.z * vec2(panel.what.z, panel.place.x) - panel.place.z;
+  vec2 least = max(offset + panel.towards.w * vec2(x.x, y.x), panel.layer.z * m.seen.xy - first);
+  vec2 greatest = min(offset + panel.towards.w * vec2(x.y, y.y), panel.layer.z * m.seen.zw - first);
+  at = mix(least, max(least, greatest), 0.5 * corner() + 0.5);
   gl_Position = clip_of(at);
 }

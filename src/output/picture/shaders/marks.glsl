@@ -2,6 +2,7 @@
 struct Mark {
   vec4 centre;  // w: radius
   vec4 normal;  // w: place in the palette
+  vec4 seen;    // of a ball: left, top, right and bottom of where it is seen, pixels of the panel
 };
 layout(set = 0, binding = 0) readonly buffer Marks { Mark marks[]; };
 

@@ -4,7 +4,7 @@ layout(push_constant) uniform Panel {
   vec4 layer;               // width and height in samples, samples per pixel and side, distance of the eye
   vec4 depth;               // least nearness, one over its range, least radius of a disc and greatest reach in samples
   vec4 place;               // top in the picture and height of the picture in pixels, border in samples, reach in units
-  uvec4 what;               // x: 1 for balls, else 0; y: colours in the palette
+  uvec4 what;               // x: 1 for balls, else 0; y: colours in the palette; z: left of the tile in the panel, pixels
 } panel;
 
 vec3 turn(vec3 direction) {

@@ -15,12 +15,12 @@ namespace {
 constexpr std::uint32_t kBorder =
     static_cast<std::uint32_t>(kGreatestReach) + 1;  // Pixels around a tile that light it.
 constexpr std::uint32_t kTileSamples = 1024;         // Per side: 45 MiB of layers.
-constexpr std::uint32_t kMarksAtOnce = 1u << 20;     // 32 MiB: every device can bind 128.
+constexpr std::uint32_t kMarksAtOnce = 1u << 20;     // 48 MiB: every device can bind 128.
 constexpr std::uint32_t kCornersOfMark = 6;
 
 /// The scene in buffers of the device.
 struct SceneBuffers {
-  DrawingBuffer positions, normals, discs, balls, palette;
+  DrawingBuffer positions, normals, palette;
 };
 
 template <class T>
@@ -58,10 +58,11 @@ class DevicePainter::Impl {
     const SceneBuffers buffers = upload_scene(scene);
     for (const Panel& panel : panels) {
       const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, samples_));
-      write_set(panel.balls ? buffers.balls : buffers.discs, buffers.palette);
+      const std::vector<Mark> marks = panel.balls ? panel_balls(scene, panel, view, picture) : scene.discs;
+      write_set(upload_marks(device_, marks), buffers.palette);
       for (std::uint32_t top = 0; top < picture.height; top += tile_.height) {
         for (std::uint32_t left = 0; left < panel.width; left += tile_.width) {
-          record(scene, buffers, panel, constants(scene, panel, camera, left, top, picture.height));
+          record(scene, buffers, panel, marks.size(), constants(scene, panel, camera, left, top, picture.height));
           submit();
           copy_pixels(panel, left, top, picture);
         }
@@ -197,8 +198,8 @@ class DevicePainter::Impl {
       palette.push_back({light.x(), light.y(), light.z(), 1});
     }
     return {upload(device_, scene.mesh.positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
-            upload(device_, scene.mesh.normals, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT), upload_marks(device_, scene.discs),
-            upload_marks(device_, scene.balls), upload(device_, palette, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)};
+            upload(device_, scene.mesh.normals, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
+            upload(device_, palette, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)};
   }
 
   PanelConstants constants(const Scene& scene, const Panel& panel, const Camera& camera, std::uint32_t left,
@@ -215,7 +216,7 @@ class DevicePainter::Impl {
     c.depth = {Camera::least_nearness(), 1.0f / (Camera::greatest_nearness() - Camera::least_nearness()),
                kLeastDiscRadius * samples, kGreatestReach * samples};
     c.place = {static_cast<float>(top), static_cast<float>(height), border * samples, kReach};
-    c.what = {panel.balls ? 1u : 0u, static_cast<std::uint32_t>(scene.palette.size()), 0, 0};
+    c.what = {panel.balls ? 1u : 0u, static_cast<std::uint32_t>(scene.palette.size()), left, 0};
     return c;
   }
 
@@ -247,11 +248,11 @@ class DevicePainter::Impl {
                                      &offset);
   }
 
-  void record_marks(const std::vector<Mark>& marks, VkPipeline pipeline) {
+  void record_marks(std::size_t marks, VkPipeline pipeline) {
     begin_pass(pipelines_.layer_pass, marks_.target, layer_, {{0, 0, 0, -1}}, 0);
     device_.vk.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    for (std::size_t first = 0; first < marks.size(); first += kMarksAtOnce) {
-      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(marks.size() - first, kMarksAtOnce));
+    for (std::size_t first = 0; first < marks; first += kMarksAtOnce) {
+      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(marks - first, kMarksAtOnce));
       bind_set(static_cast<std::uint32_t>(first * sizeof(Mark)));
       device_.vk.CmdDraw(commands_, kCornersOfMark * count, 1, 0, 0);
     }
@@ -271,7 +272,8 @@ class DevicePainter::Impl {
                                   0, nullptr, 0, nullptr);
   }
 
-  void record(const Scene& scene, const SceneBuffers& buffers, const Panel& panel, const PanelConstants& told) {
+  void record(const Scene& scene, const SceneBuffers& buffers, const Panel& panel, std::size_t marks,
+              const PanelConstants& told) {
     DrawingDevice::check(device_.vk.ResetCommandPool(device_.device, pool_, 0), "vkResetCommandPool");
     auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -282,7 +284,7 @@ class DevicePainter::Impl {
     device_.vk.CmdBindVertexBuffers(commands_, 0, 2, vertices.data(), offsets.data());
     record_wall(front_, pipelines_.front, 0, scene, !panel.balls);
     record_wall(back_, pipelines_.back, 1, scene, !panel.balls);
-    record_marks(panel.balls ? scene.balls : scene.discs, panel.balls ? pipelines_.balls : pipelines_.discs);
+    record_marks(marks, panel.balls ? pipelines_.balls : pipelines_.discs);
     begin_pass(pipelines_.compose_pass, pixel_target_, tile_, {{1, 1, 1, 1}}, 0);
     device_.vk.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.compose);
     bind_set(0);
