@@ -35,8 +35,7 @@ Output:
       --picture FILE    a .png of the mesh with its medial points, and of it:
       --show WHAT       points: in the mesh as glass (default), balls: their
                         union, both: side by side
-      --colour BY       object angle (default), radius or sheet: angle, radius,
-                        sheet
+      --colour BY       angle: the object angle (default), radius, sheet
       --view FROM       front, back, left, right, top, bottom, iso or x,y,z, the
                         direction towards the viewer; y is up (default:
                         0.544,0.352,0.762)
