@@ -197,8 +197,8 @@ class ExtractionRun {
     Stopwatch stopwatch;
     PictureOptions look = options_.look;
     look.least_angle = options_.parameters.object_angle;
-    DrawnPicture drawn = draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look,
-                                      record_.device ? &*record_.device : nullptr);
+    DrawnPicture drawn =
+        draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look, record_.device ? &*record_.device : nullptr);
     Result<std::string> png = encode_png(drawn.picture);
     if (!png) return png.error();
     record_.picture_drawn_by = std::move(drawn.drawn_by);
