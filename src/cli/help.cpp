@@ -14,7 +14,7 @@ Usage:
 
 Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here
-  medial-vk bunny.obj --picture bunny.png      and a picture of it
+  medial-vk bunny.obj --picture bunny.png --show both    and a picture of it
   medial-vk part.stl -o p.csv --resolution 80  coarser, as a table
   medial-vk bunny.obj -o bunny.glb             the balls, for Blender or the web
   medial-vk bunny.obj --check                  tests every ball again on the CPU
@@ -32,7 +32,15 @@ Output:
                         would make a file of more than 4 GiB)
       --gpu-instancing  .glb with the extension EXT_mesh_gpu_instancing: small
                         and fast, but some programs do not know it
-      --picture FILE    a .png of the mesh with its medial points
+      --picture FILE    a .png of the mesh with its medial points, and of it:
+      --show WHAT       points: in the mesh as glass (default), balls: their
+                        union, both: side by side
+      --colour BY       angle: the object angle (default), radius, sheet
+      --view FROM       front, back, left, right, top, bottom, iso or x,y,z, the
+                        direction towards the viewer; y is up (default:
+                        0.544,0.352,0.762)
+      --size SIZE       pixels, WxH or N for a square, 16 to 16384 each (default
+                        1200x900; 1800x900 with --show both)
       --html FILE       a page that shows mesh, balls, points and report in a
                         browser: one file, no network
       --report FILE     everything about the run as JSON; "-": standard output

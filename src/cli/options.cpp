@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/parse_number.h"
+#include "cli/parse_picture.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -49,6 +50,8 @@ class Declarations {
   }
 
   void memory(const char* name, std::uint64_t& target) { parsed(name, parse_memory, target); }
+  void view(const char* name, std::array<double, 3>& target) { parsed(name, parse_view, target); }
+  void size(const char* name, std::array<std::uint32_t, 2>& target) { parsed(name, parse_size, target); }
 
   template <class T>
   void choice(const char* name, std::vector<std::pair<std::string, T>> choices, T& target) {
@@ -88,6 +91,15 @@ void declare(CLI::App& app, Options& options) {
   add.whole("--sphere-detail", 0, kGreatestSphereDetail, "", options.sphere_detail);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
+  add.view("--view", options.look.view);
+  add.size("--size", options.look.size);
+  add.choice<PictureShow>(
+      "--show", {{"points", PictureShow::kPoints}, {"balls", PictureShow::kBalls}, {"both", PictureShow::kBoth}},
+      options.look.show);
+  add.choice<PictureColour>(
+      "--colour",
+      {{"angle", PictureColour::kAngle}, {"radius", PictureColour::kRadius}, {"sheet", PictureColour::kSheet}},
+      options.look.colour);
   add.text("--html", "file", options.html);
 
   add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
@@ -218,6 +230,22 @@ Status check_ball_options(const Options& options) {
   return {};
 }
 
+/// Options about the picture need a picture.
+Status check_picture_options(const Options& options) {
+  const PictureOptions usual;
+  const PictureOptions& look = options.look;
+  const std::pair<const char*, bool> given[] = {{"--view", look.view != usual.view},
+                                                {"--size", look.size != usual.size},
+                                                {"--show", look.show != usual.show},
+                                                {"--colour", look.colour != usual.colour}};
+  for (const auto& [name, is_given] : given) {
+    if (is_given && options.picture.empty()) {
+      return usage_error(fmt::format("{} is about the picture: use it with --picture FILE.png", name));
+    }
+  }
+  return {};
+}
+
 Status complete_files(Options& options) {
   if (options.mesh.empty()) return usage_error("no MESH given");
   if (options.output.empty()) options.output = default_output(options);
@@ -230,6 +258,7 @@ Status complete_files(Options& options) {
   if (!may_end_in(options.picture, ".png")) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
   }
+  if (Status status = check_picture_options(options); !status) return status;
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
   }

@@ -11,6 +11,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 #include "output/medial_file.h"
+#include "output/picture/options.h"
 
 namespace medial_vk::cli {
 
@@ -38,6 +39,7 @@ struct Options {
   std::string report;   ///< Empty: none; "-": standard output.
   std::string picture;  ///< The same.
   std::string html;     ///< The same.
+  PictureOptions look;  ///< Of the picture.
   bool check = false;
 
   bool quiet = false;

@@ -195,10 +195,13 @@ class ExtractionRun {
     if (options_.picture.empty()) return {};
     progress_.update("picture", 0);
     Stopwatch stopwatch;
-    PictureOptions look;
+    PictureOptions look = options_.look;
     look.least_angle = options_.parameters.object_angle;
-    Result<std::string> png = encode_png(draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look));
+    DrawnPicture drawn =
+        draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look, record_.device ? &*record_.device : nullptr);
+    Result<std::string> png = encode_png(drawn.picture);
     if (!png) return png.error();
+    record_.picture_drawn_by = std::move(drawn.drawn_by);
     files_.push_back({options_.picture, std::move(png).value()});
     record_.host_times.push_back({"picture", stopwatch.lap()});
     return {};

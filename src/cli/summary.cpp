@@ -89,6 +89,7 @@ std::string details(const RunRecord& record) {
   text += line("grid", fmt::format("{} x {} x {} voxels of {:.5g}", record.grid.size[0], record.grid.size[1],
                                    record.grid.size[2], record.grid.voxel_size));
   text += line("queries", grouped(record.counters.queries));
+  if (!record.picture_drawn_by.empty()) text += line("picture", "drawn by " + record.picture_drawn_by);
   if (record.counters.retries > 0) text += line("retries", grouped(record.counters.retries));
   for (const StageTime& time : record.device_times) {
     text += line("on device", fmt::format("{:<24} {}", time.stage, duration(time.seconds)));

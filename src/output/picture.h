@@ -1,4 +1,4 @@
-// A picture of a mesh and its medial points, drawn on the CPU: a first look without any viewer.
+// A picture of a mesh and its medial points: a first look without any viewer.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 #include "mesh/mesh.h"
+#include "output/picture/options.h"
 
 namespace medial_vk {
 
@@ -19,15 +21,19 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
-struct PictureOptions {
-  std::uint32_t width = 1200;
-  std::uint32_t height = 900;
-  double least_angle = 0.6;  ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.
+/// A picture with who drew it: "NVIDIA H100, 16 samples per pixel", "the CPU: NVIDIA H100 has no graphics queue".
+struct DrawnPicture {
+  Picture picture;
+  std::string drawn_by;
 };
 
-/// The mesh as glass, the points as small discs in the medial sheet coloured by object angle, and a legend; seen from
-/// the right, the front and above, y up. `voxel_size` sets the size of the discs. One thread, no randomness: the same
-/// input gives the same pixels.
+/// The mesh, the points and a legend, as the options say; `voxel_size` sets the size of the discs. On the Vulkan device
+/// that `device` describes; without one, or if that cannot draw, on the CPU. No randomness: the same input gives the
+/// same pixels on the same device.
+DrawnPicture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
+                          const PictureOptions& options, const DeviceDescription* device);
+
+/// The same on the CPU, one thread.
 Picture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                      const PictureOptions& options = {});
 

@@ -175,6 +175,14 @@ TEST_F(CommandLine, ReportAndPicture) {
   EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
 }
 
+TEST_F(CommandLine, PictureAsAskedFor) {
+  const ToolResult result = run_cpu({"part.obj", "--picture", "p.png", "--view", "-1,1,0.5", "--size", "96x64",
+                                     "--show", "both", "--colour", "sheet", "-v"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("drawn by the CPU"));
+  EXPECT_EQ(read_file(path("p.png")).substr(16, 8), std::string("\0\0\0\x60\0\0\0\x40", 8));
+}
+
 TEST_F(CommandLine, PerturbIsSeededAndSimplifyOnlyRemoves) {
   ASSERT_EQ(run_cpu({"part.obj", "-o", "plain.ply"}).exit_code, 0);
   for (const char* name : {"a.ply", "b.ply"}) {

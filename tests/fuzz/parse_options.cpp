@@ -1,6 +1,7 @@
 // The command line, its arguments one to a line: options that keep their ranges, or a clear message.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <numbers>
 
@@ -33,6 +34,10 @@ void require_in_range(const cli::Options& options) {
   require(p.memory_budget == 0 || p.memory_budget >= 64u << 20, "--memory keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(options.sphere_detail.value_or(0) <= kGreatestSphereDetail, "--sphere-detail keeps its range");
+  const PictureOptions& look = options.look;
+  require(std::ranges::any_of(look.view, [](double x) { return x != 0; }), "--view is a direction");
+  require(std::ranges::all_of(look.size, [](std::uint32_t n) { return n <= kGreatestPictureSide; }),
+          "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;
   require(!options.mesh.empty(), "there is a mesh");
   require(!options.output.empty(), "there is an output");

@@ -77,6 +77,37 @@ TEST(Options, AParserForgetsEarlierLines) {
   }
 }
 
+TEST(Options, ThePictureLooksAsAskedFor) {
+  const auto look = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"a.obj", "--picture", "a.png"});
+    return parsed(more).look;
+  };
+  EXPECT_TRUE(look({}) == PictureOptions());
+  EXPECT_EQ(look({"--view", "front"}).view, (std::array<double, 3>{0, 0, 1}));
+  EXPECT_EQ(look({"--view", "bottom"}).view, (std::array<double, 3>{0, -1, 0}));
+  EXPECT_EQ(look({"--view", "-1,0.5,2e-1"}).view, (std::array<double, 3>{-1, 0.5, 0.2}));
+  EXPECT_EQ(look({"--size", "640x480"}).size, (std::array<std::uint32_t, 2>{640, 480}));
+  EXPECT_EQ(look({"--size=512"}).size, (std::array<std::uint32_t, 2>{512, 512}));
+  EXPECT_EQ(look({"--show", "both"}).show, PictureShow::kBoth);
+  EXPECT_EQ(look({"--colour", "radius"}).colour, PictureColour::kRadius);
+}
+
+TEST(Options, PicturesThatCannotBeAreUsageErrors) {
+  const auto message = [](const char* option, const char* value) {
+    return message_of({"a.obj", "--picture", "a.png", option, value});
+  };
+  for (const char* view : {"above", "", "1,2", "1,2,3,4", "0,0,0", "1,2,x", "nan,0,1", "1,,2", "1e300,0,0"}) {
+    EXPECT_THAT(message("--view", view), HasSubstr("front, back, left, right, top, bottom, iso, or three numbers"));
+  }
+  for (const char* size : {"0", "15", "16385", "100x", "x100", "100x100x100", "1e3", "100 x 100", "-5"}) {
+    EXPECT_THAT(message("--size", size), HasSubstr("use WIDTHxHEIGHT or one number for both, 16 to 16384"));
+  }
+  EXPECT_THAT(message("--show", "spheres"), HasSubstr("use points or balls or both"));
+  EXPECT_THAT(message("--colour", "red"), HasSubstr("use angle or radius or sheet"));
+  EXPECT_THAT(message_of({"a.obj", "--view", "top"}), HasSubstr("--view is about the picture"));
+  EXPECT_THAT(message_of({"a.obj", "--show", "both"}), HasSubstr("use it with --picture FILE.png"));
+}
+
 TEST(Options, EveryOptionIsUnderstood) {
   const Options options = parsed({"a.obj",
                                   "-o",

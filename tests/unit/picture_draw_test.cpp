@@ -10,7 +10,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr PictureOptions kSmall = {400, 300, 0.6};
+constexpr PictureOptions kSmall = {.size = {400, 300}};
 
 /// A flat sheet of points half way up a box.
 std::vector<MedialSphere> sheet_in_box() {
@@ -82,6 +82,38 @@ TEST(PictureDraw, DoesNotDependOnUnitsOrPlace) {
   EXPECT_LT(different_pixels(near, far), 100u);
 }
 
+TEST(PictureDraw, PanelsShareThePicture) {
+  PictureOptions options = kSmall;
+  options.show = PictureShow::kBoth;
+  const Picture both = draw_picture(test::make_box({2, 1, 2}), sheet_in_box(), 0.07, options);
+  options.show = PictureShow::kBalls;
+  options.size[0] /= 2;
+  const Picture balls = draw_picture(test::make_box({2, 1, 2}), sheet_in_box(), 0.07, options);
+  std::size_t different = 0;
+  for (std::uint32_t y = 0; y < 200; ++y) {  // above the legend
+    for (std::uint32_t x = 0; x < 600; ++x) {
+      different += both.rgb[(y * 400 + 200) * 3 + x] == balls.rgb[y * 200 * 3 + x] ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(different, 0u);
+}
+
+TEST(PictureDraw, EveryViewIsDrawn) {
+  const Mesh mesh = test::make_box({2, 1, 3});
+  PictureOptions options = kSmall;
+  std::set<std::string> pictures;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0, 1e-5}) {  // however short
+      options.view = {0, 0, 0};
+      options.view[axis] = sign;
+      const Picture picture = draw_picture(mesh, sheet_in_box(), 0.07, options);
+      pictures.emplace(picture.rgb.begin(), picture.rgb.end());
+    }
+  }
+  // The points are not in the middle of the longest side; along the others they are.
+  EXPECT_EQ(pictures.size(), 6u);
+}
+
 TEST(PictureDraw, DegenerateInputIsNoError) {
   Mesh point;
   point.vertices = {{1, 1, 1}};
@@ -89,7 +121,7 @@ TEST(PictureDraw, DegenerateInputIsNoError) {
   Mesh flat;
   flat.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   flat.triangles = {{0, 1, 2}};
-  EXPECT_EQ(draw_picture(flat, {}, 0.1, {8, 8, 0.6}).rgb.size(), 8u * 8u * 3u);
+  EXPECT_EQ(draw_picture(flat, {}, 0.1, {.size = {8, 8}}).rgb.size(), 8u * 8u * 3u);
 }
 
 TEST(PictureDraw, PngHasItsSignatureAndSize) {

@@ -3,40 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace medial_vk::picture {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr double kCreaseCosine = 0.76;  // Faces more than about 40 degrees apart do not share a normal.
-
-/// Twice the area times the unit normal.
-Eigen::Vector3d area_normal(const Mesh& mesh, const Triangle& triangle) {
-  const auto corner = [&](std::size_t i) { return Eigen::Vector3d(mesh.vertices[triangle[i]].data()); };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0));
-}
-
-/// Faces by vertex, as offsets into one array.
-struct VertexFaces {
-  std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> faces;
-};
-
-VertexFaces faces_by_vertex(const Mesh& mesh) {
-  VertexFaces out;
-  out.first.assign(mesh.vertices.size() + 1, 0);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t vertex : triangle) ++out.first[vertex + 1];
-  }
-  for (std::size_t i = 1; i < out.first.size(); ++i) out.first[i] += out.first[i - 1];
-  out.faces.resize(mesh.triangles.size() * 3);
-  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
-  for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
-    for (const std::uint32_t vertex : mesh.triangles[face]) out.faces[next[vertex]++] = face;
-  }
-  return out;
-}
 
 /// Whole pixels whose centres lie within [least, greatest], clamped to the picture.
 struct PixelRange {
@@ -110,17 +82,12 @@ struct ScreenDisc {
   float tilt_x = 0, tilt_y = 0;  // Unit direction of the short axis on the screen.
 };
 
-ScreenDisc place_disc(const MedialSphere& sphere, double radius, const Camera& camera) {
-  constexpr float kLeastPixels = 1.6f;       // Supersampled pixels: a disc never vanishes.
-  constexpr float kLeastFlattening = 0.35f;  // Nor does one that is seen from its edge.
+ScreenDisc place_disc(const Mark& mark, const Camera& camera, float least_radius) {
+  constexpr float kLeastFlattening = 0.35f;  // A disc that is seen from its edge does not vanish.
   ScreenDisc disc;
-  disc.centre = camera.project(sphere.centre);
-  // No larger than its ball: where a sheet ends near the boundary, balls are much smaller than voxels.
-  disc.radius = std::max(static_cast<float>(std::min(radius, sphere.radius)) * camera.scale_at(disc.centre.nearness),
-                         kLeastPixels);
-  disc.normal = camera.turn(Vector3f(sphere.spoke_a.data()) - Vector3f(sphere.spoke_b.data()));
-  const float length = disc.normal.norm();
-  disc.normal = length > 1e-6f ? (disc.normal / length).eval() : Vector3f::UnitZ().eval();
+  disc.centre = camera.project(mark.centre);
+  disc.radius = std::max(mark.radius * camera.scale_at(disc.centre.nearness), least_radius);
+  disc.normal = camera.turn(mark.normal);
   if (disc.normal.z() < 0) disc.normal = -disc.normal;
   disc.flattening = std::max(disc.normal.z(), kLeastFlattening);
   const float tilt = std::hypot(disc.normal.x(), disc.normal.y());
@@ -129,7 +96,7 @@ ScreenDisc place_disc(const MedialSphere& sphere, double radius, const Camera& c
   return disc;
 }
 
-void draw_disc(const ScreenDisc& disc, float value, float nearness_per_pixel, DiscLayer& layer) {
+void draw_disc(const ScreenDisc& disc, float value, float nearness_per_pixel, MarkLayer& layer) {
   const PixelRange columns =
       pixels_between(disc.centre.x - disc.radius, disc.centre.x + disc.radius, layer.surface.width);
   const PixelRange rows =
@@ -145,57 +112,141 @@ void draw_disc(const ScreenDisc& disc, float value, float nearness_per_pixel, Di
       if (!(rim <= 1.0f)) continue;
       // The side towards which the normal leans is farther from the viewer.
       const float nearness = disc.centre.nearness - across * tangent * nearness_per_pixel;
-      const std::size_t pixel = std::size_t{y} * layer.surface.width + x;
-      if (nearness <= layer.surface.nearness[pixel]) continue;
-      layer.surface.nearness[pixel] = nearness;
-      layer.surface.normal[pixel] = disc.normal;
-      layer.value[pixel] = value;
-      layer.rim[pixel] = rim;
+      layer.put(x, y, nearness, disc.normal, value, rim);
+    }
+  }
+}
+
+/// Where the shadow of a ball begins and ends on a line at a distance of 1 from the eye: the tangents in a plane
+/// through the eye. `across` and `away` are of its centre in that plane, away > radius.
+std::pair<float, float> shadow(float across, float away, float radius) {
+  const float square = away * away - radius * radius;
+  const float root = radius * std::sqrt(std::max(across * across + square, 0.0f));
+  return {(across * away - root) / square, (across * away + root) / square};
+}
+
+/// Calls `put(x, y, nearness, normal)` for the pixels of a ball within `part`, unless `hides(x, y, nearness)` says that
+/// even the nearest point of the ball is hidden there.
+template <class Hides, class Put>
+void draw_ball(const Mark& ball, const Camera& camera, const Frame& part, const Hides& hides, const Put& put) {
+  const Vector3f seen = camera.turn(ball.centre);
+  const Vector3f centre(seen.x(), -seen.y(), Camera::kDistance - seen.z());  // From the eye; y down, z away.
+  if (!(centre.z() > 1.01f * ball.radius)) return;
+  const auto [left, right] = shadow(centre.x(), centre.z(), ball.radius);
+  const auto [top, bottom] = shadow(centre.y(), centre.z(), ball.radius);
+  const float pixels = camera.pixels(), greatest_nearness = 1.0f / (centre.z() - ball.radius);
+  const PixelRange columns =
+      pixels_between(std::max(camera.offset_x() + pixels * left, part.left),
+                     std::min(camera.offset_x() + pixels * right, part.right), static_cast<std::uint32_t>(part.right));
+  const PixelRange rows = pixels_between(std::max(camera.offset_y() + pixels * top, part.top),
+                                         std::min(camera.offset_y() + pixels * bottom, part.bottom),
+                                         static_cast<std::uint32_t>(part.bottom));
+  for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
+    for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
+      if (hides(x, y, greatest_nearness)) continue;
+      // The ray through the sample is t * d. With w from where it is as far away as the centre, to the centre, nothing
+      // large cancels: the distance of the ray from the centre is |d x w| / |d|.
+      const Vector3f d((static_cast<float>(x) + 0.5f - camera.offset_x()) / pixels,
+                       (static_cast<float>(y) + 0.5f - camera.offset_y()) / pixels, 1.0f);
+      const Vector3f w(centre.x() - centre.z() * d.x(), centre.y() - centre.z() * d.y(), 0.0f);
+      const float root = ball.radius * ball.radius * d.squaredNorm() - d.cross(w).squaredNorm();
+      if (!(root > 0)) continue;
+      const float step = (d.dot(w) - std::sqrt(root)) / d.squaredNorm();
+      const Vector3f out = (step * d - w) / ball.radius;
+      put(x, y, 1.0f / (centre.z() + step), Vector3f(out.x(), -out.y(), -out.z()));
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::array<Vector3f, 3>> corner_normals(const Mesh& mesh) {
-  std::vector<Eigen::Vector3d> faces;
-  faces.reserve(mesh.triangles.size());
-  for (const Triangle& triangle : mesh.triangles) faces.push_back(area_normal(mesh, triangle));
-  const VertexFaces around = faces_by_vertex(mesh);
-  std::vector<std::array<Vector3f, 3>> out(mesh.triangles.size());
-  for (std::size_t face = 0; face < out.size(); ++face) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t vertex = mesh.triangles[face][corner];
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (std::uint32_t i = around.first[vertex]; i < around.first[vertex + 1]; ++i) {
-        const Eigen::Vector3d& other = faces[around.faces[i]];
-        if (other.dot(faces[face]) >= kCreaseCosine * other.norm() * faces[face].norm()) sum += other;
-      }
-      out[face][corner] = sum.normalized().cast<float>();
-    }
-  }
-  return out;
+void MarkLayer::put(std::uint32_t x, std::uint32_t y, float nearness, const Vector3f& normal, float mark_value,
+                    float mark_rim) {
+  const std::size_t pixel = std::size_t{y} * surface.width + x;
+  if (nearness <= surface.nearness[pixel]) return;
+  surface.nearness[pixel] = nearness;
+  surface.normal[pixel] = normal;
+  value[pixel] = mark_value;
+  rim[pixel] = mark_rim;
 }
 
-void draw_mesh(const Mesh& mesh, std::span<const std::array<Vector3f, 3>> normals, const Camera& camera, Keep keep,
-               SurfaceLayer& layer) {
-  for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
+void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer) {
+  for (std::size_t first = 0; first < mesh.positions.size(); first += 3) {
     std::array<ScreenPoint, 3> corners;
     std::array<Vector3f, 3> turned;
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = camera.project(mesh.vertices[mesh.triangles[face][i]]);
-      turned[i] = camera.turn(normals[face][i]);
+      corners[i] = camera.project(mesh.positions[first + i]);
+      turned[i] = camera.turn(mesh.normals[first + i]);
     }
     const ScreenTriangle triangle(corners);
     if (triangle.visible()) draw_triangle(triangle, turned, keep, layer);
   }
 }
 
-void draw_discs(std::span<const MedialSphere> spheres, double radius, const Camera& camera, DiscLayer& layer) {
-  for (const MedialSphere& sphere : spheres) {
-    const ScreenDisc disc = place_disc(sphere, radius, camera);
-    draw_disc(disc, sphere.object_angle, camera.nearness_per_pixel(disc.centre.nearness), layer);
+void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer) {
+  for (const Mark& mark : discs) {
+    const ScreenDisc disc = place_disc(mark, camera, least_radius);
+    draw_disc(disc, mark.value, camera.nearness_per_pixel(disc.centre.nearness), layer);
   }
+}
+
+void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer) {
+  const std::vector<float>& nearest = layer.surface.nearness;
+  const std::uint32_t width = layer.surface.width;
+  for (const Mark& ball : balls) {
+    const Frame part = {samples * ball.seen.left, samples * ball.seen.top, samples * ball.seen.right,
+                        samples * ball.seen.bottom};
+    draw_ball(
+        ball, camera, part,
+        [&](std::uint32_t x, std::uint32_t y, float nearness) {
+          return nearness <= nearest[std::size_t{y} * width + x];
+        },
+        [&](std::uint32_t x, std::uint32_t y, float nearness, const Vector3f& normal) {
+          layer.put(x, y, nearness, normal.normalized(), ball.value, 0.0f);
+        });
+  }
+}
+
+std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
+                             std::uint32_t height) {
+  // The nearest first: what is behind them is passed over quickly.
+  std::vector<std::size_t> order(balls.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<float> front(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) front[i] = camera.turn(balls[i].centre).z() + balls[i].radius;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return front[a] > front[b]; });
+
+  std::vector<float> nearest(std::size_t{width} * height, 0.0f);
+  std::vector<std::size_t> owner(nearest.size());
+  const Frame whole = {0, 0, static_cast<float>(width), static_cast<float>(height)};
+  for (const std::size_t i : order) {
+    draw_ball(
+        balls[i], camera, whole,
+        [&](std::uint32_t x, std::uint32_t y, float nearness) {
+          return nearness <= nearest[std::size_t{y} * width + x];
+        },
+        [&](std::uint32_t x, std::uint32_t y, float nearness, const Vector3f&) {
+          const std::size_t pixel = std::size_t{y} * width + x;
+          if (nearness <= nearest[pixel]) return;
+          nearest[pixel] = nearness;
+          owner[pixel] = i;
+        });
+  }
+  std::vector<Frame> parts(balls.size(), {whole.right, whole.bottom, 0, 0});
+  for (std::size_t pixel = 0; pixel < owner.size(); ++pixel) {
+    if (nearest[pixel] == 0) continue;
+    const auto x = static_cast<float>(pixel % width), y = static_cast<float>(pixel / width);
+    Frame& part = parts[owner[pixel]];  // and a pixel around it, where it may still hide half of a neighbour's
+    part = {std::min(part.left, std::max(x - 1, 0.0f)), std::min(part.top, std::max(y - 1, 0.0f)),
+            std::max(part.right, std::min(x + 2, whole.right)), std::max(part.bottom, std::min(y + 2, whole.bottom))};
+  }
+  std::vector<Mark> seen;
+  for (const std::size_t i : order) {
+    if (parts[i].right == 0) continue;
+    seen.push_back(balls[i]);
+    seen.back().seen = parts[i];
+  }
+  return seen;
 }
 
 }  // namespace medial_vk::picture

@@ -1,4 +1,4 @@
-// Triangles and discs into layers of pixels with a depth each.
+// Triangles, discs and balls into layers of pixels with a depth each.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "medial_vk/extraction.h"
-#include "mesh/mesh.h"
 #include "output/picture/camera.h"
+#include "output/picture/scene.h"
 
 namespace medial_vk::picture {
 
@@ -24,26 +23,31 @@ struct SurfaceLayer {
   std::vector<Eigen::Vector3f> normal;  // Unit vectors.
 };
 
-/// Discs: a surface with a value per pixel (the object angle) and the distance from the disc's centre.
-struct DiscLayer {
-  DiscLayer(std::uint32_t w, std::uint32_t h) : surface(w, h), value(surface.nearness.size(), 0.0f), rim(value) {}
+/// Marks: a surface with a place in the palette per pixel and the distance from the disc's centre.
+struct MarkLayer {
+  MarkLayer(std::uint32_t w, std::uint32_t h) : surface(w, h), value(surface.nearness.size(), 0.0f), rim(value) {}
+
+  /// Unless something is nearer.
+  void put(std::uint32_t x, std::uint32_t y, float nearness, const Eigen::Vector3f& normal, float mark_value,
+           float mark_rim);
 
   SurfaceLayer surface;
   std::vector<float> value;
-  std::vector<float> rim;  // 0 at the centre of a disc, 1 at its rim.
+  std::vector<float> rim;  // 0 at the centre of a disc, 1 at its rim; 0 on a ball.
 };
-
-/// A unit normal for each corner of each triangle: the mean over the faces at that vertex, except those beyond a sharp
-/// edge, so that round shapes look round and boxes look like boxes.
-std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const Mesh& mesh);
 
 enum class Keep { kNearest, kFarthest };
 
-void draw_mesh(const Mesh& mesh, std::span<const std::array<Eigen::Vector3f, 3>> normals, const Camera& camera,
-               Keep keep, SurfaceLayer& layer);
+void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer);
 
-/// Each medial point as a disc of `radius` (mesh units; at most that of its ball) that lies in its medial sheet, whose
-/// normal is along the difference of the spokes. Discs seen from the edge are kept thick enough to be seen.
-void draw_discs(std::span<const MedialSphere> spheres, double radius, const Camera& camera, DiscLayer& layer);
+/// Discs of at least `least_radius` pixels. Those seen from the edge are kept thick enough to be seen.
+void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer);
+
+/// Each within the part where it is seen; `samples` per pixel and side.
+void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer);
+
+/// Those of the balls that are the nearest in the middle of a pixel, the nearest first, and where they are.
+std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
+                             std::uint32_t height);
 
 }  // namespace medial_vk::picture

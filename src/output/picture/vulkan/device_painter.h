@@ -1,0 +1,38 @@
+// Draws the panels of a picture on a Vulkan device: layers of samples (the wall in front, the wall behind, the marks
+// between them), then one pass that lights and averages them. In tiles, so that memory does not grow with the picture.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+#include "output/picture/panel.h"
+
+namespace medial_vk::picture {
+
+struct PainterOptions {
+  std::uint32_t samples = 0;  ///< Per pixel and side; 0: 2 on a CPU's device, else 4.
+  bool validation = false;    ///< With the validation layer; its messages are printed and counted.
+};
+
+class DevicePainter {
+ public:
+  /// Error: kNoDevice, which says why the device cannot draw.
+  static Result<DevicePainter> open(const DeviceDescription& device, const PainterOptions& options = {});
+  DevicePainter(DevicePainter&&) noexcept;
+  ~DevicePainter();
+
+  /// All panels, without the legend; `view` as in PictureOptions. Error: kNoDevice.
+  Status draw(const Scene& scene, std::span<const Panel> panels, const std::array<double, 3>& view, Picture& picture);
+
+  std::uint32_t samples() const;  ///< Per pixel and side.
+  std::uint64_t validation_messages() const;
+
+ private:
+  class Impl;
+  explicit DevicePainter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace medial_vk::picture
