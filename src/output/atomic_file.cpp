@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <random>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,15 @@ mode_t permissions_for(const std::string& target) {
 /// For mkostemp. A name of its own, not the target's with a suffix: that could grow past the longest name a folder
 /// takes.
 std::string temporary_name(const std::string& target) { return folder_of(target) + "/.medial-vk.XXXXXX"; }
+
+/// The same with letters in place of its six X, others each time.
+std::string random_name(const std::string& target) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::string name = temporary_name(target);
+  std::random_device random;
+  for (std::size_t i = name.size() - 6; i < name.size(); ++i) name[i] = kLetters[random() % kLetters.size()];
+  return name;
+}
 
 std::string self_path(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
 
@@ -134,7 +145,8 @@ Status AtomicFile::finish() {
   return {};
 }
 
-// A link cannot replace a file: where there is one, a name for the moment between the link and the rename.
+// A link cannot replace a file: where there is one, a name for the moment between the link and the rename. Whoever is
+// killed in that moment leaves it behind, a whole file.
 Status AtomicFile::name_it() {
   const std::string self = self_path(descriptor_);
   const auto link_to = [&](const std::string& name) {
@@ -142,12 +154,12 @@ Status AtomicFile::name_it() {
   };
   if (!link_to(target_)) {
     if (errno != EEXIST) return cannot_write("", errno);
-    std::string name = temporary_name(target_);
-    const int placeholder = ::mkostemp(name.data(), O_CLOEXEC);
-    if (placeholder < 0) return cannot_write("", errno);
-    ::close(placeholder);
-    ::unlink(name.c_str());
-    if (!link_to(name)) return cannot_write("", errno);
+    constexpr int kTries = 100;
+    std::string name = random_name(target_);
+    for (int i = 1; !link_to(name); ++i) {
+      if (errno != EEXIST || i == kTries) return cannot_write("", errno);
+      name = random_name(target_);
+    }
     temporary_ = std::move(name);
   }
   unnamed_ = false;
