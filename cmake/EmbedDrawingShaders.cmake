@@ -13,7 +13,6 @@ function(medial_vk_embed_drawing_shaders target folder)
     string(REGEX MATCH "^(.)(.*)[.](.)(.*)$" matched ${shader})
     string(TOUPPER ${CMAKE_MATCH_1} first)
     string(TOUPPER ${CMAKE_MATCH_3} stage_first)
-    string(REGEX MATCH "^(.)(.*)[.](.)(.*)$" matched ${shader})
     set(variable k${first}${CMAKE_MATCH_2}${stage_first}${CMAKE_MATCH_4})
     add_custom_command(OUTPUT ${out}/${shader}.h
       COMMAND ${compile} -o ${out}/${shader}.spv ${folder}/${shader}

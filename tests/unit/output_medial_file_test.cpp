@@ -10,22 +10,13 @@
 
 #include "output/medial_file.h"
 #include "output/version.h"
+#include "support/medial_points.h"
 
 namespace medial_vk {
 namespace {
 
+using test::some_header;
 using testing::HasSubstr;
-
-MedialHeader some_header() {
-  MedialHeader header;
-  header.version = "1.2.3";
-  header.grid_origin = {-1.0, 0.1, 1e-9};
-  header.voxel_size = 0.00625;
-  header.epsilon = 0.0000625;
-  header.object_angle = 0.6;
-  header.radius_threshold = 0.125;
-  return header;
-}
 
 std::vector<MedialSphere> some_spheres() {
   MedialSphere a;
