@@ -116,8 +116,8 @@ export class Controls {
   /** How many, and if the device is too slow for them, how many of those are drawn. */
   sayBalls() {
     const {ballCount, drawnBalls, shown} = this.viewer;
-    const fewer = shown.balls && drawnBalls < ballCount ? `, ${grouped(drawnBalls)} drawn` : '';
-    byId('ball-count-value').textContent = grouped(ballCount) + fewer;
+    byId('ball-count-value').textContent = grouped(ballCount);
+    byId('balls-drawn').textContent = shown.balls && drawnBalls < ballCount ? `${grouped(drawnBalls)} of them drawn` : '';
   }
 
   refreshColour() {

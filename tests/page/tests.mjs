@@ -264,6 +264,19 @@ export const tests = {
     assertQuiet(page);
   },
 
+  /** What the page says about itself must not move a control away from under the mouse. */
+  async nothing_moves(context) {
+    const {page} = await openPart(context);
+    const places = () => page.evaluate(`[...document.querySelectorAll('input, select, button')].map((e) =>
+      [e.id, e.getBoundingClientRect().y])`);
+    await show(page, ['balls']);
+    const before = await places();
+    await page.evaluate('medialVk.viewer.drawnBalls = 1; medialVk.controls.sayBalls()');
+    assert.match(await page.text('balls-drawn'), /^1 of/);
+    assert.deepEqual(await places(), before);
+    assertQuiet(page);
+  },
+
   async phone(context) {
     const {points, page} = await openPart(context, {width: 360, height: 740, phone: true, scale: 2});
     const assertFits = async (what) => {
