@@ -1,0 +1,67 @@
+// Unions of balls, exactly: volume and surface, each ball's share of them, and the dual complex.
+//
+// The power diagram cuts a union of balls into convex pieces, one in each ball (S. Stolpner, "Medial Spheres for Shape
+// Representation", 2011, Section 1.2.2; docs/theory.md, "Unions of balls"). Each piece has a closed form in double
+// precision; which balls border on which is decided exactly, with ties broken the same way everywhere, so duplicated,
+// nested, cospherical and coplanar balls are no special cases. On the host, on all cores.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/queries.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// Simplices over balls, by their indices, ascending within a simplex and among simplices: the nerve of the balls, each
+/// cut down to its power cell (zero alpha complex; H. Edelsbrunner, "The union of balls and its dual shape", 1995). It
+/// has the homotopy type of the union. Every face of a simplex is there.
+struct DualComplex {
+  std::vector<std::uint32_t> vertices;  ///< Balls that are not hidden: those with a piece of the union.
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+};
+
+/// Where three spheres meet on the union's surface.
+struct EnvelopeVertex {
+  Point at;
+  std::array<std::uint32_t, 3> balls;  ///< Ascending.
+};
+
+struct BallUnionOptions {
+  unsigned threads = 0;  ///< 0: one per core. The result does not depend on it.
+  bool complex = false;  ///< Also find the dual complex and the vertices of the envelope.
+};
+
+/// What measure_ball_union() finds. Lengths in the units of the balls.
+struct BallUnion {
+  double volume = 0;  ///< Of the union.
+  double area = 0;    ///< Of its surface.
+  std::vector<double>
+      volumes;  ///< Per ball: of the ball in its power cell, vol(b | P(b)) of equation 6.1; sums to volume.
+  std::vector<double> areas;  ///< Per ball: of its sphere on the union's surface; sums to area.
+  DualComplex complex;
+  std::vector<EnvelopeVertex> vertices;  ///< In the order of their balls; up to two for the same three.
+};
+
+/// The number of components, tunnels and cavities.
+struct BettiNumbers {
+  std::uint64_t components = 0, tunnels = 0, cavities = 0;
+  bool operator==(const BettiNumbers&) const = default;
+};
+
+/// Measures a union of balls: centres and radii finite, radii not negative, fewer than 2^31 balls. Of balls that are
+/// equal, the first counts. Lengths below 2^-98 of the largest coordinate or radius are rounded to 2^-150 of it. Time:
+/// n log n for balls of a solid or along its medial surface, where each has a bounded number of neighbours; a ball with
+/// k neighbours takes k^2. Errors: kUsage (names the ball), kOutOfMemory.
+Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options = {});
+
+/// Of the space that a dual complex triangulates, over Z/2; these are those of the union.
+BettiNumbers betti_numbers(const DualComplex& complex);
+
+}  // namespace medial_vk

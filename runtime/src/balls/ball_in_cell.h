@@ -1,0 +1,16 @@
+// Volume and surface of a ball inside its power cell, in closed form.
+#pragma once
+
+#include "balls/power_cell.h"
+
+namespace medial_vk {
+
+struct BallInCell {
+  double volume = 0;  ///< Of the ball in the cell.
+  double area = 0;    ///< Of the sphere in the cell.
+};
+
+/// `radius` of the cell's ball.
+BallInCell measure_ball_in_cell(const PowerCell& cell, double radius);
+
+}  // namespace medial_vk

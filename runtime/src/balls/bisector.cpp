@@ -1,0 +1,133 @@
+#include "balls/bisector.h"
+
+#include <cfloat>
+#include <cmath>
+#include <functional>
+
+#include "point_math.h"
+
+namespace medial_vk {
+
+Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j) {
+  const Ball& a = balls[i];
+  const Ball& b = balls[j];
+  const Point between = b.centre - a.centre;  // each coordinate rounded once
+  const double distance = length(between);
+  const auto name = static_cast<std::int32_t>(j);
+  if (distance == 0) return {.normal = {}, .ball = name};
+  const double scale = 1 / distance;
+  const double radii = (a.radius - b.radius) * (a.radius + b.radius) * scale;
+  // distance: six roundings of its square, halved by the root, and its own; radii: three, with scale's; the sum: one.
+  const double slack = 4 * DBL_EPSILON * (distance + std::fabs(radii));
+  return {.normal = scale * between, .offset = 0.5 * (distance + radii), .slack = slack, .ball = name};
+}
+
+namespace {
+
+/// The determinant of three normals, for both kinds of numbers.
+template <class Row, class Difference, class Sum, class Product>
+auto determinant(const Row& a, const Row& b, const Row& c, const Difference& difference, const Sum& sum,
+                 const Product& product) {
+  const auto minor = [&](int u, int v) {
+    return difference(product(b.normal[u], c.normal[v]), product(b.normal[v], c.normal[u]));
+  };
+  return sum(sum(product(a.normal[0], minor(1, 2)), product(a.normal[1], minor(2, 0))),
+             product(a.normal[2], minor(0, 1)));
+}
+
+}  // namespace
+
+ExactSide::Row<DoubleDouble> ExactSide::rounded_row(std::uint32_t i, std::int32_t plane) const {
+  Row<DoubleDouble> row;
+  if (plane < 0) {
+    const Wall& wall = walls_[static_cast<std::size_t>(-1 - plane)];
+    for (int k = 0; k < 3; ++k) row.normal[k] = DoubleDouble(wall.normal[k]);
+    row.offset = DoubleDouble(wall.offset);
+    return row;
+  }
+  const Ball& a = balls_[i];
+  const Ball& b = balls_[static_cast<std::size_t>(plane)];
+  const DoubleDouble ra(a.radius), rb(b.radius);
+  row.offset = ra * ra - rb * rb;
+  for (int k = 0; k < 3; ++k) {
+    const DoubleDouble between = DoubleDouble::difference(b.centre[k], a.centre[k]);
+    row.normal[k] = between + between;
+    row.offset = row.offset + between * between;
+  }
+  return row;
+}
+
+ExactSide::Row<Expansion> ExactSide::exact_row(std::uint32_t i, std::int32_t plane) {
+  Row<Expansion> row;
+  if (plane < 0) {
+    const Wall& wall = walls_[static_cast<std::size_t>(-1 - plane)];
+    for (int k = 0; k < 3; ++k) row.normal[k] = math_.number(wall.normal[k]);
+    row.offset = math_.number(wall.offset);
+    return row;
+  }
+  const Ball& a = balls_[i];
+  const Ball& b = balls_[static_cast<std::size_t>(plane)];
+  row.offset = math_.difference(math_.square(a.radius), math_.square(b.radius));
+  for (int k = 0; k < 3; ++k) {
+    const Expansion between = math_.difference(b.centre[k], a.centre[k]);
+    row.normal[k] = math_.sum(between, between);
+    row.offset = math_.sum(row.offset, math_.product(between, between));
+  }
+  return row;
+}
+
+// With the determinants of three normals as cofactors of the offsets, the determinant of the four rows (normal, offset)
+// is det(p, q, s) (offset_m - normal_m . x), where x is the point.
+bool ExactSide::keeps(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s, std::int32_t m) {
+  const std::array<std::int32_t, 4> names = {p, q, s, m};
+  std::array<Row<DoubleDouble>, 4> r;
+  for (std::size_t k = 0; k < 4; ++k) r[k] = rounded_row(i, names[k]);
+  const auto det = [&](int a, int b, int c) {
+    return determinant(r[a], r[b], r[c], std::minus<>{}, std::plus<>{}, std::multiplies<>{});
+  };
+  const DoubleDouble orientation = det(0, 1, 2);
+  const DoubleDouble sum = (det(0, 2, 3) * r[1].offset - det(1, 2, 3) * r[0].offset) +
+                           (orientation * r[3].offset - det(0, 1, 3) * r[2].offset);
+  const int side = sum.certain_sign() * orientation.certain_sign();
+  return side != 0 ? side > 0 : keeps_by_expansions(i, names);
+}
+
+bool ExactSide::keeps_by_expansions(std::uint32_t i, const std::array<std::int32_t, 4>& names) {
+  arena_.reset();
+  std::array<Row<Expansion>, 4> r;
+  for (std::size_t k = 0; k < 4; ++k) r[k] = exact_row(i, names[k]);
+  const auto difference = [&](Expansion a, Expansion b) { return math_.difference(a, b); };
+  const auto plus = [&](Expansion a, Expansion b) { return math_.sum(a, b); };
+  const auto times = [&](Expansion a, Expansion b) { return math_.product(a, b); };
+  const auto det = [&](int a, int b, int c) { return determinant(r[a], r[b], r[c], difference, plus, times); };
+  const Expansion zero;
+  const std::array<Expansion, 4> cofactors = {difference(zero, det(1, 2, 3)), det(0, 2, 3),
+                                              difference(zero, det(0, 1, 3)), det(0, 1, 2)};
+  const int orientation = sign(cofactors[3]);
+  Expansion sum;
+  for (std::size_t k = 0; k < 4; ++k) sum = plus(sum, times(cofactors[k], r[k].offset));
+  if (!sum.empty()) return sign(sum) == orientation;
+
+  // A larger r_k^2 lowers the offset of plane k, a larger r_i^2 raises all that are between balls. The ball named first
+  // decides, unless its cofactor vanishes.
+  Expansion of_own;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (names[k] >= 0) of_own = plus(of_own, cofactors[k]);
+  }
+  struct Decision {
+    std::int32_t ball = INT32_MAX;
+    int sign = 0;
+  };
+  Decision decision;
+  const auto consider = [&](std::int32_t ball, int sign_of_term) {
+    if (sign_of_term != 0 && ball < decision.ball) decision = {ball, sign_of_term};
+  };
+  consider(static_cast<std::int32_t>(i), sign(of_own));
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (names[k] >= 0) consider(names[k], -sign(cofactors[k]));
+  }
+  // Without a decision m is a wall: walls are imagined a little farther out.
+  return decision.sign == 0 || decision.sign == orientation;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,126 @@
+#include "balls/cell_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <utility>
+
+#include "point_math.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kLanes = 4;
+
+}  // namespace
+
+/// Ball j takes the points x from ball i where |x - c_j|^2 - r_j^2 < |x - c_i|^2 - r_i^2, a half-space; it takes
+/// something from a polyhedron only if it takes a corner. With x and c_j relative to the node's middle, the power of j
+/// is |x|^2 - 2 x . c_j + (|c_j|^2 - r_j^2) >= |x|^2 + least + (slope - 2 x) . c_j, and the product is least in a
+/// corner of the box. `offset`: from the node's middle to the cell's ball.
+bool CellBuilder::may_cut(const BallTree::Node& node, const Point& offset) const {
+  const double radius = balls_[cell_.ball()].radius;
+  const double distance = length(offset);
+  if (distance > (node.size + radius) * (1 + 16 * DBL_EPSILON)) return false;
+  // Every term is at most scale^2, and there are fewer than 64 roundings.
+  const double scale = distance + 2 * radius + node.size;
+  const double margin = 64 * DBL_EPSILON * scale * scale;
+  const double enough = margin - node.least;
+  for (std::size_t c = 0; c < x_.size(); c += kLanes) {
+    std::array<double, kLanes> power;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {  // compilers make vectors of this
+      const double x = x_[c + lane] + offset[0], y = y_[c + lane] + offset[1], z = z_[c + lane] + offset[2];
+      double sum = x * x + y * y + z * z - power_[c + lane];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point& axis = node.axes[k];
+        sum -= std::fabs(node.slope[k] - 2 * (axis[0] * x + axis[1] * y + axis[2] * z)) * node.half[k];
+      }
+      power[lane] = sum;
+    }
+    if (*std::min_element(power.begin(), power.end()) <= enough) return true;
+  }
+  return false;
+}
+
+void CellBuilder::read_corners() {
+  const Ball& ball = balls_[cell_.ball()];
+  const std::size_t count = cell_.corners().size();
+  const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+  for (auto* array : {&x_, &y_, &z_, &power_}) array->resize(padded);
+  // Powers of two balls differ by 2 |c_j - c_i| per unit of length, and only balls that overlap count.
+  const double steepest = 2 * (ball.radius + tree_.node(0).radius);
+  for (std::size_t c = 0; c < padded; ++c) {
+    const PowerCell::Corner& corner = cell_.corners()[std::min(c, count - 1)];
+    x_[c] = corner.at[0];
+    y_[c] = corner.at[1];
+    z_[c] = corner.at[2];
+    power_[c] = dot(corner.at, corner.at) - ball.radius * ball.radius + steepest * corner.slack;
+  }
+}
+
+void CellBuilder::cut_by(std::uint32_t j) {
+  const std::uint32_t i = cell_.ball();
+  if (j == i || asked_for_[j] == cells_) return;
+  asked_for_[j] = cells_;
+  const double both = balls_[i].radius + balls_[j].radius;
+  const Point between = balls_[j].centre - balls_[i].centre;
+  if (dot(between, between) > both * both * (1 + 16 * DBL_EPSILON)) return;
+  cell_.clip(j);
+}
+
+void CellBuilder::walk_tree() {
+  const Point& centre = balls_[cell_.ball()].centre;
+  struct Visit {
+    std::uint32_t node;
+    Point offset;
+  };
+  const auto visit = [&](std::uint32_t k) { return Visit{k, centre - tree_.node(k).middle}; };
+  std::array<Visit, 64> stack;  // one per level of the tree
+  std::size_t depth = 0;
+  stack[depth++] = visit(0);
+  while (depth > 0 && !cell_.empty()) {
+    const auto [k, offset] = stack[--depth];
+    if (!may_cut(tree_.node(k), offset)) continue;
+    if (tree_.is_leaf(k)) {
+      const std::size_t planes = cell_.planes().size();
+      for (const std::uint32_t j : tree_.balls_of_leaf(k)) cut_by(j);
+      if (cell_.planes().size() != planes && !cell_.empty()) read_corners();
+      continue;
+    }
+    Visit near = visit(2 * k + 1), far = visit(2 * k + 2);
+    const bool has_far = tree_.node(far.node).radius >= 0;
+    if (has_far && dot(far.offset, far.offset) < dot(near.offset, near.offset)) std::swap(near, far);
+    if (has_far) stack[depth++] = far;
+    stack[depth++] = near;
+  }
+}
+
+void CellBuilder::remember_neighbours() {
+  hints_.assign(1, cell_.ball());
+  is_used_.assign(cell_.planes().size(), 0);
+  for (const PowerCell::Corner& corner : cell_.corners()) {
+    for (const std::uint32_t p : corner.planes) {
+      if (is_used_[p] != 0 || cell_.planes()[p].ball < 0) continue;
+      is_used_[p] = 1;
+      hints_.push_back(static_cast<std::uint32_t>(cell_.planes()[p].ball));
+    }
+  }
+}
+
+const PowerCell& CellBuilder::build(std::uint32_t i) {
+  asked_for_.resize(balls_.size(), 0);
+  ++cells_;
+  cell_.start(i);
+  for (const std::uint32_t j : hints_) {
+    cut_by(j);
+    if (cell_.empty()) break;
+  }
+  if (cell_.empty()) return cell_;
+  read_corners();
+  walk_tree();
+  if (!cell_.empty()) remember_neighbours();
+  return cell_;
+}
+
+}  // namespace medial_vk

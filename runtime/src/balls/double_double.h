@@ -1,0 +1,74 @@
+// Numbers of twice the precision of double, to decide what double leaves open before exact arithmetic is needed.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+namespace medial_vk {
+
+/// high + low == a + b, and high is the rounded sum (Knuth; Shewchuk 1997, theorem 7).
+inline std::pair<double, double> two_sum(double a, double b) {
+  const double high = a + b;
+  const double of_b = high - a, of_a = high - of_b;
+  return {high, (a - of_a) + (b - of_b)};
+}
+
+/// The same if |a| >= |b| or a == 0 (Dekker; Shewchuk 1997, theorem 6).
+inline std::pair<double, double> fast_two_sum(double a, double b) {
+  const double high = a + b;
+  return {high, b - (high - a)};
+}
+
+/// high + low == a b, and high is the rounded product, unless low underflows.
+inline std::pair<double, double> two_product(double a, double b) {
+  const double high = a * b;
+  return {high, std::fma(a, b, -high)};
+}
+
+/// A sum of two doubles that do not overlap, with a bound of what it may be wrong by: each operation adds less than 8
+/// units of 2^-106 of the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
+/// basic building blocks of double-word arithmetic", 2017: 3 and 5 units).
+class DoubleDouble {
+ public:
+  DoubleDouble() = default;
+  explicit DoubleDouble(double a) : high_(a), size_(std::fabs(a)) {}
+  /// a - b, exactly.
+  static DoubleDouble difference(double a, double b) {
+    const auto [high, low] = two_sum(a, -b);
+    return {high, low, std::fabs(high), 0};
+  }
+
+  /// -1 or 1 if that is certain, 0 if not.
+  int certain_sign() const {
+    if (!(std::fabs(high_) > 0x1p-102 * error_)) return 0;
+    return high_ > 0 ? 1 : -1;
+  }
+
+  friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.high_, -a.low_, a.size_, a.error_}; }
+  friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+    const auto [high, high_rest] = two_sum(a.high_, b.high_);
+    const auto [low, low_rest] = two_sum(a.low_, b.low_);
+    const auto [top, middle] = fast_two_sum(high, high_rest + low);
+    const auto [x, y] = fast_two_sum(top, low_rest + middle);
+    const double size = a.size_ + b.size_;
+    return {x, y, size, a.error_ + b.error_ + size};
+  }
+  friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+  friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+    const auto [high, low] = two_product(a.high_, b.high_);
+    const double cross = std::fma(a.high_, b.low_, a.low_ * b.high_);
+    const auto [x, y] = fast_two_sum(high, low + cross);
+    const double size = a.size_ * b.size_;
+    return {x, y, size, a.error_ * b.size_ + b.error_ * a.size_ + size};
+  }
+
+ private:
+  DoubleDouble(double high, double low, double size, double error)
+      : high_(high), low_(low), size_(size), error_(error) {}
+
+  double high_ = 0, low_ = 0;
+  double size_ = 0;   // at least the magnitude of the number, and of all terms of the sums that made it
+  double error_ = 0;  // in units of 2^-103, without the roundings of size_ and error_, which certain_sign() allows for
+};
+
+}  // namespace medial_vk

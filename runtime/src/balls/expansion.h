@@ -1,0 +1,75 @@
+// Exact arithmetic on doubles: a number is a sum of doubles of which no two overlap (J. R. Shewchuk, "Adaptive
+// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Exact unless a product of
+// components underflows or overflows; callers keep their numbers between 2^-200 and 2^200.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace medial_vk {
+
+/// Memory for the components of expansions, given back all at once.
+class ExpansionArena {
+ public:
+  /// Room for `count` doubles, until reset().
+  double* take(std::size_t count) {
+    while (block_ < blocks_.size() && used_ + count > blocks_[block_].size) next_block();
+    if (block_ == blocks_.size()) add_block(count);
+    double* room = blocks_[block_].doubles.get() + used_;
+    used_ += count;
+    return room;
+  }
+  /// Gives back the last `count` doubles of what was taken last.
+  void give_back(std::size_t count) { used_ -= count; }
+  void reset() { block_ = used_ = 0; }
+
+ private:
+  struct Block {
+    std::unique_ptr<double[]> doubles;
+    std::size_t size;
+  };
+  void next_block() {
+    ++block_;
+    used_ = 0;
+  }
+  void add_block(std::size_t count) {
+    const std::size_t size = count > kBlock ? count : kBlock;
+    blocks_.push_back({std::make_unique_for_overwrite<double[]>(size), size});
+  }
+
+  static constexpr std::size_t kBlock = 4096;
+  std::vector<Block> blocks_;
+  std::size_t block_ = 0, used_ = 0;
+};
+
+/// A number, exactly: the sum of its components, which do not overlap, the smallest first, none of them zero. The empty
+/// sum is zero. The components lie in an arena.
+using Expansion = std::span<const double>;
+
+/// -1, 0 or 1: the largest component outweighs all others.
+inline int sign(Expansion e) { return e.empty() ? 0 : e.back() > 0 ? 1 : -1; }
+
+/// Sums, differences and products of expansions, exactly. The results live as long as the arena is not reset.
+class ExpansionMath {
+ public:
+  explicit ExpansionMath(ExpansionArena& arena) : arena_(&arena) {}
+
+  Expansion number(double a);
+  Expansion difference(double a, double b);
+  Expansion square(double a);
+  Expansion sum(Expansion e, Expansion f) { return combine(e, f, 1); }
+  Expansion difference(Expansion e, Expansion f) { return combine(e, f, -1); }
+  Expansion product(Expansion e, Expansion f);
+
+ private:
+  Expansion pair(double high, double low);
+  Expansion combine(Expansion e, Expansion f, double sign_of_f);
+  Expansion scale(Expansion e, double b);
+
+  ExpansionArena* arena_;
+};
+
+}  // namespace medial_vk

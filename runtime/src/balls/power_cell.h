@@ -1,0 +1,62 @@
+// The power cell of a ball as a convex polyhedron: a box around the ball, cut by one bisector after the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "balls/bisector.h"
+
+namespace medial_vk {
+
+/// Three planes meet in every corner and two in every edge: coincidences are decided by ExactSide. Reused for one ball
+/// after the other, so that memory is allocated rarely.
+class PowerCell {
+ public:
+  struct Corner {
+    Point at;                             ///< Relative to the ball's centre.
+    double slack;                         ///< The true corner is at most this far from `at`.
+    std::array<std::uint32_t, 3> planes;  ///< Into planes(), with det(normals) > 0.
+    std::array<std::uint32_t, 3>
+        neighbours;  ///< neighbours[k] is at the other end of the edge that is not in planes[k].
+  };
+
+  explicit PowerCell(std::span<const Ball> balls) : balls_(balls), exact_(balls, walls_) {}
+
+  /// Starts again: a box that holds ball i with some room.
+  void start(std::uint32_t i);
+  /// Cuts by the plane between the cell's ball and ball j.
+  void clip(std::uint32_t j);
+  std::uint32_t ball() const { return ball_; }
+  bool empty() const { return corners_.empty(); }
+  const std::vector<Corner>& corners() const { return corners_; }
+  const std::vector<Bisector>& planes() const { return planes_; }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  bool find_cut_corners(const Bisector& plane);
+  bool cuts(const Corner& corner, const Bisector& plane, double height) const;
+  void add_corners(std::uint32_t plane);
+  void link_new_corners();
+  void remove_cut_corners();
+  Corner corner_on_edge(const Corner& kept, const Corner& cut, std::size_t slot, std::uint32_t plane) const;
+
+  std::span<const Ball> balls_;
+  std::uint32_t ball_ = 0;
+  std::vector<Wall> walls_;
+  mutable ExactSide exact_;
+  std::vector<Bisector> planes_;
+  std::vector<Corner> corners_;
+
+  // Of the cut in progress.
+  std::vector<double> heights_;  // of the corners over the plane
+  std::vector<std::uint8_t> is_cut_;
+  std::vector<std::uint32_t> cut_;       // corners
+  std::vector<std::uint32_t> added_;     // corners
+  std::vector<std::uint32_t> leaving_;   // by plane: the new corner from which its edge with the new plane goes on
+  std::vector<std::uint32_t> arriving_;  // by plane: the new corner at which that edge ends
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,42 @@
+// Lists of simplices as sorted arrays.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+
+template <class T>
+void sort_unique(std::vector<T>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// A simplex without its vertex k.
+template <std::size_t N>
+std::array<std::uint32_t, N - 1> face(const std::array<std::uint32_t, N>& simplex, std::size_t k) {
+  std::array<std::uint32_t, N - 1> result;
+  for (std::size_t i = 0, n = 0; i < N; ++i) {
+    if (i != k) result[n++] = simplex[i];
+  }
+  return result;
+}
+
+/// The place of a simplex in a sorted list that holds it.
+template <class T>
+std::size_t place_of(const std::vector<T>& list, const T& simplex) {
+  return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), simplex) - list.begin());
+}
+
+std::uint64_t count_components(const DualComplex& complex);
+
+/// Sorts all lists and adds faces that are not there. Without rounding none is missing: where a simplex meets its ball
+/// by less than rounding, its faces may have been found to miss theirs.
+void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
+
+}  // namespace medial_vk
