@@ -142,4 +142,23 @@ std::span<const std::uint32_t> BallTree::balls_of_leaf(std::uint32_t k) const {
   return {order_.data() + begin, end_of(begin, kLeaf) - begin};
 }
 
+BallMask::BallMask(const BallTree& tree)
+    : is_in_(tree.order().size(), 1), leaf_of_(tree.order().size()), count_(tree.nodes(), 0) {
+  for (std::uint32_t n = 0; n < tree.order().size(); ++n) {
+    const std::uint32_t leaf = tree.first_leaf() + n / BallTree::kLeaf;
+    leaf_of_[tree.order()[n]] = leaf;
+    ++count_[leaf];
+  }
+  for (std::uint32_t k = tree.first_leaf(); k-- > 0;) count_[k] = count_[2 * k + 1] + count_[2 * k + 2];
+}
+
+void BallMask::set(std::uint32_t ball, bool in) {
+  if (holds(ball) == in) return;
+  is_in_[ball] = in;
+  for (std::uint32_t k = leaf_of_[ball];; k = (k - 1) / 2) {
+    count_[k] += in ? 1u : ~0u;  // one more, or one less
+    if (k == 0) break;
+  }
+}
+
 }  // namespace medial_vk

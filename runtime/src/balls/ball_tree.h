@@ -35,6 +35,8 @@ class BallTree {
   std::span<const std::uint32_t> order() const { return order_; }
   /// Node 0 is the root; children of k: 2 k + 1 and 2 k + 2.
   const Node& node(std::uint32_t k) const { return nodes_[k]; }
+  std::size_t nodes() const { return nodes_.size(); }
+  std::uint32_t first_leaf() const { return leaves_ - 1; }
   bool is_leaf(std::uint32_t k) const { return k + 1 >= leaves_; }
   std::span<const std::uint32_t> balls_of_leaf(std::uint32_t k) const;
 
@@ -46,6 +48,22 @@ class BallTree {
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::uint32_t leaves_ = 1;
+};
+
+/// Which balls of a tree are in, and which nodes have any.
+class BallMask {
+ public:
+  /// All are.
+  explicit BallMask(const BallTree& tree);
+
+  bool holds(std::uint32_t ball) const { return is_in_[ball] != 0; }
+  bool any_in(std::uint32_t node) const { return count_[node] > 0; }
+  void set(std::uint32_t ball, bool in);
+
+ private:
+  std::vector<std::uint8_t> is_in_;
+  std::vector<std::uint32_t> leaf_of_;  // by ball
+  std::vector<std::uint32_t> count_;    // by node
 };
 
 }  // namespace medial_vk

@@ -1,11 +1,11 @@
 #include "medial_vk/ball_union.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <string>
 
 #include "balls/ball_in_cell.h"
+#include "balls/ball_scale.h"
 #include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
@@ -15,56 +15,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // balls that one builder measures without forgetting: fixed, so that bytes are, too
-
-Status check(std::span<const Ball> balls) {
-  if (balls.size() >= 1u << 31) return Error{ErrorCode::kUsage, "a union of 2^31 balls or more"};
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const auto& [centre, radius] = balls[i];
-    const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]) && std::isfinite(centre[2]);
-    if (!finite || !std::isfinite(radius) || radius < 0) {
-      return Error{ErrorCode::kUsage, "ball " + std::to_string(i) +
-                                          " has a centre or radius that is not finite, or a " + "negative radius"};
-    }
-  }
-  return {};
-}
-
-/// A power of two that brings all numbers to at most 1, which costs no rounding.
-double scale_of(std::span<const Ball> balls) {
-  double largest = 0;
-  for (const auto& [centre, radius] : balls) {
-    largest = std::max({largest, std::fabs(centre[0]), std::fabs(centre[1]), std::fabs(centre[2]), radius});
-  }
-  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
-}
-
-/// To a multiple of 2^-150, so that products of five of them are exact.
-double snap(double x) {
-  if (std::fabs(x) >= 0x1p-98) return x;
-  constexpr double kRounder = 0x1.8p-98;
-  return (x + kRounder) - kRounder;
-}
-
-std::vector<Ball> scaled(std::span<const Ball> balls, double scale) {
-  std::vector<Ball> result(balls.begin(), balls.end());
-  for (auto& [centre, radius] : result) {
-    for (double& x : centre) x = snap(scale * x);
-    radius = snap(scale * radius);
-  }
-  return result;
-}
-
-/// Sums with the rounding errors of the additions carried along (Neumaier): the result does not wear out with n.
-double careful_sum(std::span<const double> terms) {
-  double sum = 0, lost = 0;
-  for (const double term : terms) {
-    const double next = sum + term;
-    lost += std::fabs(sum) >= std::fabs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
-}
+constexpr std::size_t kBlock = 64;  // balls that share hints: fixed, so that bytes do not depend on threads
 
 /// What one block of balls adds to the lists.
 struct Pieces {
@@ -81,13 +32,7 @@ class Measuring {
     result_.volumes.resize(balls_.size());
     result_.areas.resize(balls_.size());
     if (options_.complex) pieces_.resize((balls_.size() + kBlock - 1) / kBlock);
-    parallel_blocks(balls_.size(), kManyBlocks * kBlock, threads_, [&](std::size_t begin, std::size_t end) {
-      CellBuilder builder(balls_, tree_);
-      for (; begin < end; begin += kBlock) {
-        builder.forget();
-        measure(builder, begin, std::min(begin + kBlock, end));
-      }
-    });
+    parallel_blocks(balls_.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
     result_.volume = careful_sum(result_.volumes);
     result_.area = careful_sum(result_.areas);
     for (Pieces& pieces : pieces_) append(pieces);
@@ -96,9 +41,8 @@ class Measuring {
   }
 
  private:
-  static constexpr std::size_t kManyBlocks = 8;  // per builder, whose memory is one number per ball
-
-  void measure(CellBuilder& builder, std::size_t begin, std::size_t end) {
+  void measure(std::size_t begin, std::size_t end) {
+    CellBuilder builder(balls_, tree_);
     SimplexCollector collector;
     for (std::size_t n = begin; n < end; ++n) {
       const std::uint32_t i = tree_.order()[n];
@@ -135,8 +79,7 @@ class Measuring {
   BallUnion result_;
 };
 
-void scale_back(BallUnion& result, double scale) {
-  const double unit = 1 / scale;
+void scale_back(BallUnion& result, double unit) {
   const double square = unit * unit, cube = square * unit;
   for (double& volume : result.volumes) volume *= cube;
   for (double& area : result.areas) area *= square;
@@ -148,12 +91,11 @@ void scale_back(BallUnion& result, double scale) {
 }  // namespace
 
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options) {
-  if (const Status status = check(balls); !status.ok()) return status.error();
+  if (const Status status = check_balls(balls); !status.ok()) return status.error();
   try {
-    const double scale = scale_of(balls);
-    const std::vector<Ball> unit_balls = scaled(balls, scale);
-    BallUnion result = Measuring(unit_balls, options).run();
-    scale_back(result, scale);
+    const ScaledBalls scaled = scale_balls(balls);
+    BallUnion result = Measuring(scaled.balls, options).run();
+    scale_back(result, scaled.unit);
     return result;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "out of memory: a union of " + std::to_string(balls.size()) + " balls"};

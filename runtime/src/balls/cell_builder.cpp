@@ -61,12 +61,12 @@ void CellBuilder::read_corners() {
 
 void CellBuilder::cut_by(std::uint32_t j) {
   const std::uint32_t i = cell_.ball();
-  if (j == i || asked_for_[j] == cells_) return;
-  asked_for_[j] = cells_;
+  if (j == i || (mask_ != nullptr && !mask_->holds(j))) return;
   const double both = balls_[i].radius + balls_[j].radius;
   const Point between = balls_[j].centre - balls_[i].centre;
   if (dot(between, between) > both * both * (1 + 16 * DBL_EPSILON)) return;
-  cell_.clip(j);
+  // Corners on a plane that is there already would be in doubt, all of them.
+  if (!cell_.was_cut_by(j)) cell_.clip(j);
 }
 
 void CellBuilder::walk_tree() {
@@ -81,6 +81,7 @@ void CellBuilder::walk_tree() {
   stack[depth++] = visit(0);
   while (depth > 0 && !cell_.empty()) {
     const auto [k, offset] = stack[--depth];
+    if (mask_ != nullptr && !mask_->any_in(k)) continue;
     if (!may_cut(tree_.node(k), offset)) continue;
     if (tree_.is_leaf(k)) {
       const std::size_t planes = cell_.planes().size();
@@ -109,8 +110,6 @@ void CellBuilder::remember_neighbours() {
 }
 
 const PowerCell& CellBuilder::build(std::uint32_t i) {
-  asked_for_.resize(balls_.size(), 0);
-  ++cells_;
   cell_.start(i);
   for (const std::uint32_t j : hints_) {
     cut_by(j);

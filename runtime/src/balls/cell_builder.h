@@ -14,13 +14,16 @@ namespace medial_vk {
 /// so cells of balls that follow each other in BallTree::order() cost least.
 class CellBuilder {
  public:
-  CellBuilder(std::span<const Ball> balls, const BallTree& tree) : balls_(balls), tree_(tree), cell_(balls) {}
+  /// With a mask, only its balls are there.
+  CellBuilder(std::span<const Ball> balls, const BallTree& tree, const BallMask* mask = nullptr)
+      : balls_(balls), tree_(tree), mask_(mask), cell_(balls) {}
 
   /// The power cell of ball i among all balls, exact where it meets the ball; outside the ball it may be larger.
   /// Until the next call.
   const PowerCell& build(std::uint32_t i);
-  /// Forgets the ball before: the rounding of cells then depends only on the calls that follow.
-  void forget() { hints_.clear(); }
+  /// The balls whose bisectors bound the cell that was built last; the ball itself first. Of an empty cell: those of
+  /// the cell before.
+  std::span<const std::uint32_t> neighbours() const { return hints_; }
 
  private:
   bool may_cut(const BallTree::Node& node, const Point& offset) const;
@@ -31,10 +34,9 @@ class CellBuilder {
 
   std::span<const Ball> balls_;
   const BallTree& tree_;
+  const BallMask* mask_;
   PowerCell cell_;
   std::vector<std::uint32_t> hints_;      // balls to ask first
-  std::vector<std::uint32_t> asked_for_;  // per ball: the cell, by count, that it was last asked for
-  std::uint32_t cells_ = 0;
   std::vector<double> x_, y_, z_, power_;  // of the cell's corners: place, and power of its ball with all slack
   std::vector<std::uint8_t> is_used_;
 };

@@ -166,6 +166,11 @@ void PowerCell::remove_cut_corners() {
   }
 }
 
+bool PowerCell::was_cut_by(std::uint32_t j) const {
+  const auto name = static_cast<std::int32_t>(j);
+  return std::any_of(planes_.begin(), planes_.end(), [&](const Bisector& plane) { return plane.ball == name; });
+}
+
 void PowerCell::clip(std::uint32_t j) {
   const Bisector plane = bisector(balls_, ball_, j);
   if (plane.normal == Point{}) {

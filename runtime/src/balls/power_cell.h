@@ -26,8 +26,9 @@ class PowerCell {
 
   /// Starts again: a box that holds ball i with some room.
   void start(std::uint32_t i);
-  /// Cuts by the plane between the cell's ball and ball j.
+  /// Cuts by the plane between the cell's ball and ball j, which has not cut it before.
   void clip(std::uint32_t j);
+  bool was_cut_by(std::uint32_t j) const;
   std::uint32_t ball() const { return ball_; }
   bool empty() const { return corners_.empty(); }
   const std::vector<Corner>& corners() const { return corners_; }

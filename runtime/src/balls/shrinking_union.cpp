@@ -1,0 +1,205 @@
+#include "medial_vk/shrinking_union.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "balls/ball_in_cell.h"
+#include "balls/ball_scale.h"
+#include "balls/cell_builder.h"
+#include "balls/cell_simplices.h"
+#include "balls/simplex_lists.h"
+#include "parallel_blocks.h"
+#include "point_math.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kBlock = 64;
+
+/// What the power cell of one ball says.
+struct Piece {
+  double volume = 0;
+  bool is_hidden = false;                 // no cell at all
+  std::vector<std::uint32_t> neighbours;  // balls that bound the cell
+  DualComplex simplices;                  // those whose first ball this is
+};
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+class ShrinkingUnion::Impl {
+ public:
+  Impl(std::span<const Ball> balls, unsigned threads)
+      : scaled_(scale_balls(balls)),
+        threads_(thread_count(threads)),
+        tree_(scaled_.balls, threads_),
+        mask_(tree_),
+        pieces_(balls.size()),
+        volumes_(balls.size()) {
+    std::vector<std::pair<std::uint32_t, Piece>> all = measure(tree_.order());
+    for (auto& [i, piece] : all) put(i, std::move(piece));
+  }
+
+  double volume() const { return careful_sum(volumes_); }
+  std::span<const double> volumes() const { return volumes_; }
+  bool holds(std::uint32_t ball) const { return mask_.holds(ball); }
+  std::size_t size() const { return pieces_.size(); }
+
+  BettiNumbers betti() const {
+    DualComplex complex;
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (!mask_.holds(i)) continue;
+      append(complex.vertices, pieces_[i].simplices.vertices);
+      append(complex.edges, pieces_[i].simplices.edges);
+      append(complex.triangles, pieces_[i].simplices.triangles);
+      append(complex.tetrahedra, pieces_[i].simplices.tetrahedra);
+    }
+    std::vector<EnvelopeVertex> none;
+    make_complete(complex, none);
+    return betti_numbers(complex);
+  }
+
+  void remove(std::span<const std::uint32_t> balls) {
+    std::vector<std::uint32_t> gone(balls.begin(), balls.end());
+    sort_unique(gone);
+    std::erase_if(gone, [&](std::uint32_t i) { return !mask_.holds(i); });
+    for (const std::uint32_t i : gone) mask_.set(i, false);
+    std::vector<std::pair<std::uint32_t, Piece>> changed;
+    try {
+      changed = measure(in_tree_order(touched_by(gone)));
+    } catch (...) {
+      for (const std::uint32_t i : gone) mask_.set(i, true);
+      throw;
+    }
+    gone_ = std::move(gone);
+    for (auto& [i, piece] : changed) std::swap(piece, pieces_[i]);
+    before_ = std::move(changed);
+    for (const std::uint32_t i : gone_) volumes_[i] = 0;
+    for (const auto& [i, piece] : before_) refresh_volume(i);
+  }
+
+  void undo() {
+    for (const std::uint32_t i : gone_) mask_.set(i, true);
+    for (auto& [i, piece] : before_) put(i, std::move(piece));
+    for (const std::uint32_t i : gone_) refresh_volume(i);
+    before_.clear();
+    gone_.clear();
+  }
+
+ private:
+  void put(std::uint32_t i, Piece piece) {
+    pieces_[i] = std::move(piece);
+    refresh_volume(i);
+  }
+  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume * scaled_.unit * scaled_.unit * scaled_.unit; }
+
+  /// Balls whose cells grow when others go: two cells share a face or not, whichever of them is asked. A ball without a
+  /// cell may get one where it overlaps one that goes.
+  std::vector<std::uint32_t> touched_by(const std::vector<std::uint32_t>& gone) const {
+    std::vector<std::uint32_t> touched;
+    for (const std::uint32_t i : gone) append(touched, pieces_[i].neighbours);
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i].is_hidden && mask_.holds(i) && overlaps_any(i, gone)) touched.push_back(i);
+    }
+    std::erase_if(touched, [&](std::uint32_t i) { return !mask_.holds(i); });
+    sort_unique(touched);
+    return touched;
+  }
+
+  bool overlaps_any(std::uint32_t i, const std::vector<std::uint32_t>& others) const {
+    const Ball& a = scaled_.balls[i];
+    return std::any_of(others.begin(), others.end(), [&](std::uint32_t j) {
+      const Ball& b = scaled_.balls[j];
+      return length(b.centre - a.centre) <= a.radius + b.radius;
+    });
+  }
+
+  /// Neighbours in space follow each other, which makes their cells cheap.
+  std::vector<std::uint32_t> in_tree_order(const std::vector<std::uint32_t>& sorted) const {
+    std::vector<std::uint32_t> result;
+    if (sorted.size() * 8 < pieces_.size()) return sorted;
+    for (const std::uint32_t i : tree_.order()) {
+      if (std::binary_search(sorted.begin(), sorted.end(), i)) result.push_back(i);
+    }
+    return result;
+  }
+
+  std::vector<std::pair<std::uint32_t, Piece>> measure(std::span<const std::uint32_t> balls) const {
+    std::vector<std::pair<std::uint32_t, Piece>> result(balls.size());
+    parallel_blocks(balls.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
+      CellBuilder builder(scaled_.balls, tree_, &mask_);
+      SimplexCollector collector;
+      for (std::size_t n = begin; n < end; ++n) {
+        result[n].first = balls[n];
+        measure(builder, collector, balls[n], result[n].second);
+      }
+    });
+    return result;
+  }
+
+  void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, Piece& piece) const {
+    const Ball& ball = scaled_.balls[i];
+    if (ball.radius == 0) return;
+    const PowerCell& cell = builder.build(i);
+    piece.is_hidden = cell.empty();
+    if (cell.empty()) return;
+    piece.volume = measure_ball_in_cell(cell, ball.radius).volume;
+    const auto neighbours = builder.neighbours();
+    piece.neighbours.assign(neighbours.begin() + 1, neighbours.end());
+    std::vector<EnvelopeVertex> unused;
+    collector.collect(cell, ball, piece.simplices, unused);
+  }
+
+  ScaledBalls scaled_;
+  unsigned threads_;
+  BallTree tree_;
+  BallMask mask_;
+  std::vector<Piece> pieces_;
+  std::vector<double> volumes_;
+  // Of the last removal.
+  std::vector<std::uint32_t> gone_;
+  std::vector<std::pair<std::uint32_t, Piece>> before_;
+};
+
+ShrinkingUnion::ShrinkingUnion(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ShrinkingUnion::ShrinkingUnion(ShrinkingUnion&&) noexcept = default;
+ShrinkingUnion& ShrinkingUnion::operator=(ShrinkingUnion&&) noexcept = default;
+ShrinkingUnion::~ShrinkingUnion() = default;
+
+Result<ShrinkingUnion> ShrinkingUnion::build(std::span<const Ball> balls, unsigned threads) {
+  if (const Status status = check_balls(balls); !status.ok()) return status.error();
+  try {
+    return ShrinkingUnion(std::make_unique<Impl>(balls, threads));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory: a union of " + std::to_string(balls.size()) + " balls"};
+  }
+}
+
+double ShrinkingUnion::volume() const { return impl_->volume(); }
+std::span<const double> ShrinkingUnion::volumes() const { return impl_->volumes(); }
+bool ShrinkingUnion::holds(std::uint32_t ball) const { return impl_->holds(ball); }
+BettiNumbers ShrinkingUnion::betti() const { return impl_->betti(); }
+void ShrinkingUnion::undo() { impl_->undo(); }
+
+Status ShrinkingUnion::remove(std::span<const std::uint32_t> balls) {
+  for (const std::uint32_t i : balls) {
+    if (i < impl_->size()) continue;
+    return Error{ErrorCode::kUsage, "no ball " + std::to_string(i) + ": there are " + std::to_string(impl_->size())};
+  }
+  try {
+    impl_->remove(balls);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory: a smaller union of balls"};
+  }
+}
+
+}  // namespace medial_vk
