@@ -31,6 +31,9 @@ class ShrinkingUnion {
   /// Takes balls away; those that are out already stay out. Errors: kUsage (names a number that is none of a ball's),
   /// kOutOfMemory; then nothing has changed.
   Status remove(std::span<const std::uint32_t> balls);
+  /// Balls that are in and whose power cells the last remove() has changed, ascending; empty after undo(). Until the next
+  /// call that is not const.
+  std::span<const std::uint32_t> changed() const;
   /// Puts back what the last remove() took. Does nothing if it was undone, or if there was none.
   void undo();
 

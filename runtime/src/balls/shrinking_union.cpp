@@ -51,6 +51,7 @@ class ShrinkingUnion::Impl {
   double volume() const { return careful_sum(volumes_); }
   std::span<const double> volumes() const { return volumes_; }
   bool holds(std::uint32_t ball) const { return mask_.holds(ball); }
+  std::span<const std::uint32_t> changed() const { return changed_; }
   std::size_t size() const { return pieces_.size(); }
 
   BettiNumbers betti() const {
@@ -73,13 +74,16 @@ class ShrinkingUnion::Impl {
     std::erase_if(gone, [&](std::uint32_t i) { return !mask_.holds(i); });
     for (const std::uint32_t i : gone) mask_.set(i, false);
     std::vector<std::pair<std::uint32_t, Piece>> changed;
+    std::vector<std::uint32_t> touched;
     try {
-      changed = measure(in_tree_order(touched_by(gone)));
+      touched = touched_by(gone);
+      changed = measure(in_tree_order(touched));
     } catch (...) {
       for (const std::uint32_t i : gone) mask_.set(i, true);
       throw;
     }
     gone_ = std::move(gone);
+    changed_ = std::move(touched);
     for (auto& [i, piece] : changed) std::swap(piece, pieces_[i]);
     before_ = std::move(changed);
     for (const std::uint32_t i : gone_) volumes_[i] = 0;
@@ -92,6 +96,7 @@ class ShrinkingUnion::Impl {
     for (const std::uint32_t i : gone_) refresh_volume(i);
     before_.clear();
     gone_.clear();
+    changed_.clear();
   }
 
  private:
@@ -165,7 +170,7 @@ class ShrinkingUnion::Impl {
   std::vector<Piece> pieces_;
   std::vector<double> volumes_;
   // Of the last removal.
-  std::vector<std::uint32_t> gone_;
+  std::vector<std::uint32_t> gone_, changed_;
   std::vector<std::pair<std::uint32_t, Piece>> before_;
 };
 
@@ -187,6 +192,7 @@ double ShrinkingUnion::volume() const { return impl_->volume(); }
 std::span<const double> ShrinkingUnion::volumes() const { return impl_->volumes(); }
 bool ShrinkingUnion::holds(std::uint32_t ball) const { return impl_->holds(ball); }
 BettiNumbers ShrinkingUnion::betti() const { return impl_->betti(); }
+std::span<const std::uint32_t> ShrinkingUnion::changed() const { return impl_->changed(); }
 void ShrinkingUnion::undo() { impl_->undo(); }
 
 Status ShrinkingUnion::remove(std::span<const std::uint32_t> balls) {

@@ -1,0 +1,54 @@
+// What share of the volume each sheet accounts for, and what is left when sheets go (Chapter 6). docs/theory.md,
+// "Significance".
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "medial_vk/result.h"
+#include "medial_vk/shrinking_union.h"
+
+namespace medial_vk {
+
+/// Balls in sheets: sheet_of[i] is that of ball i, from 0 to `sheets` - 1.
+struct SheetBalls {
+  std::span<const Ball> balls;
+  std::span<const std::int32_t> sheet_of;
+  std::size_t sheets = 0;
+};
+
+struct Significance {
+  double volume = 0;             ///< Of the union of the balls.
+  std::vector<double> of_ball;   ///< lambda(b), equation 6.1; sums to 1.
+  std::vector<double> of_sheet;  ///< lambda(T), equation 6.2; the same.
+};
+
+/// Errors: those of measure_ball_union().
+Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads);
+
+/// The order in which sheets go.
+struct SheetRemoval {
+  std::vector<std::uint32_t> sheets;  ///< The first to go first.
+  std::vector<double> volume_left;    ///< After each: share of the volume of the whole union.
+  std::vector<std::uint32_t> kept;    ///< Those that stay, by decreasing significance.
+};
+
+enum class RemovalRule {
+  kSignificance,  ///< The least significant goes first (Section 6.3).
+  /// The least significant goes first of those without which the union has as many components, tunnels and cavities as
+  /// the whole (Section 6.4.1).
+  kTopology,
+};
+
+/// Called before each sheet that is tried, with the share of the work done; false stops.
+using RemovalProgress = std::function<bool(double done)>;
+
+/// Removes sheets as long as the rest has at least `least_volume` of the whole volume; with 0, all that may go. At
+/// least one stays. Of equal significance, the sheet with the larger number goes first. Errors: those of
+/// ShrinkingUnion, kInterrupted.
+Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
+                                   double least_volume, unsigned threads, const RemovalProgress& progress);
+
+}  // namespace medial_vk

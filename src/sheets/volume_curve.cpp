@@ -1,0 +1,121 @@
+#include "sheets/volume_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+namespace medial_vk {
+namespace {
+
+struct CurvePoint {
+  std::size_t sheets;
+  double volume;
+};
+
+/// From one sheet fewer than the least that were left, up to all.
+std::vector<CurvePoint> points_of(const SheetRemoval& removal) {
+  const std::size_t all = removal.sheets.size() + removal.kept.size();
+  std::vector<CurvePoint> points = {{all, 1}};
+  for (std::size_t n = 0; n < removal.sheets.size(); ++n) points.push_back({all - n - 1, removal.volume_left[n]});
+  return points;
+}
+
+void append_rows(std::string& text, const char* order, const SheetRemoval& removal) {
+  const std::vector<CurvePoint> points = points_of(removal);
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const std::string next = n < removal.sheets.size() ? std::to_string(removal.sheets[n]) : "";
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", order, points[n].sheets, points[n].volume, next);
+  }
+}
+
+// Of the drawing, in its units.
+constexpr double kWidth = 640, kHeight = 400, kLeft = 64, kRight = 16, kTop = 40, kBottom = 52;
+
+/// A step of 1, 2 or 5 times a power of ten that divides `range` into at most eight parts.
+double tick_step(double range) {
+  const double power = std::pow(10, std::floor(std::log10(range / 8)));
+  for (const double times : {1.0, 2.0, 5.0}) {
+    if (range / (times * power) <= 8) return times * power;
+  }
+  return 10 * power;
+}
+
+class Drawing {
+ public:
+  explicit Drawing(std::size_t sheets) : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))) {}
+
+  void axes() {
+    for (double share = 0; share <= 1.001; share += 0.2) {
+      line(0, share, sheets_, share, "grid");
+      text(x(0) - 8, y(share) + 4, "end", fmt::format("{:.0f} %", 100 * share));
+    }
+    const double step = std::max(1.0, tick_step(sheets_));
+    for (double sheets = 0; sheets <= sheets_; sheets += step) {
+      line(sheets, 0, sheets, 0.015, "axis");
+      text(x(sheets), y(0) + 18, "middle", fmt::format("{:.0f}", sheets));
+    }
+    line(0, 0, sheets_, 0, "axis");
+    line(0, 0, 0, 1, "axis");
+    text((x(0) + x(sheets_)) / 2, kHeight - 12, "middle", "number of sheets");
+    text(x(0), kTop - 16, "start", "share of the volume of the union of balls");
+  }
+
+  void curve(const SheetRemoval& removal, const char* kind, const char* name, double name_height) {
+    out_ += fmt::format("<polyline class=\"{}\" points=\"", kind);
+    for (const CurvePoint& point : points_of(removal)) {
+      out_ += fmt::format("{:.2f},{:.2f} ", x(static_cast<double>(point.sheets)), y(point.volume));
+    }
+    out_.back() = '"';
+    out_ += "/>\n";
+    const double legend = kWidth - kRight - 210;
+    out_ += fmt::format("<path class=\"{}\" d=\"M{} {}h24\"/>\n", kind, legend, y(name_height) - 4);
+    text(legend + 32, y(name_height), "start", name);
+  }
+
+  std::string finish() const {
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n"
+        "<style>svg{{font:13px sans-serif;background:#fff;fill:#222}}"
+        ".grid{{stroke:#ddd}}.axis{{stroke:#222}}polyline,path{{fill:none;stroke-width:2}}"
+        ".significance{{stroke:#0072b2}}.topology{{stroke:#d55e00;stroke-dasharray:6 3}}</style>\n{2}</svg>\n",
+        kWidth, kHeight, out_);
+  }
+
+ private:
+  double x(double sheets) const { return kLeft + (kWidth - kLeft - kRight) * sheets / sheets_; }
+  static double y(double share) { return kHeight - kBottom - (kHeight - kTop - kBottom) * share; }
+
+  void line(double sheets_a, double share_a, double sheets_b, double share_b, const char* kind) {
+    out_ += fmt::format("<line class=\"{}\" x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\"/>\n", kind,
+                        x(sheets_a), y(share_a), x(sheets_b), y(share_b));
+  }
+  void text(double at_x, double at_y, const char* anchor, const std::string& words) {
+    out_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", at_x, at_y, anchor, words);
+  }
+
+  double sheets_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string encode_curve_csv(const VolumeCurves& curves) {
+  std::string text = "order,sheets,volume,removed\n";
+  append_rows(text, "significance", curves.by_significance);
+  append_rows(text, "topology", curves.keeping_topology);
+  return text;
+}
+
+std::string encode_curve_svg(const VolumeCurves& curves) {
+  const SheetRemoval& all = curves.by_significance;
+  Drawing drawing(all.sheets.size() + all.kept.size());
+  drawing.axes();
+  drawing.curve(curves.by_significance, "significance", "least significant first", 0.2);
+  drawing.curve(curves.keeping_topology, "topology", "topology kept", 0.12);
+  return drawing.finish();
+}
+
+}  // namespace medial_vk

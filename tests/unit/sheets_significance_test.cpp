@@ -1,0 +1,155 @@
+// Significance of sheets (6.2), removal in both orders (6.3, 6.4.1), and the curve's files.
+#include "sheets/significance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "sheets/volume_curve.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const RemovalProgress kGoOn = [](double) { return true; };
+
+/// Balls with sheets, filled one sheet after the other.
+struct Parts {
+  std::vector<Ball> balls;
+  std::vector<std::int32_t> sheet_of;
+  std::size_t sheets = 0;
+
+  void add(const std::vector<Ball>& sheet) {
+    balls.insert(balls.end(), sheet.begin(), sheet.end());
+    sheet_of.resize(balls.size(), static_cast<std::int32_t>(sheets++));
+  }
+  SheetBalls view() const { return {balls, sheet_of, sheets}; }
+};
+
+std::vector<Ball> row(const Point& from, const Point& step, int count, double radius) {
+  std::vector<Ball> balls;
+  for (int i = 0; i < count; ++i) {
+    balls.push_back({{from[0] + i * step[0], from[1] + i * step[1], from[2] + i * step[2]}, radius});
+  }
+  return balls;
+}
+
+Significance measure(const Parts& parts) {
+  auto result = measure_significance(parts.view(), 2);
+  EXPECT_TRUE(result.ok()) << result.error().message;
+  return std::move(result).value();
+}
+
+SheetRemoval remove(const Parts& parts, RemovalRule rule, double least_volume = 0) {
+  auto result = remove_sheets(parts.view(), measure(parts), rule, least_volume, 2, kGoOn);
+  EXPECT_TRUE(result.ok()) << result.error().message;
+  return std::move(result).value();
+}
+
+/// Two large balls and a thin bar between them.
+Parts dumbbell() {
+  Parts parts;
+  parts.add({{{0, 0, 0}, 1}});
+  parts.add(row({1, 0, 0}, {0.05, 0, 0}, 41, 0.1));
+  parts.add({{{4, 0, 0}, 0.9}});
+  return parts;
+}
+
+/// A ring in four arcs, with a spike.
+Parts ring_with_spike() {
+  Parts parts;
+  for (int arc = 0; arc < 4; ++arc) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 10; ++i) {
+      const double angle = 2 * std::numbers::pi * (10 * arc + i) / 40;
+      balls.push_back({{std::cos(angle), std::sin(angle), 0}, 0.2 + 0.01 * arc});
+    }
+    parts.add(balls);
+  }
+  parts.add(row({1.3, 0, 0}, {0.1, 0, 0}, 40, 0.18));
+  return parts;
+}
+
+TEST(Significance, IsTheShareOfTheVolume) {
+  Parts parts;
+  parts.add({{{0, 0, 0}, 1}});
+  parts.add({{{3, 0, 0}, 0.5}, {{5, 0, 0}, 0.5}});
+  const Significance found = measure(parts);
+  EXPECT_NEAR(found.of_sheet[0], 1 / 1.25, 1e-14);
+  EXPECT_NEAR(found.of_sheet[1], 0.25 / 1.25, 1e-14);
+  EXPECT_NEAR(found.of_ball[1], 0.125 / 1.25, 1e-14);
+}
+
+TEST(Significance, SumsToOne) {
+  const Significance found = measure(ring_with_spike());
+  EXPECT_NEAR(std::accumulate(found.of_sheet.begin(), found.of_sheet.end(), 0.0), 1, 1e-13);
+  EXPECT_NEAR(std::accumulate(found.of_ball.begin(), found.of_ball.end(), 0.0), 1, 1e-13);
+}
+
+TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
+  const Parts parts = dumbbell();
+  const SheetRemoval removal = remove(parts, RemovalRule::kSignificance);
+  EXPECT_THAT(removal.sheets, ElementsAre(1, 2));
+  EXPECT_THAT(removal.kept, ElementsAre(0));
+  // Without the bar: the two balls, which are apart.
+  const double balls = 4 * std::numbers::pi / 3 * (1 + 0.729);
+  EXPECT_NEAR(removal.volume_left[0], balls / measure(parts).volume, 1e-13);
+}
+
+/// Without the bar the union would fall apart, so the smaller ball goes; then the bar may.
+TEST(SheetRemoval, KeepsTheTopology) {
+  const SheetRemoval removal = remove(dumbbell(), RemovalRule::kTopology);
+  EXPECT_THAT(removal.sheets, ElementsAre(2, 1));
+  EXPECT_THAT(removal.kept, ElementsAre(0));
+}
+
+TEST(SheetRemoval, DoesNotOpenARing) {
+  const Parts parts = ring_with_spike();
+  const SheetRemoval removal = remove(parts, RemovalRule::kTopology);
+  EXPECT_THAT(removal.sheets, ElementsAre(4));
+  EXPECT_EQ(removal.kept.size(), 4u);
+  EXPECT_EQ(remove(parts, RemovalRule::kSignificance).sheets.size(), 4u);
+}
+
+TEST(SheetRemoval, StopsBeforeTooLittleIsLeft) {
+  const Parts parts = dumbbell();
+  const SheetRemoval all = remove(parts, RemovalRule::kSignificance);
+  const SheetRemoval some = remove(parts, RemovalRule::kSignificance, all.volume_left[0] - 1e-9);
+  EXPECT_THAT(some.sheets, ElementsAre(1));
+  EXPECT_THAT(some.kept, ElementsAre(0, 2));
+  EXPECT_TRUE(remove(parts, RemovalRule::kSignificance, all.volume_left[0] + 1e-9).sheets.empty());
+  EXPECT_TRUE(remove(parts, RemovalRule::kTopology, 1).sheets.empty());
+}
+
+TEST(SheetRemoval, CanBeInterrupted) {
+  const Parts parts = dumbbell();
+  const auto result =
+      remove_sheets(parts.view(), measure(parts), RemovalRule::kSignificance, 0, 2, [](double) { return false; });
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
+}
+
+TEST(VolumeCurve, AsATable) {
+  const VolumeCurves curves = {{{2, 1}, {0.75, 0.5}, {0}}, {{1}, {0.625}, {0, 2}}};
+  EXPECT_EQ(encode_curve_csv(curves),
+            "order,sheets,volume,removed\n"
+            "significance,3,1,2\nsignificance,2,0.75,1\nsignificance,1,0.5,\n"
+            "topology,3,1,1\ntopology,2,0.625,\n");
+}
+
+TEST(VolumeCurve, AsADrawing) {
+  const std::string svg = encode_curve_svg({{{2, 1}, {0.75, 0.5}, {0}}, {{1}, {0.625}, {0, 2}}});
+  EXPECT_THAT(svg, HasSubstr("<svg xmlns="));
+  // All of the volume at three sheets, half of it at one: the corners of the first curve.
+  EXPECT_THAT(svg, HasSubstr("class=\"significance\" points=\"624.00,40.00 "));
+  EXPECT_THAT(svg, HasSubstr("250.67,194.00\""));
+}
+
+}  // namespace
+}  // namespace medial_vk
