@@ -101,6 +101,7 @@ void declare(CLI::App& app, Options& options) {
       {{"angle", PictureColour::kAngle}, {"radius", PictureColour::kRadius}, {"sheet", PictureColour::kSheet}},
       options.look.colour);
   add.text("--html", "file", options.html);
+  add.text("--medial-mesh", "file", options.medial_mesh);
 
   add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
@@ -111,6 +112,11 @@ void declare(CLI::App& app, Options& options) {
   add.flag("--simplify", options.simplify);
   add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);
   add.whole("--seed", 0, UINT64_MAX, "", options.seed);
+
+  add.real("--sheet-angle", {0, 90}, " degrees", options.sheets.angle);
+  add.real("--sheet-crease", {0, 180}, " degrees", options.sheets.crease);
+  add.real("--sheet-width", {0, 1}, " of the balls' diameter", options.sheets.width);
+  add.whole("--absorb-fragments", 0, UINT32_MAX, " points", options.sheets.absorb_fragments);
 
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
@@ -194,7 +200,8 @@ Status check_files_differ(const Options& options) {
   const std::pair<const char*, const std::string*> outputs[] = {{"--output", &options.output},
                                                                 {"--report", &options.report},
                                                                 {"--picture", &options.picture},
-                                                                {"--html", &options.html}};
+                                                                {"--html", &options.html},
+                                                                {"--medial-mesh", &options.medial_mesh}};
   for (const auto& [name, file] : outputs) {
     if (file->empty()) continue;
     if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
@@ -261,6 +268,9 @@ Status complete_files(Options& options) {
   if (Status status = check_picture_options(options); !status) return status;
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
+  }
+  if (!may_end_in(options.medial_mesh, ".ply") && !may_end_in(options.medial_mesh, ".ma")) {
+    return usage_error(fmt::format("--medial-mesh: '{}' ends in neither .ply nor .ma", options.medial_mesh));
   }
   return check_files_differ(options);
 }

@@ -12,6 +12,7 @@
 #include "medial_vk/result.h"
 #include "output/medial_file.h"
 #include "output/picture/options.h"
+#include "sheets/sheets.h"
 
 namespace medial_vk::cli {
 
@@ -31,6 +32,7 @@ struct Options {
   double perturb = 0;  ///< Fraction of the longest side; 0: off.
   std::uint64_t seed = 1;
   bool simplify = false;
+  SheetParameters sheets;
 
   Backend backend = Backend::kVulkan;
   std::string device;
@@ -39,6 +41,7 @@ struct Options {
   std::string report;   ///< Empty: none; "-": standard output.
   std::string picture;  ///< The same.
   std::string html;     ///< The same.
+  std::string medial_mesh;  ///< The same.
   PictureOptions look;  ///< Of the picture.
   bool check = false;
 

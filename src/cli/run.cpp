@@ -20,12 +20,16 @@
 #include "medial/reference_bridge.h"
 #include "medial/simplify.h"
 #include "medial/stopwatch.h"
+#include "mesh/inspect_mesh.h"
 #include "output/atomic_file.h"
+#include "output/formats/encode_medial_mesh.h"
 #include "output/formats/encode_points.h"
 #include "output/page.h"
 #include "output/picture.h"
 #include "output/report_json.h"
 #include "output/version.h"
+#include "sheets/check_sheets.h"
+#include "sheets/medial_mesh.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -70,10 +74,12 @@ class ExtractionRun {
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
     simplify();
+    group();
     if (Status status = encode(); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
     make_page();
+    connect();
     encode_report();
     progress_.clear();
     if (interrupted()) return kStopped;
@@ -87,7 +93,8 @@ class ExtractionRun {
     if (!options_.html.empty()) {
       if (Status status = check_page_available(); !status) return status;
     }
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html}) {
+    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html,
+                                    &options_.medial_mesh}) {
       if (path->empty()) continue;
       if (Status status = check_writable(*path); !status) return status;
     }
@@ -161,6 +168,27 @@ class ExtractionRun {
     record_.object_angles = range_of_object_angles(spheres_);
   }
 
+  /// Sheets, for every format that carries them.
+  void group() {
+    Stopwatch stopwatch;
+    record_.sheet_parameters = options_.sheets;
+    record_.sheets = find_sheets(spheres_, record_.grid, options_.parameters, options_.sheets);
+    for (std::size_t i = 0; i < spheres_.size(); ++i) spheres_[i].sheet = record_.sheets.of_point[i];
+    record_.host_times.push_back({"sheets", stopwatch.lap()});
+  }
+
+  void connect() {
+    if (options_.medial_mesh.empty()) return;
+    progress_.update("medial mesh", 0);
+    Stopwatch stopwatch;
+    const MedialMesh mesh = make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
+    record_.medial_mesh = mesh.topology;
+    record_.euler_characteristic = euler_characteristic_of_solid(mesh_);
+    files_.push_back({options_.medial_mesh,
+                      encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets, mesh, options_.ascii)});
+    record_.host_times.push_back({"medial mesh", stopwatch.lap()});
+  }
+
   Status encode() {
     header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
     Result<std::string> bytes = encode_points(
@@ -186,6 +214,9 @@ class ExtractionRun {
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
     record_.certificate = reference::check(to_reference(mesh_), to_reference(grid, written.value().spheres),
                                            header.epsilon, header.object_angle, header.radius_threshold);
+    for (reference::CertificateLine& line : check_sheets(written.value().spheres)) {
+      record_.certificate->lines.push_back(std::move(line));
+    }
     record_.host_times.push_back({"check", stopwatch.lap()});
     progress_.clear();
     return {};

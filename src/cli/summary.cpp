@@ -44,6 +44,23 @@ std::string describe_points(const RunRecord& record) {
   return text;
 }
 
+std::string describe_sheets(const Sheets& sheets) {
+  std::string text = grouped(sheets.sheets.size());
+  if (sheets.fragments > 0) {
+    text += fmt::format(" ({} of them with fewer than {} points)", grouped(sheets.fragments), kFragmentPoints);
+  }
+  return text;
+}
+
+/// Both sides of the comparison, so that it is seen at once whether the topology was kept.
+std::string describe_medial_mesh(const RunRecord& record) {
+  std::string text = fmt::format("{}, Euler characteristic {}",
+                                 counted(record.medial_mesh->components, "component", "components"),
+                                 record.medial_mesh->euler_characteristic);
+  if (record.euler_characteristic) text += fmt::format(" (of the solid: {})", *record.euler_characteristic);
+  return text;
+}
+
 /// Total first, then the stages that matter: those of at least a hundredth of it.
 std::string describe_times(const std::vector<StageTime>& times) {
   const double total = std::accumulate(times.begin(), times.end(), 0.0,
@@ -77,6 +94,8 @@ std::string opening(const RunRecord& record) {
 std::string summary(const RunRecord& record, std::uint64_t bytes) {
   std::string text = line("points", describe_points(record));
   text += line("voxels", describe_voxels(record));
+  if (record.points > 0) text += line("sheets", describe_sheets(record.sheets));
+  if (record.medial_mesh) text += line("mesh", describe_medial_mesh(record));
   text += line("radius", range_text(record.radii));
   text += line("time", describe_times(record.host_times));
   text += line("written",

@@ -124,4 +124,12 @@ Volumes measure_volumes(const Mesh& mesh, const SurfaceParts& parts, const Point
   return volumes;
 }
 
+std::optional<std::int64_t> euler_characteristic_of_solid(const PreparedMesh& mesh) {
+  const MeshReport& report = mesh.report;
+  if (!report.closed || report.non_manifold_edges > 0 || report.non_manifold_vertices > 0) return std::nullopt;
+  const auto vertices = static_cast<std::int64_t>(mesh.mesh.vertices.size());
+  const auto edges = static_cast<std::int64_t>(MeshTopology(mesh.mesh).edge_count());
+  return (vertices - edges + static_cast<std::int64_t>(mesh.mesh.triangles.size())) / 2;
+}
+
 }  // namespace medial_vk

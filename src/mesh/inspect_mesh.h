@@ -1,6 +1,8 @@
 // What the connectivity and the shape of a mesh say about it; nothing is changed.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -23,6 +25,10 @@ struct Volumes {
   double parts_rounding = 0;  ///< Bound of the rounding error of `parts`.
 };
 Volumes measure_volumes(const Mesh& mesh, const SurfaceParts& parts, const Point& centre);
+
+/// Of the solid that a closed mesh encloses: half that of its surface, as of every compact set with a surface for its
+/// boundary. Nothing if the mesh is not closed or not a surface.
+std::optional<std::int64_t> euler_characteristic_of_solid(const PreparedMesh& mesh);
 
 /// Full sentences about everything in the report that a person should know before trusting the result.
 void write_assumptions(MeshReport& report);

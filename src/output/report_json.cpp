@@ -104,6 +104,45 @@ Json device_json(const std::optional<DeviceDescription>& device) {
           {"memory_bytes", device->memory_bytes}};
 }
 
+Json sheets_json(const Sheets& sheets) {
+  Json json = Json::array();
+  for (std::size_t id = 0; id < sheets.sheets.size(); ++id) {
+    const Sheet& sheet = sheets.sheets[id];
+    json.push_back({{"id", id},
+                    {"points", sheet.points},
+                    {"area", sheet.area},
+                    {"mean_radius", sheet.mean_radius},
+                    {"mean_object_angle", sheet.mean_object_angle},
+                    {"significance", sheet.significance ? Json(*sheet.significance) : Json(nullptr)}});
+  }
+  return json;
+}
+
+Json grouping_json(const SheetParameters& parameters, const Sheets& sheets) {
+  return {{"sheet_angle", parameters.angle},
+          {"sheet_crease", parameters.crease},
+          {"sheet_width", parameters.width},
+          {"absorb_fragments", parameters.absorb_fragments},
+          {"pieces", sheets.pieces},
+          {"absorbed", {{"pieces", sheets.absorbed_pieces}, {"points", sheets.absorbed_points}}},
+          {"fragments",
+           {{"points_below", kFragmentPoints}, {"sheets", sheets.fragments}, {"points", sheets.fragment_points}}},
+          {"seam_points", sheets.seam_points},
+          {"rim_points", sheets.rim_points}};
+}
+
+Json medial_mesh_json(const RunRecord& record) {
+  if (!record.medial_mesh) return nullptr;
+  const MedialTopology& topology = *record.medial_mesh;
+  const Json solid_euler = record.euler_characteristic ? Json(*record.euler_characteristic) : Json(nullptr);
+  return {{"components", topology.components},
+          {"euler_characteristic", topology.euler_characteristic},
+          {"boundary_edges", topology.boundary_edges},
+          {"non_manifold_edges", topology.non_manifold_edges},
+          {"bare_edges", topology.bare_edges},
+          {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
+}
+
 Json certificate_json(const std::optional<reference::Certificate>& certificate) {
   if (!certificate) return nullptr;
   Json lines = Json::array();
@@ -160,6 +199,9 @@ std::string report_json(const RunRecord& record) {
         {"simplified_away", record.simplified},
         {"radius", range_json(record.radii)},
         {"object_angle", range_json(record.object_angles)}}},
+      {"sheets", sheets_json(record.sheets)},
+      {"grouping", grouping_json(record.sheet_parameters, record.sheets)},
+      {"medial_mesh", medial_mesh_json(record)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
       {"device", device_json(record.device)},
       {"certificate", certificate_json(record.certificate)}};

@@ -10,6 +10,8 @@
 #include "cpu_reference/certificate.h"
 #include "medial/extract.h"
 #include "medial_vk/context.h"
+#include "sheets/medial_mesh.h"
+#include "sheets/sheets.h"
 
 namespace medial_vk {
 
@@ -42,6 +44,11 @@ struct RunRecord {
   std::uint64_t simplified = 0;  ///< Removed by --simplify.
   std::optional<Range> radii;
   std::optional<Range> object_angles;
+
+  SheetParameters sheet_parameters;
+  Sheets sheets;
+  std::optional<MedialTopology> medial_mesh;          ///< Of --medial-mesh.
+  std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
 
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
   std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".

@@ -1,0 +1,23 @@
+// The medial mesh as a file: PLY, or the .ma of Q-MAT (Li et al. 2015).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "output/medial_file.h"
+#include "sheets/medial_mesh.h"
+
+namespace medial_vk {
+
+/// Points with radius, sheet and marks; triangles with their sheets; edges with their marks.
+std::string encode_medial_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres,
+                                   const Sheets& sheets, const MedialMesh& mesh, bool ascii);
+/// Numbers have the fewest digits that read back exactly. Sheets and marks have no place in it.
+std::string encode_medial_mesh_ma(std::span<const MedialSphere> spheres, const MedialMesh& mesh);
+
+/// By the extension of `path`; PLY for standard output.
+std::string encode_medial_mesh(const std::string& path, const MedialHeader& header,
+                               std::span<const MedialSphere> spheres, const Sheets& sheets, const MedialMesh& mesh,
+                               bool ascii);
+
+}  // namespace medial_vk

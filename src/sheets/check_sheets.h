@@ -1,0 +1,16 @@
+// `--check`: what the sheets promise, tested again from the written numbers.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cpu_reference/certificate.h"
+#include "medial_vk/extraction.h"
+
+namespace medial_vk {
+
+/// Every sheet is connected by voxels that touch, and numbers are 0, 1, ... by decreasing number of points. One line
+/// for each; by another way than find_sheets() takes.
+std::vector<reference::CertificateLine> check_sheets(std::span<const MedialSphere> spheres);
+
+}  // namespace medial_vk

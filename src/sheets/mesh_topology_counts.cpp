@@ -1,0 +1,63 @@
+#include "sheets/mesh_topology_counts.h"
+
+#include <algorithm>
+
+#include "sheets/concurrent_sets.h"
+
+namespace medial_vk {
+namespace {
+
+void sort_all(MedialMesh& mesh) {
+  for (MeshTriangle& t : mesh.triangles) std::sort(t.begin(), t.end());
+  for (MeshEdge& e : mesh.edges) std::sort(e.begin(), e.end());
+  std::sort(mesh.triangles.begin(), mesh.triangles.end());
+  std::sort(mesh.edges.begin(), mesh.edges.end());
+}
+
+std::vector<std::uint32_t> triangles_by_edge(const MedialMesh& mesh) {
+  std::vector<std::uint32_t> counts(mesh.edges.size(), 0);
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (const MeshEdge& side : {MeshEdge{t[0], t[1]}, MeshEdge{t[0], t[2]}, MeshEdge{t[1], t[2]}}) {
+      const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), side);
+      ++counts[static_cast<std::size_t>(found - mesh.edges.begin())];
+    }
+  }
+  return counts;
+}
+
+std::uint64_t count_components(std::size_t points, const MedialMesh& mesh) {
+  ConcurrentSets sets(points);
+  for (const MeshEdge& e : mesh.edges) sets.join(e[0], e[1]);
+  std::uint64_t components = 0;
+  for (std::uint32_t i = 0; i < points; ++i) components += sets.root(i) == i ? 1 : 0;
+  return components;
+}
+
+}  // namespace
+
+void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh) {
+  sort_all(mesh);
+  mesh.triangle_sheets.clear();
+  for (const MeshTriangle& t : mesh.triangles) {
+    const std::int32_t sheet = sheets.of_point[t[0]];
+    const bool one = sheets.of_point[t[1]] == sheet && sheets.of_point[t[2]] == sheet;
+    mesh.triangle_sheets.push_back(one ? sheet : -1);
+  }
+  MedialTopology& topology = mesh.topology;
+  topology = {};
+  mesh.edge_marks.clear();
+  const std::vector<std::uint32_t> counts = triangles_by_edge(mesh);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const MeshEdge& e = mesh.edges[i];
+    const bool seam = counts[i] > 2 || sheets.of_point[e[0]] != sheets.of_point[e[1]];
+    mesh.edge_marks.push_back(static_cast<std::uint8_t>((seam ? kSeam : 0) | (counts[i] == 1 ? kRim : 0)));
+    if (counts[i] == 0) ++topology.bare_edges;
+    if (counts[i] == 1) ++topology.boundary_edges;
+    if (counts[i] > 2) ++topology.non_manifold_edges;
+  }
+  topology.components = count_components(points, mesh);
+  topology.euler_characteristic = static_cast<std::int64_t>(points) - static_cast<std::int64_t>(mesh.edges.size()) +
+                                  static_cast<std::int64_t>(mesh.triangles.size());
+}
+
+}  // namespace medial_vk

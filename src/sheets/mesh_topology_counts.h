@@ -1,0 +1,13 @@
+// What follows from the edges and triangles of a medial mesh.
+#pragma once
+
+#include <cstddef>
+
+#include "sheets/medial_mesh.h"
+
+namespace medial_vk {
+
+/// Sorts triangles and edges and fills in the rest of `mesh`. Precondition: the sides of the triangles are edges.
+void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh);
+
+}  // namespace medial_vk

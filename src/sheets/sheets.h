@@ -1,0 +1,64 @@
+// Medial points grouped into medial sheets (Section 2.5), with what each sheet is like. docs/theory.md, "Sheets".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "medial_vk/extraction.h"
+
+namespace medial_vk {
+
+struct SheetParameters {
+  /// tau of Section 2.5, degrees: neighbours whose normals differ by no more are of one sheet.
+  double angle = 5.7;
+  /// Degrees: so are neighbours both of whose spokes turn by no more, as they do from facet to facet of a round shape.
+  /// 0: only the published test.
+  double crease = 40;
+  /// Pieces narrower than this fraction of the mean diameter of their balls join a neighbour; 0: none.
+  double width = 0.3;
+  /// Pieces of fewer points join a neighbour; 0: none.
+  std::uint64_t absorb_fragments = 0;
+
+  bool operator==(const SheetParameters&) const = default;
+};
+
+/// Sheets of fewer points are counted as fragments.
+inline constexpr std::uint64_t kFragmentPoints = 10;
+
+struct Sheet {
+  std::uint64_t points = 0;
+  double area = 0;               ///< Units of the mesh squared: of the planes through its points, within their voxels.
+  double mean_radius = 0;        ///< Of its points.
+  double mean_object_angle = 0;  ///< Of its points, radians.
+  std::optional<double> significance;  ///< lambda of equation 6.2; nothing until volumes have been measured.
+};
+
+/// What is special about a point; flags.
+enum PointMark : std::uint8_t {
+  kSeam = 1,  ///< Another sheet has a point in a voxel beside that of this one.
+  kRim = 2,   ///< The sheet ends here: for a third of the way around, no voxel beside it has a point.
+};
+
+struct Sheets {
+  std::vector<std::int32_t> of_point;  ///< By point: its sheet.
+  std::vector<std::uint8_t> marks;     ///< By point: PointMark.
+  std::vector<Sheet> sheets;           ///< By decreasing number of points; of equals, that of the first voxel first.
+
+  std::uint64_t pieces = 0;           ///< Before any were absorbed.
+  std::uint64_t absorbed_pieces = 0;  ///< Too narrow, or of too few points.
+  std::uint64_t absorbed_points = 0;
+  std::uint64_t fragments = 0;  ///< Sheets of fewer than kFragmentPoints.
+  std::uint64_t fragment_points = 0;
+  std::uint64_t seam_points = 0;
+  std::uint64_t rim_points = 0;
+};
+
+/// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
+/// `extraction` is what the points were found with: its object angle and epsilon. Precondition: at most one point per
+/// voxel of `grid`.
+Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
+                   const ExtractionParameters& extraction, const SheetParameters& parameters);
+
+}  // namespace medial_vk
