@@ -211,7 +211,7 @@ class ExtractionRun {
     if (options_.html.empty()) return;
     progress_.update("page", 0);
     Stopwatch stopwatch;
-    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_)});
+    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_, options_.look.view.up)});
     record_.host_times.push_back({"page", stopwatch.lap()});
   }
 

@@ -53,6 +53,8 @@ export class Controls {
     this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
       Math.PI / 2]};
     this.describeRun();
+    byId('up').value = scene.up;
+    this.viewer.setUp(scene.up);
     this.bind();
     this.bindKeys();
     this.bindCanvas();

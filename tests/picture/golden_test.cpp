@@ -64,18 +64,18 @@ GoldenScene points_by_angle() {
 GoldenScene both_by_radius() {
   return scene_of(
       "both_by_radius", *test::smooth_pear(0.3, 0.7, 1.6), 0.05,
-      {.size = {320, 180}, .view = {1, 0.4, 0.3}, .show = PictureShow::kBoth, .colour = PictureColour::kRadius});
+      {.size = {320, 180}, .view = {{1, 0.4, 0.3}}, .show = PictureShow::kBoth, .colour = PictureColour::kRadius});
 }
 
 GoldenScene balls_by_sheet() {
   return scene_of(
       "balls_by_sheet", *test::smooth_torus(1, 0.4), 0.3,
-      {.size = {240, 180}, .view = {0.3, -0.5, 1}, .show = PictureShow::kBalls, .colour = PictureColour::kSheet});
+      {.size = {240, 180}, .view = {{0.3, -0.5, 1}}, .show = PictureShow::kBalls, .colour = PictureColour::kSheet});
 }
 
 /// A box with creases, seen from above, where another direction is up.
 GoldenScene box_from_above() {
-  GoldenScene scene = {"box_from_above", test::make_box({2, 1, 1}), {}, 0.1, {.size = {240, 180}, .view = {0, 1, 0}}};
+  GoldenScene scene = {"box_from_above", test::make_box({2, 1, 1}), {}, 0.1, {.size = {240, 180}, .view = {{0, 1, 0}}}};
   for (int i = 0; i < 100; ++i) {
     MedialSphere sphere;
     sphere.centre = {0.55 + 0.1 * (i % 10), 0.5, 0.1 + 0.08 * (i / 10)};
@@ -179,9 +179,9 @@ TEST(GoldenTolerance, EverySmallFaultIsFound) {
 
   GoldenScene turned = points_by_angle();  // by 3 degrees
   const double angle = 3 * std::numbers::pi / 180;
-  const std::array<double, 3> view = turned.options.view;
-  turned.options.view = {view[0] * std::cos(angle) + view[2] * std::sin(angle), view[1],
-                         view[2] * std::cos(angle) - view[0] * std::sin(angle)};
+  const std::array<double, 3> view = turned.options.view.towards;
+  turned.options.view.towards = {view[0] * std::cos(angle) + view[2] * std::sin(angle), view[1],
+                                 view[2] * std::cos(angle) - view[0] * std::sin(angle)};
   expect_found("a camera turned by 3 degrees", turned);
 
   GoldenScene discs = points_by_angle();
