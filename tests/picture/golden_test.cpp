@@ -102,7 +102,7 @@ Picture golden(const GoldenScene& scene) {
 
 class Golden : public testing::TestWithParam<GoldenScene> {};
 
-TEST_P(Golden, OnTheCpu) { test::expect_same_look(on_cpu(GetParam()), golden(GetParam())); }
+TEST_P(Golden, OnTheCpu) { test::expect_same_look(on_cpu(GetParam()), golden(GetParam()), test::kSameSamples); }
 
 /// On the device that the tests use, with validation where the layer is installed.
 Picture on_device(const GoldenScene& scene, std::uint32_t samples) {
@@ -127,7 +127,7 @@ TEST_P(Golden, OnTheDevice) {
   for (const std::uint32_t samples : {2u, 4u}) {
     SCOPED_TRACE(samples);
     const Picture picture = on_device(GetParam(), samples);
-    test::expect_same_look(picture, golden(GetParam()));
+    test::expect_same_look(picture, golden(GetParam()), samples == 2 ? test::kSameSamples : test::kOtherSamples);
     EXPECT_EQ(picture.rgb, on_device(GetParam(), samples).rgb) << "another picture the second time";
   }
 }
@@ -139,7 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
 /// Picture `b` is one with a fault.
 void expect_found(const char* fault, const GoldenScene& faulty) {
   const test::LookDifference difference = test::look_difference(on_cpu(faulty), golden(points_by_angle()));
-  EXPECT_TRUE(test::found(difference)) << fault << ": mean " << difference.mean << ", worst " << difference.worst;
+  EXPECT_TRUE(test::kOtherSamples.exceeded_by(difference))
+      << fault << ": mean " << difference.mean << ", worst " << difference.worst;
 }
 
 TEST(GoldenTolerance, EverySmallFaultIsFound) {
@@ -176,7 +177,8 @@ TEST(GoldenTolerance, AShiftByTwoPixelsIsFound) {
   Picture shifted = wanted;
   for (std::size_t i = 6; i < shifted.rgb.size(); ++i) shifted.rgb[i] = wanted.rgb[i - 6];
   const test::LookDifference difference = test::look_difference(shifted, wanted);
-  EXPECT_TRUE(test::found(difference)) << "mean " << difference.mean << ", worst " << difference.worst;
+  EXPECT_TRUE(test::kOtherSamples.exceeded_by(difference))
+      << "mean " << difference.mean << ", worst " << difference.worst;
 }
 
 TEST(DevicePicture, TilesAndPanelsMeetWithoutASeam) {
@@ -184,7 +186,7 @@ TEST(DevicePicture, TilesAndPanelsMeetWithoutASeam) {
   GoldenScene scene = both_by_radius();
   scene.options.size = {1400, 700};  // several tiles of 512 in each direction
   Picture picture = on_device(scene, 2);
-  test::expect_same_look(picture, on_cpu(scene));
+  test::expect_same_look(picture, on_cpu(scene), test::kSameSamples);
 }
 
 TEST(DevicePicture, SaysWhoDrewIt) {
