@@ -53,8 +53,6 @@ export class Controls {
     this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
       Math.PI / 2]};
     this.describeRun();
-    byId('up').value = scene.up;
-    this.viewer.setUp(scene.up);
     this.bind();
     this.bindKeys();
     this.bindCanvas();
@@ -65,7 +63,11 @@ export class Controls {
       ? Math.round(1000 * Math.log(Math.min(kFirstBalls, scene.points)) / Math.log(scene.points)) : 1000;
     byId('picked-number').max = Math.max(scene.points - 1, 0);
     this.viewer.onRest = () => this.sayBalls();
+    // On a narrow screen the legend is a strip across the picture.
+    this.viewer.stripBelow = () => (byId('legend').offsetWidth === byId('stage').clientWidth ? byId('legend').offsetHeight : 0);
     this.refresh();
+    byId('up').value = scene.up;
+    this.viewer.setUp(scene.up);
   }
 
   bind() {

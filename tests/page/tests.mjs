@@ -124,28 +124,6 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** With --up the model stands at first, and for every axis the select turns it as that option would. */
-  async up({workshop, browser}) {
-    const points = workshop.make(lShape(), [...kSmall, '--up', 'z']);
-    const page = await browser.open();
-    await page.load(workshop.url('page.html'));
-    assert.equal(await page.evaluate("document.getElementById('up').value"), 'z');
-    const axes = ['x', 'y', 'z', '-x', '-y', '-z'];
-    const marks = new Set();
-    for (const up of axes) {
-      await selectOption(page, 'up', up);
-      const axis = 'xyz'.indexOf(up.at(-1)), sign = up.length === 1 ? 1 : -1;
-      const by = (i) => sign * points[i].centre[axis];
-      const order = points.map((_, i) => i).sort((i, j) => by(i) - by(j));
-      const heights = await page.evaluate(`[${order[0]}, ${order.at(-1)}].map((i) => medialVk.viewer.model.localToWorld(
-        medialVk.viewer.camera.position.clone().set(...medialVk.viewer.centre(i))).y)`);
-      assert.ok(heights[1] > heights[0] + 0.1, `${up}: ${heights}`);
-      marks.add((await look(page)).mark);
-    }
-    assert.equal(marks.size, axes.length);
-    assertQuiet(page);
-  },
-
   async keyboard(context) {
     const {page} = await openPart(context);
     await focus(page, 'view');
