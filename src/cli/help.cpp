@@ -15,6 +15,7 @@ Usage:
 Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here
   medial-vk bunny.obj --picture bunny.png --show both    and a picture of it
+  medial-vk part.stl --html part.html --up z   and a page to turn it, z up
   medial-vk part.stl -o p.csv --resolution 80  coarser, as a table
   medial-vk bunny.obj -o bunny.glb             the balls, for Blender or the web
   medial-vk bunny.obj --check                  tests every ball again on the CPU
