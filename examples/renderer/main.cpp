@@ -1,7 +1,7 @@
 // A renderer that owns its Vulkan device and has medial-vk compute on it: every frame the mesh deforms, the medial
 // spheres are found again, and they are drawn from the buffer that they were found into. Nothing of them comes to the
 // host.
-//   renderer FOLDER [FRAMES]     writes frame-0.png and so on to FOLDER (default: 4 frames)
+//   renderer FOLDER [FRAMES]     writes frame-0.png and so on to FOLDER (default: 4 frames, at least 2)
 // It ends with 1 if the validation layer, where that is installed, has anything to say.
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
@@ -43,7 +43,8 @@ T take(medial_vk::Result<T> result) {
 
 // A camera that looks at the origin: columns of perspective times view, depth 0 to 1, y down.
 FrameConstants camera(const medial_vk::Placement& placement) {
-  constexpr float kFar = 10, kNear = 0.1f, kZoom = 2.1f, kDistance = 3.6f, kHeight = 0.62f;  // kHeight: sine
+  constexpr float kFar = 10, kNear = 0.1f, kZoom = 2.4f, kDistance = 3.6f, kHeight = 0.62f;  // kHeight: sine
+  constexpr float kRaised = 0.2f;  // the near part is the larger one
   const float across = std::sqrt(1 - kHeight * kHeight);
   const float aspect = static_cast<float>(kSize.width) / static_cast<float>(kSize.height);
   const float eye[3] = {0, -kDistance * across, kDistance * kHeight};
@@ -56,7 +57,7 @@ FrameConstants camera(const medial_vk::Placement& placement) {
     }
     float* out = c.to_clip + 4 * column;
     out[0] = kZoom / aspect * seen[0];
-    out[1] = -kZoom * seen[1];
+    out[1] = -kZoom * seen[1] - kRaised * seen[2];
     out[2] = kFar / (kFar - kNear) * (seen[2] - (column == 3 ? kNear : 0));
     out[3] = seen[2];
   }
@@ -116,7 +117,11 @@ class Renderer {
     std::printf("%d frames of %zu triangles and %u spheres on %s; moving the mesh %.1f ms a frame, recording %.1f ms\n",
                 frames, torus_.index_count() / 3, spheres_, context_.device().name.c_str(),
                 1e3 * moving_.count() / frames, 1e3 * recording_.count() / frames);
-    if (host_.validates()) std::printf("%u validation messages\n", host_.validation_messages());
+    if (host_.validates()) {
+      std::printf("%u validation messages\n", host_.validation_messages());
+    } else {
+      std::printf("no validation layer is installed: nothing was validated\n");
+    }
   }
 
   unsigned validation_messages() const { return host_.validation_messages(); }
@@ -213,6 +218,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   Renderer renderer(argv[1]);
-  renderer.draw(argc == 3 ? std::max(1, std::atoi(argv[2])) : 4);
+  // Two at least: the job says of a frame how it went when the next but one is due.
+  renderer.draw(argc == 3 ? std::max(static_cast<int>(kFramesInFlight), std::atoi(argv[2])) : 4);
   return renderer.validation_messages() == 0 ? 0 : 1;
 }

@@ -15,6 +15,7 @@ Usage:
 Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here
   medial-vk bunny.obj --picture bunny.png --show both    and a picture of it
+  medial-vk part.stl --html part.html --up z   and a page to turn it, z up
   medial-vk part.stl -o p.csv --resolution 80  coarser, as a table
   medial-vk bunny.obj -o bunny.glb             the balls, for Blender or the web
   medial-vk bunny.obj --check                  tests every ball again on the CPU
@@ -37,8 +38,10 @@ Output:
                         union, both: side by side
       --colour BY       angle: the object angle (default), radius, sheet
       --view FROM       front, back, left, right, top, bottom, iso or x,y,z, the
-                        direction towards the viewer; y is up (default:
-                        0.544,0.352,0.762)
+                        direction towards the viewer (default: from the right,
+                        above and the front, 0.544,0.352,0.762 if y is up)
+      --up AXIS         of the mesh, x, y, z, -x, -y or -z, in the picture and
+                        at first on the page (default y; parts made in CAD: z)
       --size SIZE       pixels, WxH or N for a square, 16 to 16384 each (default
                         1200x900; 1800x900 with --show both)
       --html FILE       a page that shows mesh, balls, points and report in a

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "cli/parse_number.h"
-#include "cli/parse_picture.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -50,7 +49,8 @@ class Declarations {
   }
 
   void memory(const char* name, std::uint64_t& target) { parsed(name, parse_memory, target); }
-  void view(const char* name, std::array<double, 3>& target) { parsed(name, parse_view, target); }
+  void view(const char* name, ViewChoice& target) { parsed(name, parse_view, target); }
+  void up(const char* name, UpAxis& target) { parsed(name, parse_up, target); }
   void size(const char* name, std::array<std::uint32_t, 2>& target) { parsed(name, parse_size, target); }
 
   template <class T>
@@ -91,7 +91,8 @@ void declare(CLI::App& app, Options& options) {
   add.whole("--sphere-detail", 0, kGreatestSphereDetail, "", options.sphere_detail);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
-  add.view("--view", options.look.view);
+  add.view("--view", options.view);
+  add.up("--up", options.look.view.up);
   add.size("--size", options.look.size);
   add.choice<PictureShow>(
       "--show", {{"points", PictureShow::kPoints}, {"balls", PictureShow::kBalls}, {"both", PictureShow::kBoth}},
@@ -241,7 +242,7 @@ Status check_ball_options(const Options& options) {
 Status check_picture_options(const Options& options) {
   const PictureOptions usual;
   const PictureOptions& look = options.look;
-  const std::pair<const char*, bool> given[] = {{"--view", look.view != usual.view},
+  const std::pair<const char*, bool> given[] = {{"--view", options.view != ViewChoice()},
                                                 {"--size", look.size != usual.size},
                                                 {"--show", look.show != usual.show},
                                                 {"--colour", look.colour != usual.colour}};
@@ -249,6 +250,9 @@ Status check_picture_options(const Options& options) {
     if (is_given && options.picture.empty()) {
       return usage_error(fmt::format("{} is about the picture: use it with --picture FILE.png", name));
     }
+  }
+  if (look.view.up != usual.view.up && options.picture.empty() && options.html.empty()) {
+    return usage_error("--up is about picture and page: use it with --picture FILE.png or --html FILE.html");
   }
   return {};
 }
@@ -266,6 +270,7 @@ Status complete_files(Options& options) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
   }
   if (Status status = check_picture_options(options); !status) return status;
+  options.look.view = view_of(options.view, options.look.view.up);
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
   }

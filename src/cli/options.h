@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/parse_picture.h"
 #include "medial/extract.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
@@ -42,7 +43,8 @@ struct Options {
   std::string picture;  ///< The same.
   std::string html;     ///< The same.
   std::string medial_mesh;  ///< The same.
-  PictureOptions look;  ///< Of the picture.
+  PictureOptions look;  ///< Of the picture; `up` of its view is that of the page, too.
+  ViewChoice view;      ///< As given; `look` has what follows from it.
   bool check = false;
 
   bool quiet = false;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "cli/parse_number.h"
-#include "output/picture/options.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -26,9 +25,9 @@ Error unknown_view(const std::string& text) {
 
 }  // namespace
 
-Result<Direction> parse_view(const std::string& text) {
+Result<ViewChoice> parse_view(const std::string& text) {
   for (const auto& [name, direction] : kViews) {
-    if (text == name) return direction;
+    if (text == name) return ViewChoice{direction, true};
   }
   Direction direction = {0, 0, 0};
   std::size_t begin = 0;
@@ -43,7 +42,18 @@ Result<Direction> parse_view(const std::string& text) {
   const double square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
   // Below this the direction itself would be lost in rounding.
   if (square < 1e-12) return unknown_view(text);
-  return direction;
+  return ViewChoice{direction, false};
+}
+
+PictureView view_of(const ViewChoice& choice, UpAxis up) {
+  return {choice.is_side ? in_mesh_axes(choice.direction, up) : choice.direction, up};
+}
+
+Result<UpAxis> parse_up(const std::string& text) {
+  for (const UpAxis up : {UpAxis::kX, UpAxis::kY, UpAxis::kZ, UpAxis::kMinusX, UpAxis::kMinusY, UpAxis::kMinusZ}) {
+    if (text == axis_name(up)) return up;
+  }
+  return Error{ErrorCode::kUsage, fmt::format("'{}' is no axis; use x, y, z, -x, -y or -z", text)};
 }
 
 Result<std::array<std::uint32_t, 2>> parse_size(const std::string& text) {

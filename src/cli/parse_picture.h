@@ -1,4 +1,4 @@
-// What --view and --size take.
+// What --view, --up and --size take.
 #pragma once
 
 #include <array>
@@ -6,12 +6,26 @@
 #include <string>
 
 #include "medial_vk/result.h"
+#include "output/picture/options.h"
 
 namespace medial_vk::cli {
 
-/// A side (front, back, left, right, top, bottom), iso, or "x,y,z": the direction from the shape to the viewer.
-/// Error: kUsage.
-Result<std::array<double, 3>> parse_view(const std::string& text);
+/// The direction from the shape to the viewer.
+struct ViewChoice {
+  std::array<double, 3> direction = PictureView().towards;
+  bool is_side = true;  ///< x to the right of the front, y up; which axes of the mesh those are depends on --up.
+
+  bool operator==(const ViewChoice&) const = default;
+};
+
+/// A side (front, back, left, right, top, bottom), iso, or "x,y,z" in the axes of the mesh. Error: kUsage.
+Result<ViewChoice> parse_view(const std::string& text);
+
+/// Both together; whichever came first.
+PictureView view_of(const ViewChoice& choice, UpAxis up);
+
+/// "x", "-z" and so on. Error: kUsage.
+Result<UpAxis> parse_up(const std::string& text);
 
 /// "N" for a square or "WxH", pixels. Error: kUsage, with the range.
 Result<std::array<std::uint32_t, 2>> parse_size(const std::string& text);

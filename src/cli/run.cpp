@@ -196,7 +196,6 @@ class ExtractionRun {
         header_, spheres_);
     if (!bytes) return bytes.error();
     files_.push_back({options_.output, std::move(bytes).value()});
-    output_bytes_ = files_.back().bytes.size();
     return {};
   }
 
@@ -242,7 +241,7 @@ class ExtractionRun {
     if (options_.html.empty()) return;
     progress_.update("page", 0);
     Stopwatch stopwatch;
-    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_)});
+    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_, options_.look.view.up)});
     record_.host_times.push_back({"page", stopwatch.lap()});
   }
 
@@ -255,7 +254,7 @@ class ExtractionRun {
   }
 
   Status conclude() {
-    if (!options_.quiet) print_message(summary(record_, output_bytes_));
+    if (!options_.quiet) print_message(summary(record_, files_));
     if (options_.verbose) print_message(details(record_));
     if (!record_.certificate) return {};
     const std::string table = certificate_table(*record_.certificate);
@@ -275,7 +274,6 @@ class ExtractionRun {
   std::vector<MedialSphere> spheres_;
   MedialHeader header_;
   std::vector<OutputFile> files_;
-  std::uint64_t output_bytes_ = 0;
   RunRecord record_;
 };
 

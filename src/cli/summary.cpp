@@ -91,15 +91,17 @@ std::string opening(const RunRecord& record) {
   return text;
 }
 
-std::string summary(const RunRecord& record, std::uint64_t bytes) {
+std::string summary(const RunRecord& record, std::span<const OutputFile> files) {
   std::string text = line("points", describe_points(record));
   text += line("voxels", describe_voxels(record));
   if (record.points > 0) text += line("sheets", describe_sheets(record.sheets));
   if (record.medial_mesh) text += line("mesh", describe_medial_mesh(record));
   text += line("radius", range_text(record.radii));
   text += line("time", describe_times(record.host_times));
-  text += line("written",
-               fmt::format("{} ({})", record.output == "-" ? "standard output" : record.output, byte_size(bytes)));
+  for (const OutputFile& file : files) {
+    const std::string where = file.path == "-" ? "standard output" : file.path;
+    text += line("written", fmt::format("{} ({})", where, byte_size(file.bytes.size())));
+  }
   return text;
 }
 

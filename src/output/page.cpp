@@ -114,11 +114,16 @@ void write_json(std::string& page, std::string_view name, std::string_view json)
 }
 
 std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
-                       const Placement& placement) {
-  const Json json = {{"origin", placement.origin},           {"scale", placement.scale},
-                     {"lower", record.mesh.lower},           {"upper", record.mesh.upper},
-                     {"voxel_size", record.grid.voxel_size}, {"vertices", mesh.vertices.size()},
-                     {"triangles", mesh.triangles.size()},   {"points", spheres.size()}};
+                       const Placement& placement, UpAxis up) {
+  const Json json = {{"origin", placement.origin},
+                     {"scale", placement.scale},
+                     {"lower", record.mesh.lower},
+                     {"upper", record.mesh.upper},
+                     {"voxel_size", record.grid.voxel_size},
+                     {"vertices", mesh.vertices.size()},
+                     {"triangles", mesh.triangles.size()},
+                     {"points", spheres.size()},
+                     {"up", axis_name(up)}};
   return json.dump();
 }
 
@@ -164,7 +169,7 @@ Status check_page_available() {
       "(Debian: apt install nodejs npm), configure and build again (docs/viewer.md)"};
 }
 
-std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record) {
+std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record, UpAxis up) {
   const std::string_view page = page::embedded_page();
   const std::size_t title = page.find(page::kTitleMark);
   const std::size_t data = page.find(page::kDataMark);
@@ -176,7 +181,7 @@ std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres,
   out.reserve(page.size() + 65536 + spheres.size() * 62 + (mesh.vertices.size() + mesh.triangles.size()) * 16);
   out.append(page.substr(0, title)).append(title_of(record)).append(page.substr(after_title, data - after_title));
   write_json(out, "report", report_without_times(record));
-  write_json(out, "scene", scene_json(mesh, spheres, record, placement));
+  write_json(out, "scene", scene_json(mesh, spheres, record, placement, up));
   write_mesh(out, mesh, placement);
   write_spheres(out, spheres, placement);
   out.append(page.substr(data + page::kDataMark.size()));

@@ -8,6 +8,7 @@
 #include "medial_vk/result.h"
 #include "mesh/mesh.h"
 #include "output/run_record.h"
+#include "output/up_axis.h"
 
 namespace medial_vk {
 
@@ -15,7 +16,8 @@ namespace medial_vk {
 Status check_page_available();
 
 /// The mesh, the spheres and the report of a run as one file (docs/viewer.md). The report's times are left out: the
-/// same run gives the same bytes. Call only if check_page_available() is ok.
-std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record);
+/// same run gives the same bytes. `up`: at first, the page can change it. Call only if check_page_available() is ok.
+std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
+                        UpAxis up = UpAxis::kY);
 
 }  // namespace medial_vk

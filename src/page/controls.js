@@ -63,7 +63,11 @@ export class Controls {
       ? Math.round(1000 * Math.log(Math.min(kFirstBalls, scene.points)) / Math.log(scene.points)) : 1000;
     byId('picked-number').max = Math.max(scene.points - 1, 0);
     this.viewer.onRest = () => this.sayBalls();
+    // On a narrow screen the legend is a strip across the picture.
+    this.viewer.stripBelow = () => (byId('legend').offsetWidth === byId('stage').clientWidth ? byId('legend').offsetHeight : 0);
     this.refresh();
+    byId('up').value = scene.up;
+    this.viewer.setUp(scene.up);
   }
 
   bind() {

@@ -10,6 +10,11 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 
 const kFieldOfView = 32;  // Degrees, of the shorter side.
 const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
+// Turns that bring an axis up, about x, y and z: those of --picture (src/output/up_axis.h).
+const kTurns = {
+  y: [0, 0, 0], '-y': [Math.PI, 0, 0], z: [-Math.PI / 2, 0, 0], '-z': [Math.PI / 2, 0, 0], x: [0, 0, Math.PI / 2],
+  '-x': [0, 0, -Math.PI / 2],
+};
 const kFilled = 0.88;  // Share of the picture that the model fills at first.
 // Milliseconds that the balls may take, so that the page always answers.
 const kTurningTime = 40, kRestingTime = 700;
@@ -39,6 +44,7 @@ export class Viewer {
     this.pace = kFirstPace;
     this.otherTime = [0, 0];  // Milliseconds of a frame without balls, quickly and at rest.
     this.frame = 0;
+    this.stripBelow = () => 0;  // CSS pixels of the picture that something else covers.
     this.setUpCamera();
   }
 
@@ -85,26 +91,55 @@ export class Viewer {
     this.uniforms.pixelsPerUnit.value = ratio / this.unitsPerPixel;
   }
 
-  /** Far enough away that every vertex is seen from the first place. Some thousand of them are enough. */
-  restingDistance() {
+  /** Calls `visit` with the vertices as they are seen from the first place. Some thousand of them are enough. */
+  forVerticesInView(visit) {
     const {vertices} = this.scene;
     const toView = new Matrix4().lookAt(kFrom, new Vector3(), this.camera.up).invert().multiply(this.model.matrixWorld);
-    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)) * kFilled, right = up * this.camera.aspect;
     const place = new Vector3();
     const stride = 3 * Math.ceil(vertices.length / 3 / 5000);
+    for (let i = 0; i < vertices.length; i += stride) visit(place.fromArray(vertices, i).applyMatrix4(toView));
+  }
+
+  /** Far enough away that every vertex is seen from the first place: the model's box is in the middle of the picture. */
+  safeDistance() {
+    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
     let distance = 0.1 * this.size;
-    for (let i = 0; i < vertices.length; i += stride) {
-      place.fromArray(vertices, i).applyMatrix4(toView);
-      distance = Math.max(distance, place.z + Math.abs(place.x) / right, place.z + Math.abs(place.y) / up);
-    }
+    this.forVerticesInView(({x, y, z}) => { distance = Math.max(distance, z + Math.abs(x) / right, z + Math.abs(y) / up); });
     return distance;
   }
 
+  /** What the model covers of the picture from a distance: the middle and half the size, 1 being half the picture. */
+  covered(distance) {
+    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
+    const least = [Infinity, Infinity], greatest = [-Infinity, -Infinity];
+    this.forVerticesInView(({x, y, z}) => {
+      [x / right, y / up].forEach((value, k) => {
+        least[k] = Math.min(least[k], value / (distance - z));
+        greatest[k] = Math.max(greatest[k], value / (distance - z));
+      });
+    });
+    if (least[0] > greatest[0]) return {left: 0, top: 0, width: 0, height: 0};  // No vertices.
+    const [left, top] = least.map((value, k) => (value + greatest[k]) / 2);
+    const [width, height] = least.map((value, k) => (greatest[k] - value) / 2);
+    return {left, top, width, height};
+  }
+
+  /** What is seen of the model is in the middle of the picture, or of what the legend leaves of it. */
   resetView() {
     this.chosen = false;
     this.model.updateMatrixWorld();
+    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
+    const taken = height > 0 ? Math.min(this.stripBelow() / height, 0.5) : 0;
+    const safe = this.safeDistance();
+    let distance = safe / kFilled;
+    for (let i = 0; i < 4; ++i) {
+      const seen = this.covered(distance);
+      distance = Math.max(distance * Math.max(seen.width, seen.height / (1 - taken)) / kFilled, 0.6 * safe);
+    }
+    const {left, top} = this.covered(distance);
+    this.camera.setViewOffset(width, height, left * width / 2, (taken - top) * height / 2, width, height);
     this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(kFrom).multiplyScalar(this.restingDistance());
+    this.camera.position.copy(kFrom).multiplyScalar(distance);
     this.controls.update();
     this.draw();
   }
@@ -123,7 +158,7 @@ export class Viewer {
   }
 
   setUp(axis) {
-    this.model.rotation.x = axis === 'z' ? -Math.PI / 2 : 0;
+    this.model.rotation.set(...kTurns[axis]);
     this.resetView();
   }
 

@@ -35,7 +35,7 @@ void require_in_range(const cli::Options& options) {
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(options.sphere_detail.value_or(0) <= kGreatestSphereDetail, "--sphere-detail keeps its range");
   const PictureOptions& look = options.look;
-  require(std::ranges::any_of(look.view, [](double x) { return x != 0; }), "--view is a direction");
+  require(std::ranges::any_of(look.view.towards, [](double x) { return x != 0; }), "--view is a direction");
   require(std::ranges::all_of(look.size, [](std::uint32_t n) { return n <= kGreatestPictureSide; }),
           "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;

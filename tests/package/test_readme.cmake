@@ -1,5 +1,5 @@
-# README.md shows the marked part of examples/embed.cpp, word for word. It and the manual page name the very options that
-# --help lists.
+# README.md shows the marked part of examples/embed.cpp, word for word, in its place: sentence, picture, command, what you
+# get, the program, results, limits. It and the manual page name the very options that --help lists.
 # Needs: SOURCE_DIR MEDIAL_VK
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE_DIR}/examples/embed.cpp example)
@@ -12,6 +12,15 @@ string(FIND "${readme}" "```cpp\n${CMAKE_MATCH_1}```" position)
 if(position EQUAL -1)
   message(SEND_ERROR "README.md does not show the marked part of examples/embed.cpp:\n${CMAKE_MATCH_1}")
 endif()
+
+set(last -1)
+foreach(part "![" "## Two commands" "## What you get" "## Use it in a program" "## Results" "## Limits")
+  string(FIND "${readme}" "${part}" position)
+  if(NOT position GREATER last)
+    message(SEND_ERROR "README.md: '${part}' is missing or not in its place")
+  endif()
+  set(last ${position})
+endforeach()
 
 execute_process(COMMAND ${MEDIAL_VK} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCH "\n## Options\n.*\n## Devices\n" table "${readme}")

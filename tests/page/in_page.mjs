@@ -19,6 +19,24 @@ export function look() {
   return {share: drawn / pixels.length, colours: colours.size, mark};
 }
 
+/** What the mesh covers of the canvas, from -1 to 1: left, bottom, right, top; and the part below that the legend takes. */
+export function modelBounds() {
+  const {viewer} = window.medialVk;
+  const {vertices} = viewer.scene;
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  const place = viewer.camera.position.clone();
+  for (let i = 0; i < vertices.length; i += 3) {
+    const {x, y} = place.fromArray(vertices, i).applyMatrix4(viewer.model.matrixWorld).project(viewer.camera);
+    [x, y].forEach((value, k) => {
+      bounds[k] = Math.min(bounds[k], value);
+      bounds[k + 2] = Math.max(bounds[k + 2], value);
+    });
+  }
+  const stage = document.getElementById('stage').getBoundingClientRect();
+  const legend = document.getElementById('legend').getBoundingClientRect();
+  return {bounds, strip: legend.width === stage.width ? 2 * legend.height / stage.height : 0};
+}
+
 /** Contrast (WCAG 2) of every visible text with what is behind it; the worst first. */
 export function contrasts() {
   // Through a canvas, which knows every way to write a colour.

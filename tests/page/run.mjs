@@ -3,7 +3,10 @@
 // Ends with 77 if there is no Chromium, or if the tool was built without its page.
 import {Browser, findChromium} from './browser.mjs';
 import {Workshop} from './fixtures.mjs';
-import {tests} from './tests.mjs';
+import {tests as pageTests} from './tests.mjs';
+import {viewTests} from './view_tests.mjs';
+
+const tests = {...pageTests, ...viewTests};
 
 function skip(why) {
   console.log(`SKIPPED: ${why}`);

@@ -83,13 +83,34 @@ TEST(Options, ThePictureLooksAsAskedFor) {
     return parsed(more).look;
   };
   EXPECT_TRUE(look({}) == PictureOptions());
-  EXPECT_EQ(look({"--view", "front"}).view, (std::array<double, 3>{0, 0, 1}));
-  EXPECT_EQ(look({"--view", "bottom"}).view, (std::array<double, 3>{0, -1, 0}));
-  EXPECT_EQ(look({"--view", "-1,0.5,2e-1"}).view, (std::array<double, 3>{-1, 0.5, 0.2}));
+  EXPECT_EQ(look({"--view", "front"}).view, (PictureView{{0, 0, 1}, UpAxis::kY}));
+  EXPECT_EQ(look({"--view", "bottom"}).view, (PictureView{{0, -1, 0}, UpAxis::kY}));
+  EXPECT_EQ(look({"--view", "-1,0.5,2e-1"}).view, (PictureView{{-1, 0.5, 0.2}, UpAxis::kY}));
   EXPECT_EQ(look({"--size", "640x480"}).size, (std::array<std::uint32_t, 2>{640, 480}));
   EXPECT_EQ(look({"--size=512"}).size, (std::array<std::uint32_t, 2>{512, 512}));
   EXPECT_EQ(look({"--show", "both"}).show, PictureShow::kBoth);
   EXPECT_EQ(look({"--colour", "radius"}).colour, PictureColour::kRadius);
+}
+
+/// Sides follow what is up, numbers are about the mesh; the order of the two options does not matter.
+TEST(Options, WhatIsUpDecidesWhereTheSidesAre) {
+  const auto view = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"a.obj", "--picture", "a.png"});
+    return parsed(more).look.view;
+  };
+  for (const char* axis : {"x", "y", "z", "-x", "-y", "-z"}) {
+    const PictureView top = view({"--view", "top", "--up", axis});
+    const std::string letters = axis;
+    std::array<double, 3> expected = {0, 0, 0};
+    expected[letters.back() - 'x'] = letters.size() == 1 ? 1 : -1;
+    EXPECT_EQ(top.towards, expected) << axis;
+    EXPECT_STREQ(axis_name(top.up), axis);
+    EXPECT_EQ(view({"--up", axis, "--view", "3,1,2"}).towards, (std::array<double, 3>{3, 1, 2})) << axis;
+  }
+  EXPECT_EQ(view({"--up", "z", "--view", "front"}), (PictureView{{0, -1, 0}, UpAxis::kZ}));
+  EXPECT_EQ(view({"--view", "right", "--up=z"}), (PictureView{{1, 0, 0}, UpAxis::kZ}));
+  EXPECT_EQ(view({"--up", "z"}), (PictureView{{0.544, -0.762, 0.352}, UpAxis::kZ}));
+  EXPECT_EQ(parsed({"a.obj", "--html", "a.html", "--up", "-z"}).look.view.up, UpAxis::kMinusZ);
 }
 
 TEST(Options, PicturesThatCannotBeAreUsageErrors) {
@@ -102,6 +123,10 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
   for (const char* size : {"0", "15", "16385", "100x", "x100", "100x100x100", "1e3", "100 x 100", "-5"}) {
     EXPECT_THAT(message("--size", size), HasSubstr("use WIDTHxHEIGHT or one number for both, 16 to 16384"));
   }
+  for (const char* up : {"", "w", "Z", "+z", "--z", "zz", "2"}) {
+    EXPECT_THAT(message("--up", up), HasSubstr("use x, y, z, -x, -y or -z"));
+  }
+  EXPECT_THAT(message_of({"a.obj", "--up", "z"}), HasSubstr("--up is about picture and page: use it with --picture"));
   EXPECT_THAT(message("--show", "spheres"), HasSubstr("use points or balls or both"));
   EXPECT_THAT(message("--colour", "red"), HasSubstr("use angle or radius or sheet"));
   EXPECT_THAT(message_of({"a.obj", "--view", "top"}), HasSubstr("--view is about the picture"));

@@ -68,6 +68,11 @@ TEST_F(PageBytes, HoldsTheNumbersAroundTheMiddleOfTheMesh) {
   EXPECT_THAT(text, Not(HasSubstr("<!--medial-vk")));
 }
 
+TEST_F(PageBytes, SaysWhatIsUp) {
+  EXPECT_THAT(page(), HasSubstr("\"up\":\"y\""));
+  EXPECT_THAT(encode_page(mesh_, spheres_, record_, UpAxis::kMinusZ), HasSubstr("\"up\":\"-z\""));
+}
+
 TEST_F(PageBytes, TimesDoNotChangeIt) {
   const std::string first = page();
   record_.host_times = {{"extract", 0.123}};

@@ -104,14 +104,37 @@ TEST(PictureDraw, EveryViewIsDrawn) {
   std::set<std::string> pictures;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0, 1e-5}) {  // however short
-      options.view = {0, 0, 0};
-      options.view[axis] = sign;
+      options.view.towards = {0, 0, 0};
+      options.view.towards[axis] = sign;
       const Picture picture = draw_picture(mesh, sheet_in_box(), 0.07, options);
       pictures.emplace(picture.rgb.begin(), picture.rgb.end());
     }
   }
   // The points are not in the middle of the longest side; along the others they are.
   EXPECT_EQ(pictures.size(), 6u);
+}
+
+/// A box that was turned, with the same axis up as before, looks as it did; from above and below, too.
+TEST(PictureDraw, ATurnedShapeWithItsOwnUpLooksTheSame) {
+  using Direction = std::array<double, 3>;
+  for (const Direction& from : {PictureView().towards, Direction{0, 1, 0}, Direction{0, -1, 0}}) {
+    PictureOptions options = kSmall;
+    options.view.towards = from;
+    const Picture upright = draw_picture(test::make_box({2, 1, 3}), sheet_in_box(), 0.07, options);
+    for (const UpAxis up : {UpAxis::kX, UpAxis::kZ, UpAxis::kMinusX, UpAxis::kMinusY, UpAxis::kMinusZ}) {
+      Mesh mesh = test::make_box({2, 1, 3});
+      std::vector<MedialSphere> spheres = sheet_in_box();
+      for (Point& vertex : mesh.vertices) vertex = in_mesh_axes(vertex, up);
+      for (MedialSphere& sphere : spheres) {
+        sphere.centre = in_mesh_axes(sphere.centre, up);
+        const Direction spoke = in_mesh_axes({0, 1, 0}, up);
+        for (int k = 0; k < 3; ++k) sphere.spoke_a[k] = static_cast<float>(spoke[k]);
+        for (int k = 0; k < 3; ++k) sphere.spoke_b[k] = -sphere.spoke_a[k];
+      }
+      options.view = {in_mesh_axes(from, up), up};
+      EXPECT_LT(different_pixels(draw_picture(mesh, spheres, 0.07, options), upright), 100u) << axis_name(up);
+    }
+  }
 }
 
 TEST(PictureDraw, DegenerateInputIsNoError) {

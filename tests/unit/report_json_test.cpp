@@ -146,9 +146,11 @@ TEST(ReportTables, CertificateNamesTheFirstFailure) {
 
 TEST(ReportSummary, SaysWhatMatters) {
   const RunRecord record = some_record();
-  const std::string text = cli::opening(record) + cli::summary(record, 17000);
+  const OutputFile files[] = {{"part.medial.ply", std::string(17000, 0)}, {"a.png", "abc"}, {"-", "ab"}};
+  const std::string text = cli::opening(record) + cli::summary(record, files);
   for (const char* part : {"part.stl", "12 triangles", "closed", "Two holes were left open.", "Some GPU", "249",
-                           "250 found", "3 undecided", "0.01 to 0.5", "extract 2.00 s", "part.medial.ply (17.0 kB)"}) {
+                           "250 found", "3 undecided", "0.01 to 0.5", "extract 2.00 s", "part.medial.ply (17.0 kB)",
+                           "a.png (3 B)", "standard output (2 B)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(cli::details(record), HasSubstr("dismiss cells"));

@@ -8,5 +8,5 @@ layout(location = 0) out vec4 colour;
 void main() {
   vec3 to_eye = normalize(eye.xyz - world), n = normalize(world_normal);
   float grazing = 1.0 - abs(dot(n, to_eye));
-  colour = vec4(shade(vec3(0.62, 0.72, 0.85), n, to_eye), mix(0.12, 0.55, grazing * grazing));
+  colour = vec4(shade(vec3(0.30, 0.42, 0.58), n, to_eye), mix(0.06, 0.80, grazing * grazing));
 }

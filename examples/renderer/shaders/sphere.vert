@@ -16,6 +16,8 @@ layout(location = 2) flat out float object_angle;
 void main() {
   Sphere s = spheres[gl_InstanceIndex];
   ball = vec4(placement.xyz + placement.w * s.centre.xyz, placement.w * s.centre.w);
+  // As they are on the right, where they fill the solid; small on the left, where one sees that they lie on a sheet.
+  ball.w = mix(min(ball.w, 0.009), ball.w, smoothstep(-0.1, 0.5, ball.x));
   object_angle = s.spoke_a.w;
   vec3 to_eye = eye.xyz - ball.xyz;
   float away = length(to_eye);

@@ -9,12 +9,14 @@ namespace medial_vk::picture {
 namespace {
 
 /// Rows: to the right, up, towards the viewer.
-Eigen::Matrix3f rotation_for(const std::array<double, 3>& view) {
-  const Eigen::Vector3d towards = Eigen::Vector3d(view.data()).stableNormalized();
+Eigen::Matrix3f rotation_for(const PictureView& view) {
+  const Eigen::Vector3d towards = Eigen::Vector3d(view.towards.data()).stableNormalized();
+  const Eigen::Vector3d above(in_mesh_axes({0, 1, 0}, view.up).data());
+  const Eigen::Vector3d front(in_mesh_axes({0, 0, 1}, view.up).data());
   // From above or below, what is to the front of the shape points down in the picture, or up.
   constexpr double kAlongUp = 0.9999;
-  const Eigen::Vector3d up = std::abs(towards.y()) < kAlongUp ? Eigen::Vector3d::UnitY().eval()
-                                                              : Eigen::Vector3d(0, 0, towards.y() > 0 ? -1 : 1);
+  const double height = towards.dot(above);
+  const Eigen::Vector3d up = std::abs(height) < kAlongUp ? above : (height > 0 ? -front : front).eval();
   const Eigen::Vector3d right = up.cross(towards).normalized();
   Eigen::Matrix3d rows;
   rows << right.transpose(), towards.cross(right).transpose(), towards.transpose();
@@ -23,7 +25,7 @@ Eigen::Matrix3f rotation_for(const std::array<double, 3>& view) {
 
 }  // namespace
 
-Camera::Camera(std::span<const Eigen::Vector3f> points, const std::array<double, 3>& view, const Frame& frame)
+Camera::Camera(std::span<const Eigen::Vector3f> points, const PictureView& view, const Frame& frame)
     : rotation_(rotation_for(view)) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Frame bounds = {kInfinity, kInfinity, -kInfinity, -kInfinity};

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
+
+#include "output/picture/options.h"
 
 namespace medial_vk::picture {
 
@@ -24,8 +25,8 @@ class Camera {
  public:
   static constexpr float kDistance = 5.0f;  // Of the eye from the centre, in radii of the shape: a long lens.
 
-  /// Looks from the direction `view` at the points and fills the frame with them. No points: looks at the origin.
-  Camera(std::span<const Eigen::Vector3f> points, const std::array<double, 3>& view, const Frame& frame);
+  /// Looks from there at the points and fills the frame with them. No points: looks at the origin.
+  Camera(std::span<const Eigen::Vector3f> points, const PictureView& view, const Frame& frame);
 
   ScreenPoint project(const Eigen::Vector3f& point) const;
   /// Turns a direction, or a point, of the shape into view space.

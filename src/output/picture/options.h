@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "output/up_axis.h"
+
 namespace medial_vk {
 
 enum class PictureShow {
@@ -17,11 +19,18 @@ enum class PictureColour { kAngle, kRadius, kSheet };
 /// Sides of a picture, pixels. The greatest keeps the number of its bytes below 2^31, for the writer of PNG files.
 constexpr std::uint32_t kLeastPictureSide = 16, kGreatestPictureSide = 16384;
 
+/// Where a picture is seen from. If one looks along what is up, what is in front points down in the picture, or up.
+struct PictureView {
+  std::array<double, 3> towards = {0.544, 0.352, 0.762};  ///< From the shape to the viewer, in its axes; any length.
+  UpAxis up = UpAxis::kY;
+
+  bool operator==(const PictureView&) const = default;
+};
+
 struct PictureOptions {
   /// Width and height, pixels; 0: the usual, 1200 x 900 or, side by side, 1800 x 900.
   std::array<std::uint32_t, 2> size = {0, 0};
-  /// From the shape towards the viewer, any length. Y is up, unless one looks along it: then z points down.
-  std::array<double, 3> view = {0.544, 0.352, 0.762};
+  PictureView view = {};
   PictureShow show = PictureShow::kPoints;
   PictureColour colour = PictureColour::kAngle;
   double least_angle = 0.6;  ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.

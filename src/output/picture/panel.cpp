@@ -164,13 +164,12 @@ std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
   return {{0, width / 2, false}, {width / 2, width - width / 2, true}};
 }
 
-std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const std::array<double, 3>& view,
-                              const Picture& picture) {
+std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture) {
   const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, 1));
   return seen_balls(scene.balls, camera, panel.width, picture.height);
 }
 
-void draw_panel(const Scene& scene, const Panel& panel, const std::array<double, 3>& view, Picture& picture) {
+void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture) {
   const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
   Layers layers(panel.width * kCpuSamples, picture.height * kCpuSamples);
   if (panel.balls) {

@@ -40,12 +40,11 @@ constexpr float kReach = 0.12f;
 /// Discs are never smaller, pixels.
 constexpr float kLeastDiscRadius = 0.8f;
 
-/// The balls that are seen, at most one for each pixel; `view` as in PictureOptions.
-std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const std::array<double, 3>& view,
-                              const Picture& picture);
+/// The balls that are seen, at most one for each pixel.
+std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture);
 
 /// On the CPU, 2 x 2 samples per pixel, into the panel's part of the picture.
-void draw_panel(const Scene& scene, const Panel& panel, const std::array<double, 3>& view, Picture& picture);
+void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture);
 constexpr std::uint32_t kCpuSamples = 2;  // Per side.
 
 /// Into the lower right corner.

@@ -54,7 +54,7 @@ class DevicePainter::Impl {
     create_set();
   }
 
-  void draw(const Scene& scene, std::span<const Panel> panels, const std::array<double, 3>& view, Picture& picture) {
+  void draw(const Scene& scene, std::span<const Panel> panels, const PictureView& view, Picture& picture) {
     const SceneBuffers buffers = upload_scene(scene);
     for (const Panel& panel : panels) {
       const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, samples_));
@@ -340,7 +340,7 @@ Result<DevicePainter> DevicePainter::open(const DeviceDescription& device, const
   return Error{ErrorCode::kNoDevice, error.what()};
 }
 
-Status DevicePainter::draw(const Scene& scene, std::span<const Panel> panels, const std::array<double, 3>& view,
+Status DevicePainter::draw(const Scene& scene, std::span<const Panel> panels, const PictureView& view,
                            Picture& picture) try {
   impl_->draw(scene, panels, view, picture);
   return {};

@@ -23,8 +23,8 @@ class DevicePainter {
   DevicePainter(DevicePainter&&) noexcept;
   ~DevicePainter();
 
-  /// All panels, without the legend; `view` as in PictureOptions. Error: kNoDevice.
-  Status draw(const Scene& scene, std::span<const Panel> panels, const std::array<double, 3>& view, Picture& picture);
+  /// All panels, without the legend. Error: kNoDevice.
+  Status draw(const Scene& scene, std::span<const Panel> panels, const PictureView& view, Picture& picture);
 
   std::uint32_t samples() const;  ///< Per pixel and side.
   std::uint64_t validation_messages() const;

@@ -1,0 +1,111 @@
+// A host's own allocator: the context, a job and what they made take their host memory from it and give it back, and
+// the validation layer sees no object that is destroyed with another one than it was made with.
+#include <gtest/gtest.h>
+#include <medial_vk/extraction_job.h>
+#include <medial_vk/host_device.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <unordered_map>
+
+#include "deforming_torus.h"
+#include "support/device.h"
+#include "vulkan_host.h"
+
+namespace medial_vk::test {
+namespace {
+
+class CountingAllocator {
+ public:
+  CountingAllocator() {
+    callbacks_.pUserData = this;
+    callbacks_.pfnAllocation = [](void* self, std::size_t bytes, std::size_t alignment, VkSystemAllocationScope) {
+      return static_cast<CountingAllocator*>(self)->allocate(bytes, alignment);
+    };
+    callbacks_.pfnReallocation = [](void* self, void* old, std::size_t bytes, std::size_t alignment,
+                                    VkSystemAllocationScope) {
+      return static_cast<CountingAllocator*>(self)->reallocate(old, bytes, alignment);
+    };
+    callbacks_.pfnFree = [](void* self, void* block) { static_cast<CountingAllocator*>(self)->free(block); };
+  }
+  const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
+  std::size_t made() const { return made_; }
+  std::size_t foreign() const { return foreign_; }  ///< Blocks given back that were never taken.
+  std::size_t alive() const { return sizes_.size(); }
+
+ private:
+  void* allocate(std::size_t bytes, std::size_t alignment) {
+    alignment = std::max(alignment, sizeof(void*));
+    void* block =
+        std::aligned_alloc(alignment, (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment);
+    const std::lock_guard lock(mutex_);
+    sizes_[block] = bytes;
+    ++made_;
+    return block;
+  }
+
+  void* reallocate(void* old, std::size_t bytes, std::size_t alignment) {
+    void* block = bytes > 0 ? allocate(bytes, alignment) : nullptr;
+    if (block != nullptr && old != nullptr) std::memcpy(block, old, std::min(bytes, size_of(old)));
+    free(old);
+    return block;
+  }
+
+  void free(void* block) {
+    if (block == nullptr) return;
+    const std::lock_guard lock(mutex_);
+    if (sizes_.erase(block) == 0) {
+      ++foreign_;
+    } else {
+      std::free(block);
+    }
+  }
+
+  std::size_t size_of(void* block) {
+    const std::lock_guard lock(mutex_);
+    return sizes_[block];
+  }
+
+  VkAllocationCallbacks callbacks_{};
+  std::mutex mutex_;
+  std::unordered_map<void*, std::size_t> sizes_;
+  std::size_t made_ = 0, foreign_ = 0;
+};
+
+TEST(HostAllocator, IsUsedForEverythingAndGetsItBack) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  CountingAllocator allocator;
+  VulkanHost vulkan;
+  HostDevice host;
+  host.get_instance_proc_addr = vkGetInstanceProcAddr;
+  host.instance = vulkan.instance;
+  host.physical_device = vulkan.physical_device;
+  host.device = vulkan.device;
+  host.queue = vulkan.queue;
+  host.queue_family = vulkan.queue_family;
+  host.enabled_features = vulkan.features;
+  host.allocation_callbacks = allocator.callbacks();
+  host.cache_folder = "/dev/null";
+  ExtractionParameters parameters;
+  parameters.resolution = 20;
+  parameters.memory_budget = 256u << 20;
+  {
+    Result<Context> context = Context::adopt(host);
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    const DeformingTorus torus(16, 24);
+    const std::size_t before = allocator.made();
+    const auto job = ExtractionJob::create(context.value(), torus.view(), parameters);
+    ASSERT_TRUE(job.ok()) << job.error().message;
+    EXPECT_GT(allocator.made(), before);
+    EXPECT_TRUE(extract_medial_spheres(context.value(), torus.view(), parameters).ok());
+  }
+  EXPECT_GT(allocator.made(), 100u);
+  EXPECT_EQ(allocator.foreign(), 0u);
+  EXPECT_EQ(allocator.alive(), 0u);
+  EXPECT_EQ(vulkan.validation_messages(), 0u);
+}
+
+}  // namespace
+}  // namespace medial_vk::test

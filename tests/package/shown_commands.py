@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Runs every command that README.md, docs/, `medial-vk --help` and the manual page show.
+
+    shown_commands.py SOURCE_DIR PROGRAM=FILE ...
+
+A command is a line of a block of code marked `sh` or not at all, an example of the help or of the manual page, or words
+in backticks that call one of the project's programs or scripts. Each must end with 0 and write the files that it names.
+What cannot be run here stands in NOT_RUN with the reason; a command that is neither run nor listed fails the test, and so
+does an entry that nothing matches any more. Ends with 77 if there is no Vulkan device.
+"""
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# What a command begins with, and why it is not run.
+NOT_RUN = {
+    r"scripts/(run$|run MESH|test|fuzz|soak)": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"scripts/install-dependencies": "installs packages",
+    r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
+    r"cmake ": "has configured and built this test; package.consumer installs",
+    r"ctest ": "runs this test",
+    r"node tests/page/look.mjs PAGE": "names no file; with files it is run",
+    r"medial-vk VERSION": "is no command but a comment of the PLY",
+    r"medial-vk out/torus.ply": "wants a mesh of 5,000,000 triangles",
+    r"yes \| medial-vk": "reads 4 GiB",
+}
+# What a reader puts in the place of a word, and how a command is run without what surrounds it.
+WORDS = [(r"\bMESH\b", "turtle.obj"), (r"\bFILE\b", "report.json"), (r"^perf record ", ""),
+         (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", "")]
+CALLS = re.compile(r"(^|\s)(medial-vk|make_model|renderer|scripts/[\w-]+|bench/[\w-]+|cmake|ctest|node) \S")
+
+
+class Failure(Exception):
+    pass
+
+
+def commands_of_markdown(text):
+    for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", text, flags=re.M | re.S):
+        if language in ("", "sh"):
+            yield from (re.sub(r"\s+#.*", "", line) for line in body.splitlines() if line and not line.startswith("#"))
+    prose = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    for words in re.findall(r"`([^`]+)`", prose):
+        if CALLS.search(words):
+            yield " ".join(words.split()).replace("\\|", "|")
+
+
+def commands_of_help(text):
+    examples = text.split("Examples:\n")[1].split("\n\n")[0]
+    return [re.split(r"\s{2,}", line.strip())[0] for line in examples.splitlines()]
+
+
+def commands_of_manual_page(text):
+    examples = text.split(".SH EXAMPLES\n")[1].split(".SH ")[0]
+    return [line[3:].replace("\\-", "-") for line in examples.splitlines() if line.startswith(".B ")]
+
+
+def shown(source, programs):
+    """(where, command) for all of them."""
+    documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
+    found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
+    text = subprocess.run([programs["medial-vk"], "--help"], check=True, capture_output=True, text=True).stdout
+    found += [("--help", command) for command in commands_of_help(text)]
+    found += [("medial-vk.1", command) for command in commands_of_manual_page((source / "docs/medial-vk.1").read_text())]
+    return list(dict.fromkeys(found))
+
+
+def outputs_of(words):
+    """The files that a command must write."""
+    program, arguments = words[0], words[1:]
+    if program == "make_model":
+        return arguments[:1]
+    if program == "renderer":
+        return [f"{arguments[0]}/frame-{i}.png" for i in range(int(arguments[1]))]
+    if program == "node":
+        return arguments[2:3]
+    files = [b for a, b in zip(arguments, arguments[1:])
+             if a in ("-o", "--output", "--html", "--picture", "--report")]
+    meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
+    if meshes and not {"-o", "--output"} & set(arguments):
+        files.append(pathlib.Path(meshes[0]).stem + (".spheres.ply" if "--mesh-spheres" in arguments else ".medial.ply"))
+    return files
+
+
+class Folder:
+    """Where the commands of one document run, with the models that they name."""
+
+    def __init__(self, path, source, programs):
+        self.path, self.source, self.programs = pathlib.Path(path), source, programs
+        for folder in ("out", "path"):
+            (self.path / folder).mkdir()
+        self.call(["make_model", "turtle.obj"])
+        for name in ("bunny.obj", "spot.obj", "out/turtle.obj"):
+            shutil.copy(self.path / "turtle.obj", self.path / name)
+        self.write_part()
+
+    def write_part(self):
+        """An STL: the coarsest turtle."""
+        self.call(["make_model", "part.obj", "52"])
+        corners, lines = [], ["solid part"]
+        for kind, *rest in (line.split() for line in (self.path / "part.obj").read_text().splitlines() if line):
+            if kind == "v":
+                corners.append(" ".join(rest))
+            elif kind == "f":
+                triangle = [corners[int(word.split("/")[0]) - 1] for word in rest]
+                lines += ["facet normal 0 0 0", "outer loop", *(f"vertex {c}" for c in triangle), "endloop", "endfacet"]
+        text = "\n".join(lines + ["endsolid part", ""])
+        for name in ("part.stl", "path/part.stl"):
+            (self.path / name).write_text(text)
+
+    def call(self, words):
+        words = [self.programs.get(words[0], words[0]), *words[1:]]
+        if words[1:] and words[1].startswith("tests/"):
+            words[1] = str(self.source / words[1])
+        return subprocess.run(words, cwd=self.path, capture_output=True, text=True)
+
+    def run(self, command):
+        """What was not as it should be; None if the command is one that this build cannot run."""
+        words = shlex.split(command)
+        if words[0] == "node" and not shutil.which("node"):
+            return None
+        if words[0] not in (*self.programs, "node"):
+            return "is neither a program that this test knows nor listed in NOT_RUN"
+        files = outputs_of(words)
+        for file in files:
+            (self.path / file).unlink(missing_ok=True)
+        done = self.call(words)
+        output = done.stdout + done.stderr
+        if words[0] == "medial-vk" and done.returncode == 4 or "no device that draws" in output:
+            print(f"SKIPPED: there is no Vulkan device: {output}")
+            sys.exit(77)
+        # Without npm at the build there is no page to be looked at; without Chromium nothing to look with.
+        if "was built without its page" in output or (words[0] == "node" and done.returncode == 77):
+            return None
+        if done.returncode != 0:
+            return f"exit status {done.returncode}\n{output}"
+        missing = [file for file in files if not (self.path / file).is_file() or not (self.path / file).stat().st_size]
+        return f"has not written {', '.join(missing)}" if missing else ""
+
+
+def not_run(command):
+    return next((pattern for pattern in NOT_RUN if re.match(pattern, command)), None)
+
+
+def main():
+    source = pathlib.Path(sys.argv[1]).resolve()
+    programs = dict(argument.split("=", 1) for argument in sys.argv[2:])
+    commands = shown(source, programs)
+    listed, failures, ran = set(), [], 0
+    with tempfile.TemporaryDirectory() as top:
+        folders = {}
+        for where, command in commands:
+            pattern = not_run(command)
+            if pattern:
+                listed.add(pattern)
+                continue
+            for shown_as, meant in WORDS:
+                command = re.sub(shown_as, meant, command)
+            if where not in folders:
+                path = pathlib.Path(top) / where
+                path.mkdir()
+                folders[where] = Folder(path, source, programs)
+            wrong = folders[where].run(command)
+            print(f"{where}: {command}: {'cannot be run by this build' if wrong is None else wrong or 'ok'}", flush=True)
+            ran += wrong == ""
+            if wrong:
+                failures.append(f"{where}: {command}: {wrong}")
+    failures += [f"NOT_RUN lists {p}, which is shown nowhere" for p in NOT_RUN if p not in listed]
+    print(f"{ran} commands were run")
+    if ran < 20:
+        failures.append("that is too few: are they still found?")
+    if failures:
+        print("\n".join(["", *failures]))
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()
