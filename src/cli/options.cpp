@@ -103,6 +103,8 @@ void declare(CLI::App& app, Options& options) {
       options.look.colour);
   add.text("--html", "file", options.html);
   add.text("--medial-mesh", "file", options.medial_mesh);
+  add.text("--sheet-curve", "file", options.sheet_curve);
+  add.text("--ball-volumes", "file", options.ball_volumes);
 
   add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
@@ -118,6 +120,8 @@ void declare(CLI::App& app, Options& options) {
   add.real("--sheet-crease", {0, 180}, " degrees", options.sheets.crease);
   add.real("--sheet-width", {0, 1}, " of the balls' diameter", options.sheets.width);
   add.whole("--absorb-fragments", 0, UINT32_MAX, " points", options.sheets.absorb_fragments);
+  add.real("--keep-volume", {0, 1, false}, " of the volume", options.keep_volume);
+  add.flag("--keep-topology", options.keep_topology);
 
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
@@ -202,7 +206,9 @@ Status check_files_differ(const Options& options) {
                                                                 {"--report", &options.report},
                                                                 {"--picture", &options.picture},
                                                                 {"--html", &options.html},
-                                                                {"--medial-mesh", &options.medial_mesh}};
+                                                                {"--medial-mesh", &options.medial_mesh},
+                                                                {"--sheet-curve", &options.sheet_curve},
+                                                                {"--ball-volumes", &options.ball_volumes}};
   for (const auto& [name, file] : outputs) {
     if (file->empty()) continue;
     if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
@@ -273,6 +279,16 @@ Status complete_files(Options& options) {
   options.look.view = view_of(options.view, options.look.view.up);
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
+  }
+  if (!may_end_in(options.sheet_curve, ".csv") && !may_end_in(options.sheet_curve, ".svg")) {
+    return usage_error(fmt::format("--sheet-curve: '{}' ends in neither .csv nor .svg", options.sheet_curve));
+  }
+  if (!may_end_in(options.ball_volumes, ".csv")) {
+    return usage_error(fmt::format("--ball-volumes: '{}' does not end in .csv", options.ball_volumes));
+  }
+  if (options.keep_topology && options.keep_volume == 0) {
+    return usage_error(
+        "--keep-topology is about the sheets that --keep-volume removes: use it with --keep-volume SHARE");
   }
   if (!may_end_in(options.medial_mesh, ".ply") && !may_end_in(options.medial_mesh, ".ma")) {
     return usage_error(fmt::format("--medial-mesh: '{}' ends in neither .ply nor .ma", options.medial_mesh));

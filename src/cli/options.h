@@ -34,17 +34,21 @@ struct Options {
   std::uint64_t seed = 1;
   bool simplify = false;
   SheetParameters sheets;
+  double keep_volume = 0;  ///< Share of the volume that the sheets that are kept must have; 0: all are kept.
+  bool keep_topology = false;
 
   Backend backend = Backend::kVulkan;
   std::string device;
   unsigned threads = 0;  ///< 0: all.
 
-  std::string report;   ///< Empty: none; "-": standard output.
-  std::string picture;  ///< The same.
-  std::string html;     ///< The same.
-  std::string medial_mesh;  ///< The same.
-  PictureOptions look;  ///< Of the picture; `up` of its view is that of the page, too.
-  ViewChoice view;      ///< As given; `look` has what follows from it.
+  std::string report;        ///< Empty: none; "-": standard output.
+  std::string picture;       ///< The same.
+  std::string html;          ///< The same.
+  std::string medial_mesh;   ///< The same.
+  std::string sheet_curve;   ///< The same.
+  std::string ball_volumes;  ///< The same.
+  PictureOptions look;       ///< Of the picture; `up` of its view is that of the page, too.
+  ViewChoice view;           ///< As given; `look` has what follows from it.
   bool check = false;
 
   bool quiet = false;

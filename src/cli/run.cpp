@@ -16,6 +16,7 @@
 #include "cli/progress.h"
 #include "cli/summary.h"
 #include "cli/tables.h"
+#include "cli/volumes.h"
 #include "medial/extract.h"
 #include "medial/reference_bridge.h"
 #include "medial/simplify.h"
@@ -75,6 +76,7 @@ class ExtractionRun {
     if (Status status = extract(); !status) return status;
     simplify();
     group();
+    if (Status status = weigh(); !status) return status;
     if (Status status = encode(); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
@@ -94,7 +96,7 @@ class ExtractionRun {
       if (Status status = check_page_available(); !status) return status;
     }
     for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html,
-                                    &options_.medial_mesh}) {
+                                    &options_.medial_mesh, &options_.sheet_curve, &options_.ball_volumes}) {
       if (path->empty()) continue;
       if (Status status = check_writable(*path); !status) return status;
     }
@@ -163,6 +165,10 @@ class ExtractionRun {
       const double epsilon = options_.parameters.epsilon * record_.grid.voxel_size;
       record_.simplified = simplify_spheres(epsilon, spheres_);
     }
+    describe_points();
+  }
+
+  void describe_points() {
     record_.points = spheres_.size();
     record_.radii = range_of_radii(spheres_);
     record_.object_angles = range_of_object_angles(spheres_);
@@ -177,15 +183,33 @@ class ExtractionRun {
     record_.host_times.push_back({"sheets", stopwatch.lap()});
   }
 
+  /// Volumes, and the sheets that are kept.
+  Status weigh() {
+    if (!needs_volumes(options_)) return {};
+    Stopwatch stopwatch;
+    const auto on_progress = [this](const char* stage, double done) {
+      progress_.update(stage, done);
+      return !interrupted();
+    };
+    if (Status status = measure_volumes(options_, on_progress, spheres_, record_, files_); !status) {
+      return status.error().code == ErrorCode::kInterrupted ? kStopped : with_hint(status.error());
+    }
+    progress_.clear();
+    describe_points();
+    record_.host_times.push_back({"volumes", stopwatch.lap()});
+    return {};
+  }
+
   void connect() {
     if (options_.medial_mesh.empty()) return;
     progress_.update("medial mesh", 0);
     Stopwatch stopwatch;
-    const MedialMesh mesh = make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
+    const MedialMesh mesh =
+        make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
     record_.medial_mesh = mesh.topology;
     record_.euler_characteristic = euler_characteristic_of_solid(mesh_);
-    files_.push_back({options_.medial_mesh,
-                      encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets, mesh, options_.ascii)});
+    files_.push_back({options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets,
+                                                               mesh, options_.ascii)});
     record_.host_times.push_back({"medial mesh", stopwatch.lap()});
   }
 
@@ -195,6 +219,7 @@ class ExtractionRun {
         {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
         header_, spheres_);
     if (!bytes) return bytes.error();
+    points_file_ = files_.size();
     files_.push_back({options_.output, std::move(bytes).value()});
     return {};
   }
@@ -207,13 +232,13 @@ class ExtractionRun {
     Stopwatch stopwatch;
     const bool is_ply = options_.format == MedialFormat::kPly && !options_.mesh_spheres;
     const std::string ply = is_ply ? std::string() : encode_ply(header_, spheres_, false);
-    const Result<MedialFile> written = decode_ply(is_ply ? files_.front().bytes : ply, options_.output);
+    const Result<MedialFile> written = decode_ply(is_ply ? files_[points_file_].bytes : ply, options_.output);
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
     const MedialHeader& header = written.value().header;
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
     record_.certificate = reference::check(to_reference(mesh_), to_reference(grid, written.value().spheres),
                                            header.epsilon, header.object_angle, header.radius_threshold);
-    for (reference::CertificateLine& line : check_sheets(written.value().spheres)) {
+    for (reference::CertificateLine& line : check_sheets(written.value().spheres, !record_.removal)) {
       record_.certificate->lines.push_back(std::move(line));
     }
     record_.host_times.push_back({"check", stopwatch.lap()});
@@ -274,6 +299,7 @@ class ExtractionRun {
   std::vector<MedialSphere> spheres_;
   MedialHeader header_;
   std::vector<OutputFile> files_;
+  std::size_t points_file_ = 0;  // its place among them
   RunRecord record_;
 };
 

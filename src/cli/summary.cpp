@@ -52,11 +52,29 @@ std::string describe_sheets(const Sheets& sheets) {
   return text;
 }
 
+std::string describe_union(const RunRecord& record) {
+  const UnionRecord& whole = *record.ball_union;
+  std::string text = fmt::format("{:.6g}", whole.volume);
+  // An open mesh has no volume to compare with.
+  if (record.mesh.closed && record.mesh.signed_volume > 0) {
+    text += fmt::format(", {:.2f} % of the solid", 100 * whole.volume / record.mesh.signed_volume);
+  }
+  return fmt::format("{}; {}, {}, {}", text, counted(whole.topology.components, "component", "components"),
+                     counted(whole.topology.tunnels, "tunnel", "tunnels"),
+                     counted(whole.topology.cavities, "cavity", "cavities"));
+}
+
+std::string describe_removal(const SheetRemoval& removal) {
+  const double left = removal.volume_left.empty() ? 1 : removal.volume_left.back();
+  return fmt::format("{} of {} sheets, {:.2f} % of the volume", grouped(removal.kept.size()),
+                     grouped(removal.kept.size() + removal.sheets.size()), 100 * left);
+}
+
 /// Both sides of the comparison, so that it is seen at once whether the topology was kept.
 std::string describe_medial_mesh(const RunRecord& record) {
-  std::string text = fmt::format("{}, Euler characteristic {}",
-                                 counted(record.medial_mesh->components, "component", "components"),
-                                 record.medial_mesh->euler_characteristic);
+  std::string text =
+      fmt::format("{}, Euler characteristic {}", counted(record.medial_mesh->components, "component", "components"),
+                  record.medial_mesh->euler_characteristic);
   if (record.euler_characteristic) text += fmt::format(" (of the solid: {})", *record.euler_characteristic);
   return text;
 }
@@ -95,6 +113,8 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   std::string text = line("points", describe_points(record));
   text += line("voxels", describe_voxels(record));
   if (record.points > 0) text += line("sheets", describe_sheets(record.sheets));
+  if (record.ball_union) text += line("volume", describe_union(record));
+  if (record.removal) text += line("kept", describe_removal(*record.removal));
   if (record.medial_mesh) text += line("mesh", describe_medial_mesh(record));
   text += line("radius", range_text(record.radii));
   text += line("time", describe_times(record.host_times));

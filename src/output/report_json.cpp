@@ -118,6 +118,26 @@ Json sheets_json(const Sheets& sheets) {
   return json;
 }
 
+Json union_json(const std::optional<UnionRecord>& ball_union) {
+  if (!ball_union) return nullptr;
+  const BettiNumbers& topology = ball_union->topology;
+  return {{"volume", ball_union->volume},
+          {"area", ball_union->area},
+          {"components", topology.components},
+          {"tunnels", topology.tunnels},
+          {"cavities", topology.cavities}};
+}
+
+Json removal_json(const RunRecord& record) {
+  if (!record.removal) return nullptr;
+  const SheetRemoval& removal = *record.removal;
+  return {{"keep_volume", record.keep_volume},
+          {"keep_topology", record.keep_topology},
+          {"kept", removal.kept},
+          {"removed", removal.sheets},
+          {"volume_left", removal.volume_left}};
+}
+
 Json grouping_json(const SheetParameters& parameters, const Sheets& sheets) {
   return {{"sheet_angle", parameters.angle},
           {"sheet_crease", parameters.crease},
@@ -200,6 +220,8 @@ std::string report_json(const RunRecord& record) {
         {"radius", range_json(record.radii)},
         {"object_angle", range_json(record.object_angles)}}},
       {"sheets", sheets_json(record.sheets)},
+      {"union", union_json(record.ball_union)},
+      {"removal", removal_json(record)},
       {"grouping", grouping_json(record.sheet_parameters, record.sheets)},
       {"medial_mesh", medial_mesh_json(record)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},

@@ -12,6 +12,7 @@
 #include "medial_vk/context.h"
 #include "sheets/medial_mesh.h"
 #include "sheets/sheets.h"
+#include "sheets/significance.h"
 
 namespace medial_vk {
 
@@ -24,6 +25,13 @@ struct Range {
 std::optional<Range> range_of_radii(std::span<const MedialSphere> spheres);
 /// Of the object angles in radians; nothing if there are no spheres.
 std::optional<Range> range_of_object_angles(std::span<const MedialSphere> spheres);
+
+/// The union of the balls, before sheets were removed.
+struct UnionRecord {
+  double volume = 0;
+  double area = 0;
+  BettiNumbers topology;
+};
 
 struct RunRecord {
   std::string input;
@@ -47,7 +55,11 @@ struct RunRecord {
 
   SheetParameters sheet_parameters;
   Sheets sheets;
-  std::optional<MedialTopology> medial_mesh;          ///< Of --medial-mesh.
+  std::optional<UnionRecord> ball_union;  ///< Nothing: no output tells of volumes.
+  std::optional<SheetRemoval> removal;    ///< Of --keep-volume.
+  double keep_volume = 0;
+  bool keep_topology = false;
+  std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
 
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.

@@ -21,11 +21,7 @@ class Absorption {
  public:
   Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
              std::vector<std::uint32_t>& piece_of)
-      : graph_(graph),
-        voxel_size_(voxel_size),
-        parameters_(parameters),
-        piece_of_(piece_of),
-        depths_(graph.size(), 0) {
+      : graph_(graph), voxel_size_(voxel_size), parameters_(parameters), piece_of_(piece_of), depths_(graph.size(), 0) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) enter(place);
     into_.resize(pieces_.size());
     for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;

@@ -138,8 +138,8 @@ class Builder {
     }
   }
 
-  /// Where sheets meet, each is joined to the one of them with the lowest number only: a seam of three sheets is an edge
-  /// of three triangles, and no tube of three strips around it.
+  /// Where sheets meet, each is joined to the one of them with the lowest number only: a seam of three sheets is an
+  /// edge of three triangles, and no tube of three strips around it.
   bool another_joins_them(const MeshTriangle& t) const {
     const std::int32_t host = std::min({sheet_of_[t[0]], sheet_of_[t[1]], sheet_of_[t[2]]});
     return std::ranges::any_of(t, [&](std::uint32_t corner) {

@@ -37,9 +37,8 @@ class Removing {
         progress_(progress),
         rest_(std::move(rest)),
         order_(by_significance(significance.of_sheet)),
-        state_(sheets.sheets, State::kNotTried) {
-    if (keeps_topology_) topology_ = rest_.betti();
-  }
+        state_(sheets.sheets, State::kNotTried),
+        topology_(significance.topology) {}
 
   Result<SheetRemoval> run() {
     // The last round finds nothing to remove.
@@ -115,9 +114,15 @@ class Removing {
 }  // namespace
 
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads) {
-  Result<BallUnion> measured = measure_ball_union(sheets.balls, {.threads = threads});
+  Result<BallUnion> measured = measure_ball_union(sheets.balls, {.threads = threads, .complex = true});
   if (!measured) return measured.error();
-  Significance result{measured.value().volume, std::move(measured.value().volumes), std::vector<double>(sheets.sheets)};
+  BallUnion& whole = measured.value();
+  Significance result{.volume = whole.volume,
+                      .area = whole.area,
+                      .topology = betti_numbers(whole.complex),
+                      .of_ball = std::move(whole.volumes),
+                      .of_sheet = std::vector<double>(sheets.sheets),
+                      .areas = std::move(whole.areas)};
   for (std::size_t i = 0; i < result.of_ball.size(); ++i) {
     if (result.volume > 0) result.of_ball[i] /= result.volume;
     result.of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += result.of_ball[i];

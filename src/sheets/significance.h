@@ -21,8 +21,11 @@ struct SheetBalls {
 
 struct Significance {
   double volume = 0;             ///< Of the union of the balls.
+  double area = 0;               ///< Of its surface.
+  BettiNumbers topology;         ///< Of the union.
   std::vector<double> of_ball;   ///< lambda(b), equation 6.1; sums to 1.
   std::vector<double> of_sheet;  ///< lambda(T), equation 6.2; the same.
+  std::vector<double> areas;     ///< Per ball: of its sphere on the surface of the union.
 };
 
 /// Errors: those of measure_ball_union().
