@@ -103,7 +103,16 @@ void look_at(Tag, Args...) {}
   X(vkEndCommandBuffer, kHost | kDevice, nullptr)                          \
   X(vkQueueSubmit, kHost | kDevice | kLost, nullptr)                       \
   X(vkWaitForFences, kHost | kDevice | kLost, nullptr)                     \
-  X(vkDeviceWaitIdle, kHost | kDevice | kLost, nullptr)
+  X(vkDeviceWaitIdle, kHost | kDevice | kLost, nullptr)                    \
+  X(vkCreateImage, kHost | kDevice, "VkImage")                             \
+  X(vkBindImageMemory, kHost | kDevice, nullptr)                           \
+  X(vkCreateImageView, kHost | kDevice, "VkImageView")                     \
+  X(vkCreateFramebuffer, kHost | kDevice, "VkFramebuffer")                 \
+  X(vkCreateRenderPass, kHost | kDevice, "VkRenderPass")                   \
+  X(vkCreateSampler, kHost | kDevice, "VkSampler")                         \
+  X(vkCreateGraphicsPipelines, kHost | kDevice, "VkPipeline")              \
+  X(vkResetCommandPool, kDevice, nullptr)                                  \
+  X(vkResetFences, kDevice, nullptr)
 
 #define MEDIAL_VK_DESTROYERS(X)                               \
   X(vkDestroyInstance, 0, "VkInstance")                       \
@@ -119,7 +128,12 @@ void look_at(Tag, Args...) {}
   X(vkDestroyDescriptorPool, 0, "VkDescriptorPool")           \
   X(vkDestroyQueryPool, 0, "VkQueryPool")                     \
   X(vkDestroyCommandPool, 0, "VkCommandPool")                 \
-  X(vkDestroyFence, 0, "VkFence")
+  X(vkDestroyFence, 0, "VkFence")                             \
+  X(vkDestroyImage, 0, "VkImage")                             \
+  X(vkDestroyImageView, 0, "VkImageView")                     \
+  X(vkDestroyFramebuffer, 0, "VkFramebuffer")                 \
+  X(vkDestroyRenderPass, 0, "VkRenderPass")                   \
+  X(vkDestroySampler, 0, "VkSampler")
 
 // Calls that are changed or looked at, by hand.
 #define MEDIAL_VK_OTHERS(X)                               \
@@ -332,6 +346,7 @@ void get_families(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyPr
   const DeviceProfile& profile = VulkanInterposer::get().profile();
   for (std::uint32_t i = 0; families != nullptr && i < *count; ++i) {
     if (profile.no_compute) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_COMPUTE_BIT);
+    if (profile.no_graphics) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_GRAPHICS_BIT);
     if (profile.timestamp_valid_bits) families[i].timestampValidBits = *profile.timestamp_valid_bits;
   }
 }
@@ -458,6 +473,8 @@ VulkanInterposer& VulkanInterposer::get() {
   static_cast<void>(installed);
   return interposer;
 }
+
+PFN_vkGetInstanceProcAddr VulkanInterposer::entry() { return get_instance_function; }
 
 void VulkanInterposer::fail_call(std::uint64_t k, Fault fault) {
   const std::lock_guard lock(mutex_);

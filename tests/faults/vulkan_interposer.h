@@ -29,6 +29,7 @@ const char* fault_name(Fault fault);
 struct DeviceProfile {
   bool no_devices = false;
   bool no_compute = false;
+  bool no_graphics = false;
   bool never_complete = false;  // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
   std::uint32_t api_version = 0;
   std::function<void(VkPhysicalDeviceLimits&)> limits;
@@ -54,6 +55,9 @@ struct Usage {
 class VulkanInterposer {
  public:
   static VulkanInterposer& get();
+
+  /// For code that asks a loader of its own, not volk. Precondition: get() was called.
+  static PFN_vkGetInstanceProcAddr entry();
 
   /// The k-th call from now on that can fail in this way fails, k = 1, 2, ...
   void fail_call(std::uint64_t k, Fault fault);

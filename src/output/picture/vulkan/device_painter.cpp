@@ -42,7 +42,7 @@ DrawingBuffer upload_marks(DrawingDevice& device, const std::vector<Mark>& marks
 class DevicePainter::Impl {
  public:
   Impl(const DeviceDescription& wanted, const PainterOptions& options)
-      : device_(wanted, options.validation),
+      : device_(wanted, options.validation, options.loader),
         samples_(options.samples != 0   ? options.samples
                  : wanted.type == "cpu" ? 2
                                         : 4),

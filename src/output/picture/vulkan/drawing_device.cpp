@@ -48,9 +48,9 @@ void DrawingDevice::check(VkResult result, const char* call) {
                                                                            : fmt::format("error {}", int{result})));
 }
 
-DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation) {
+DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader) {
   try {
-    get_instance_proc_addr_ = load_vulkan();
+    get_instance_proc_addr_ = loader != nullptr ? loader : load_vulkan();
     create_instance(validation);
     create_device(find(wanted));
   } catch (...) {

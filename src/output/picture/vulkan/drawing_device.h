@@ -32,8 +32,9 @@ struct DrawingImage {
 
 class DrawingDevice {
  public:
-  /// On the physical device that is meant by `wanted`: the one of its index, which must have its name.
-  DrawingDevice(const DeviceDescription& wanted, bool validation);
+  /// On the physical device that is meant by `wanted`: the one of its index, which must have its name. `loader`: null
+  /// for that of the system.
+  DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader);
   DrawingDevice(const DrawingDevice&) = delete;
   DrawingDevice& operator=(const DrawingDevice&) = delete;
   ~DrawingDevice();
