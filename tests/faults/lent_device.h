@@ -23,6 +23,7 @@ class LentDevice {
     allocation.commandPool = pool_;
     allocation.commandBufferCount = 1;
     EXPECT_EQ(impl().vk.vkAllocateCommandBuffers(impl().device, &allocation, &commands_), VK_SUCCESS);
+    begin();
   }
   LentDevice(const LentDevice&) = delete;
   LentDevice& operator=(const LentDevice&) = delete;
@@ -40,16 +41,13 @@ class LentDevice {
     return host;
   }
 
-  /// What the job counts, once it has been recorded and run. What the host itself does after recording never fails.
+  /// What the job counts, once it has been recorded and run. What the host itself calls does not fail.
   Answer record_and_run(ExtractionJob& job) {
-    VkCommandBufferBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    if (impl().vk.vkBeginCommandBuffer(commands_, &begin) != VK_SUCCESS)
-      return Error{ErrorCode::kOutOfMemory, "the host has no memory"};
     const Status recorded = in_runtime([&] { return record(commands_, job); });
-    if (!recorded.ok()) return recorded.error();
     VulkanInterposer::get().stop_failing();
-    submit();
+    if (recorded.ok()) submit();
+    begin();
+    if (!recorded.ok()) return recorded.error();
     const RecordedCounts counts = job.counts();
     EXPECT_EQ(counts.complete, 1u);
     EXPECT_GT(counts.spheres, 0u);
@@ -60,6 +58,13 @@ class LentDevice {
 
  private:
   Context::Impl& impl() { return owner_.impl(); }
+
+  void begin() {
+    EXPECT_EQ(impl().vk.vkResetCommandBuffer(commands_, 0), VK_SUCCESS);
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    EXPECT_EQ(impl().vk.vkBeginCommandBuffer(commands_, &info), VK_SUCCESS);
+  }
 
   void submit() {
     EXPECT_EQ(impl().vk.vkEndCommandBuffer(commands_), VK_SUCCESS);

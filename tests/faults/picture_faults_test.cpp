@@ -88,6 +88,9 @@ TEST_F(PictureFaults, OfALoaderOrADeviceThatIsNotThere) {
 
 TEST_F(PictureFaults, OfADeviceThatDoesNotDraw) {
   DeviceProfile profile;
+  profile.missing_format = VK_FORMAT_D32_SFLOAT;
+  vulkan().set_profile(profile);
+  EXPECT_EQ(draw().error().message, "the device does not draw with images of VkFormat 126");
   profile.no_graphics = true;
   vulkan().set_profile(profile);
   EXPECT_EQ(draw().error().message, device_.name + " has no graphics queue");

@@ -142,6 +142,7 @@ void look_at(Tag, Args...) {}
   X(vkGetPhysicalDeviceProperties2, 0, nullptr)           \
   X(vkGetPhysicalDeviceQueueFamilyProperties, 0, nullptr) \
   X(vkGetPhysicalDeviceMemoryProperties, 0, nullptr)      \
+  X(vkGetPhysicalDeviceFormatProperties, 0, nullptr)      \
   X(vkGetBufferMemoryRequirements2, 0, nullptr)           \
   X(vkUpdateDescriptorSets, 0, nullptr)                   \
   X(vkCmdDispatch, 0, nullptr)                            \
@@ -365,6 +366,12 @@ void get_memory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memor
   memory->memoryTypes[1] = {kMappable, heap};
 }
 
+void get_format(VkPhysicalDevice device, VkFormat format, VkFormatProperties* properties) {
+  const InDriver inside;
+  call_real<vkGetPhysicalDeviceFormatPropertiesTag>(device, format, properties);
+  if (format == VulkanInterposer::get().profile().missing_format) properties->optimalTilingFeatures = 0;
+}
+
 void get_requirements(VkDevice device, const VkBufferMemoryRequirementsInfo2* info, VkMemoryRequirements2* out) {
   const InDriver inside;
   call_real<vkGetBufferMemoryRequirements2Tag>(device, info, out);
@@ -426,6 +433,8 @@ PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real) {
     return keep<vkGetPhysicalDeviceQueueFamilyPropertiesTag>(real, get_families);
   if (wanted == "vkGetPhysicalDeviceMemoryProperties")
     return keep<vkGetPhysicalDeviceMemoryPropertiesTag>(real, get_memory);
+  if (wanted == "vkGetPhysicalDeviceFormatProperties")
+    return keep<vkGetPhysicalDeviceFormatPropertiesTag>(real, get_format);
   if (wanted == "vkGetBufferMemoryRequirements2")
     return keep<vkGetBufferMemoryRequirements2Tag>(real, get_requirements);
   if (wanted == "vkUpdateDescriptorSets") return keep<vkUpdateDescriptorSetsTag>(real, update_sets);

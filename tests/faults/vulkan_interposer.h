@@ -30,7 +30,8 @@ struct DeviceProfile {
   bool no_devices = false;
   bool no_compute = false;
   bool no_graphics = false;
-  bool never_complete = false;  // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
+  VkFormat missing_format = VK_FORMAT_UNDEFINED;  // of images
+  bool never_complete = false;                    // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
   std::uint32_t api_version = 0;
   std::function<void(VkPhysicalDeviceLimits&)> limits;
   std::optional<VkDeviceSize> max_allocation_bytes;

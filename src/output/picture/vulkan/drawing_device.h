@@ -59,12 +59,14 @@ class DrawingDevice {
   void add_messenger();
   VkPhysicalDevice find(const DeviceDescription& wanted) const;
   void create_device(VkPhysicalDevice physical_device);
+  void check_format(VkFormat format, VkImageUsageFlags usage) const;
   VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted);
   void destroy();
 
   InstanceFunctions instance_functions_;
   PFN_vkGetInstanceProcAddr get_instance_proc_addr_ = nullptr;
   VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> messages_ = 0;  // written by the validation layer from any thread
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -12,6 +12,7 @@ namespace medial_vk::picture {
   X(DestroyInstance)                            \
   X(EnumeratePhysicalDevices)                   \
   X(GetDeviceProcAddr)                          \
+  X(GetPhysicalDeviceFormatProperties)          \
   X(GetPhysicalDeviceMemoryProperties)          \
   X(GetPhysicalDeviceProperties)                \
   X(GetPhysicalDeviceQueueFamilyProperties)
