@@ -184,8 +184,6 @@ void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, c
   }
 }
 
-std::uint8_t byte_of(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0f, 1.0f) * 255.0f + 0.5f); }
-
 /// With rows above and below, from which light is taken: kGreatestReach, and one for lines.
 void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
                const Band& band, Picture& picture) {
