@@ -74,15 +74,7 @@ class ExtractionRun {
     if (Status status = take_device(); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
-    simplify();
-    group();
-    if (Status status = weigh(); !status) return status;
-    if (Status status = encode(); !status) return status;
-    if (Status status = check(); !status) return status;
-    if (Status status = draw(); !status) return status;
-    make_page();
-    connect();
-    encode_report();
+    if (Status status = make_files(); !status) return status;
     progress_.clear();
     if (interrupted()) return kStopped;
     if (Status status = write_files(files_); !status) return status;
@@ -157,6 +149,22 @@ class ExtractionRun {
     record_.device_times = std::move(result.value().extraction.device_times);
     record_.certify = result.value().certify;
     for (StageTime& time : result.value().host_times) record_.host_times.push_back(std::move(time));
+    return {};
+  }
+
+  /// In memory: until they are written a signal may end the program. These steps do not ask for one themselves.
+  Status make_files() {
+    const EndAtOnce guard;
+    if (interrupted()) return kStopped;
+    simplify();
+    group();
+    if (Status status = weigh(); !status) return status;
+    if (Status status = encode(); !status) return status;
+    if (Status status = check(); !status) return status;
+    if (Status status = draw(); !status) return status;
+    make_page();
+    connect();
+    encode_report();
     return {};
   }
 

@@ -70,12 +70,14 @@ TEST_F(CommandLine, WrongUsageIs2) {
 TEST_F(CommandLine, UnreadableOrInvalidMeshIs3) {
   test::write_file(path("garbage.obj"), "v 1 2\nf 1 2 3\n");
   test::write_file(path("empty.stl"), "");
-  for (const char* mesh : {"missing.obj", "garbage.obj", "empty.stl"}) {
+  test::write_file(path("sheet.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* mesh : {"missing.obj", "garbage.obj", "empty.stl", "sheet.obj"}) {
     const ToolResult result = run_cpu({mesh});
     EXPECT_EQ(result.exit_code, 3) << mesh << ": " << result.err;
     EXPECT_THAT(result.err, HasSubstr(mesh));
   }
-  EXPECT_THAT(folder_.names(), ElementsAre("empty.stl", "garbage.obj", "part.obj"));
+  EXPECT_EQ(run_cpu({"sheet.obj"}).err.find("medial-vk: sheet.obj: the mesh encloses nothing: with 3 open edges"), 0u);
+  EXPECT_THAT(folder_.names(), ElementsAre("empty.stl", "garbage.obj", "part.obj", "sheet.obj"));
 }
 
 TEST_F(CommandLine, NoDeviceIs4AndSaysWhatToDo) {
@@ -219,27 +221,40 @@ TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "torus.obj"));
 }
 
+/// Sends the signal after a second; the tool ends with 130 without going on with what it does.
+void expect_end_at_once(test::Tool& tool, int signal) {
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  ASSERT_TRUE(tool.running());
+  const auto sent = std::chrono::steady_clock::now();
+  tool.send(signal);
+  // 200 ms on a machine that has nothing else to do.
+  while (tool.running() && std::chrono::steady_clock::now() - sent < std::chrono::seconds(2))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_FALSE(tool.running());
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_THAT(result.err, testing::EndsWith("medial-vk: interrupted; nothing was written\n"));
+}
+
 // A read, or the opening of a pipe, that would never end.
 TEST_P(Interrupted, EndsAtOnceWhileItWaitsForInput) {
   ASSERT_EQ(::mkfifo(path("pipe.obj").c_str(), 0600), 0);
   for (const char* input : {"-", "pipe.obj"}) {
+    SCOPED_TRACE(input);
     test::Tool tool({.arguments = {input, "-o", "p.ply", "--report", "r.json"},
                      .folder = path(""),
                      .standard_input = small_part(),
                      .endless_input = true});
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    ASSERT_TRUE(tool.running());
-    const auto sent = std::chrono::steady_clock::now();
-    tool.send(GetParam());
-    // 200 ms on a machine that has nothing else to do.
-    while (tool.running() && std::chrono::steady_clock::now() - sent < std::chrono::seconds(2))
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    ASSERT_FALSE(tool.running()) << input;
-    const ToolResult result = tool.wait();
-    EXPECT_EQ(result.exit_code, 130) << input;
-    EXPECT_EQ(result.err, "medial-vk: interrupted; nothing was written\n");
+    expect_end_at_once(tool, GetParam());
     EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "pipe.obj"));
   }
+}
+
+// The points are found soon, the picture takes seconds.
+TEST_P(Interrupted, EndsAtOnceWhileItDraws) {
+  test::Tool tool(cpu_call({"part.obj", "--picture", "p.png", "--size", "2500"}));
+  expect_end_at_once(tool, GetParam());
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));

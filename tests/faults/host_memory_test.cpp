@@ -10,6 +10,8 @@
 #include "failing_new.h"
 #include "fault_test.h"
 #include "host_memory.h"
+#include "lent_device.h"
+#include "medial_vk/foam.h"
 #include "parallel_blocks.h"
 
 namespace medial_vk::test {
@@ -74,6 +76,36 @@ TEST_F(HostMemory, RunsOutInThesisExtraction) {
   ASSERT_TRUE(context.ok());
   const PreparedMesh mesh = small_box();
   fail_every_allocation("thesis extraction", [&] { return extract(context.value(), mesh, Mode::kThesis); });
+}
+
+// The callback's allocations count as the foam's: what they throw is caught with the rest.
+TEST_F(HostMemory, RunsOutInAFoam) {
+  const Ball sphere = {{0, 0, 0}, 1};
+  const NearestPointsFunction nearest = [](std::span<const Point> queries) -> Result<std::vector<Point>> {
+    std::vector<Point> out;
+    for (const Point& q : queries) out.push_back(q[1] > 0 ? Point{0.05, 1.5, 0} : Point{0, -1.6, 0.1});
+    return out;
+  };
+  fail_every_allocation("a foam", [&]() -> Answer {
+    auto samples = in_runtime([&] { return sample_sphere(sphere, {.count = 2}, nearest); });
+    if (!samples.ok()) return samples.error();
+    const auto coarse = in_runtime([&] { return Foam::build(samples.value().samples, sphere); });
+    if (!coarse.ok()) return coarse.error();
+    const Status refined = in_runtime([&] { return refine_samples(samples.value(), coarse.value(), 0, nearest); });
+    if (!refined.ok()) return refined.error();
+    const auto foam = in_runtime([&] { return Foam::build(samples.value().samples, sphere); });
+    if (!foam.ok()) return foam.error();
+    std::string out;
+    for (const Ball& ball : foam.value().empty_balls()) append_bytes(out, ball);
+    return out;
+  });
+}
+
+TEST_F(HostMemory, RunsOutInARecordedJob) {
+  LentDevice host(open().value());
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host.lend()).value();
+  fail_every_allocation("a recorded job", [&] { return make_job_and_record(host, context, mesh, moved); });
 }
 
 TEST(ParallelBlocks, PassOnWhatABodyThrowsOnceAllThreadsHaveEnded) {
@@ -197,6 +229,19 @@ TEST_F(HostMemory, ComesFromTheHostsCallbacksAndGoesBackToThem) {
   EXPECT_EQ(allocator.alive(), 0u);
   EXPECT_EQ(allocator.foreign(), 0u);
   std::cout << allocator.allocations() << " allocations by callbacks, all returned\n";
+}
+
+TEST_F(HostMemory, ComesFromTheCallbacksOfAHostThatLendsItsDevice) {
+  HostAllocator allocator;
+  LentDevice host(open().value());
+  const PreparedMesh mesh = small_box();
+  {
+    Context context = Context::adopt(host.lend(allocator.callbacks())).value();
+    ASSERT_TRUE(make_job_and_record(host, context, mesh, sheared(mesh)).ok());
+  }
+  EXPECT_GT(allocator.allocations(), 0u);
+  EXPECT_EQ(allocator.alive(), 0u);
+  EXPECT_EQ(allocator.foreign(), 0u);
 }
 
 TEST_F(HostMemory, OfTheHostsCallbacksRunsOutWhileOpeningADevice) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "fault_test.h"
+#include "lent_device.h"
 
 namespace medial_vk::test {
 namespace {
@@ -128,6 +129,69 @@ TEST_F(VulkanFaults, OfThesisExtraction) {
   fail_every_call_of("thesis extraction", [&](Context& context) { return extract(context, mesh, Mode::kThesis); });
 }
 
+class RecordedJobFaults : public VulkanFaults {
+ protected:
+  void SetUp() override {
+    VulkanFaults::SetUp();
+    if (!IsSkipped()) host_.emplace(open().value());
+  }
+  void TearDown() override {
+    host_.reset();
+    VulkanFaults::TearDown();
+  }
+  std::optional<LentDevice> host_;
+};
+
+TEST_F(RecordedJobFaults, OfTakingOverADevice) {
+  const std::set<ProgramKey> keys = {{"prepare_resolve", 1, 0, 0, 1, {}}};
+  const auto job = [&]() -> Answer {
+    Result<Context> context = in_runtime([&] { return Context::adopt(host_->lend()); });
+    if (!context.ok()) return context.error();
+    if (Status made = context.value().impl().make_programs(keys); !made.ok()) return made.error();
+    return std::string("made");
+  };
+  for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})
+    fail_every_call(fault, "taking over a device", job, [](std::uint64_t) {});
+}
+
+TEST_F(RecordedJobFaults, OfAJob) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  const auto run = [&] { return make_job_and_record(*host_, context, mesh, moved); };
+  for (const Fault fault : kMemoryFaults) fail_every_call(fault, "a recorded job", run, [](std::uint64_t) {});
+}
+
+// A sequence that could not be recorded is recorded again, with the mesh that was to be moved.
+TEST_F(RecordedJobFaults, OfASequenceThatIsRecordedAgain) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  ExtractionJob job = ExtractionJob::create(context, mesh.view(), small_job(Mode::kCertified)).value();
+  const auto move_and_run = [&](const PreparedMesh& to) {
+    EXPECT_TRUE(job.move_vertices(to.view()).ok());
+    return host_->record_and_run(job);
+  };
+  const std::string before = move_and_run(mesh).value(), after = move_and_run(moved).value();
+  ASSERT_TRUE(before != after);
+  std::uint64_t failures = 0;
+  for (const Fault fault : kMemoryFaults) {
+    for (std::uint64_t k = 1; !HasFailure(); ++k) {
+      EXPECT_TRUE(move_and_run(mesh).value() == before);
+      EXPECT_TRUE(job.move_vertices(moved.view()).ok());
+      vulkan().fail_call(k, fault);
+      const Answer answer = host_->record_and_run(job);
+      const std::string call = vulkan().stop_failing();
+      SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
+      EXPECT_TRUE(answer.ok() ? answer.value() == after : answer.error().code == ErrorCode::kOutOfMemory);
+      if (call.empty()) break;
+      if (answer.ok()) continue;
+      ++failures;
+      EXPECT_TRUE(host_->record_and_run(job).value() == after);
+    }
+  }
+  EXPECT_GT(failures, 0u);
+  std::cout << "a sequence that is recorded again: " << failures << " errors\n";
+}
+
 // On a device whose memory the host does not see, where everything goes through staging buffers.
 TEST_F(VulkanFaults, OfAnUpdatedScene) {
   DeviceProfile discrete;
@@ -137,8 +201,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
     const PreparedMesh mesh = small_box();
-    PreparedMesh moved = mesh;
-    for (Point& p : moved.mesh.vertices) p[0] = 1.5 * p[0] + 0.25 * p[1];
+    const PreparedMesh moved = sheared(mesh);
     Scene scene = Scene::create(context.value(), mesh.view()).value();
     const std::string before = ask_everything(scene).value();
     const auto job = [&]() -> Answer {

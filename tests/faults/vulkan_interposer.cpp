@@ -103,7 +103,16 @@ void look_at(Tag, Args...) {}
   X(vkEndCommandBuffer, kHost | kDevice, nullptr)                          \
   X(vkQueueSubmit, kHost | kDevice | kLost, nullptr)                       \
   X(vkWaitForFences, kHost | kDevice | kLost, nullptr)                     \
-  X(vkDeviceWaitIdle, kHost | kDevice | kLost, nullptr)
+  X(vkDeviceWaitIdle, kHost | kDevice | kLost, nullptr)                    \
+  X(vkCreateImage, kHost | kDevice, "VkImage")                             \
+  X(vkBindImageMemory, kHost | kDevice, nullptr)                           \
+  X(vkCreateImageView, kHost | kDevice, "VkImageView")                     \
+  X(vkCreateFramebuffer, kHost | kDevice, "VkFramebuffer")                 \
+  X(vkCreateRenderPass, kHost | kDevice, "VkRenderPass")                   \
+  X(vkCreateSampler, kHost | kDevice, "VkSampler")                         \
+  X(vkCreateGraphicsPipelines, kHost | kDevice, "VkPipeline")              \
+  X(vkResetCommandPool, kDevice, nullptr)                                  \
+  X(vkResetFences, kDevice, nullptr)
 
 #define MEDIAL_VK_DESTROYERS(X)                               \
   X(vkDestroyInstance, 0, "VkInstance")                       \
@@ -119,7 +128,12 @@ void look_at(Tag, Args...) {}
   X(vkDestroyDescriptorPool, 0, "VkDescriptorPool")           \
   X(vkDestroyQueryPool, 0, "VkQueryPool")                     \
   X(vkDestroyCommandPool, 0, "VkCommandPool")                 \
-  X(vkDestroyFence, 0, "VkFence")
+  X(vkDestroyFence, 0, "VkFence")                             \
+  X(vkDestroyImage, 0, "VkImage")                             \
+  X(vkDestroyImageView, 0, "VkImageView")                     \
+  X(vkDestroyFramebuffer, 0, "VkFramebuffer")                 \
+  X(vkDestroyRenderPass, 0, "VkRenderPass")                   \
+  X(vkDestroySampler, 0, "VkSampler")
 
 // Calls that are changed or looked at, by hand.
 #define MEDIAL_VK_OTHERS(X)                               \
@@ -128,6 +142,7 @@ void look_at(Tag, Args...) {}
   X(vkGetPhysicalDeviceProperties2, 0, nullptr)           \
   X(vkGetPhysicalDeviceQueueFamilyProperties, 0, nullptr) \
   X(vkGetPhysicalDeviceMemoryProperties, 0, nullptr)      \
+  X(vkGetPhysicalDeviceFormatProperties, 0, nullptr)      \
   X(vkGetBufferMemoryRequirements2, 0, nullptr)           \
   X(vkUpdateDescriptorSets, 0, nullptr)                   \
   X(vkCmdDispatch, 0, nullptr)                            \
@@ -332,6 +347,7 @@ void get_families(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyPr
   const DeviceProfile& profile = VulkanInterposer::get().profile();
   for (std::uint32_t i = 0; families != nullptr && i < *count; ++i) {
     if (profile.no_compute) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_COMPUTE_BIT);
+    if (profile.no_graphics) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_GRAPHICS_BIT);
     if (profile.timestamp_valid_bits) families[i].timestampValidBits = *profile.timestamp_valid_bits;
   }
 }
@@ -348,6 +364,12 @@ void get_memory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memor
   memory->memoryTypeCount = 2;
   memory->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, heap};
   memory->memoryTypes[1] = {kMappable, heap};
+}
+
+void get_format(VkPhysicalDevice device, VkFormat format, VkFormatProperties* properties) {
+  const InDriver inside;
+  call_real<vkGetPhysicalDeviceFormatPropertiesTag>(device, format, properties);
+  if (format == VulkanInterposer::get().profile().missing_format) properties->optimalTilingFeatures = 0;
 }
 
 void get_requirements(VkDevice device, const VkBufferMemoryRequirementsInfo2* info, VkMemoryRequirements2* out) {
@@ -411,6 +433,8 @@ PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real) {
     return keep<vkGetPhysicalDeviceQueueFamilyPropertiesTag>(real, get_families);
   if (wanted == "vkGetPhysicalDeviceMemoryProperties")
     return keep<vkGetPhysicalDeviceMemoryPropertiesTag>(real, get_memory);
+  if (wanted == "vkGetPhysicalDeviceFormatProperties")
+    return keep<vkGetPhysicalDeviceFormatPropertiesTag>(real, get_format);
   if (wanted == "vkGetBufferMemoryRequirements2")
     return keep<vkGetBufferMemoryRequirements2Tag>(real, get_requirements);
   if (wanted == "vkUpdateDescriptorSets") return keep<vkUpdateDescriptorSetsTag>(real, update_sets);
@@ -458,6 +482,8 @@ VulkanInterposer& VulkanInterposer::get() {
   static_cast<void>(installed);
   return interposer;
 }
+
+PFN_vkGetInstanceProcAddr VulkanInterposer::entry() { return get_instance_function; }
 
 void VulkanInterposer::fail_call(std::uint64_t k, Fault fault) {
   const std::lock_guard lock(mutex_);

@@ -29,7 +29,9 @@ const char* fault_name(Fault fault);
 struct DeviceProfile {
   bool no_devices = false;
   bool no_compute = false;
-  bool never_complete = false;  // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
+  bool no_graphics = false;
+  VkFormat missing_format = VK_FORMAT_UNDEFINED;  // of images
+  bool never_complete = false;                    // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
   std::uint32_t api_version = 0;
   std::function<void(VkPhysicalDeviceLimits&)> limits;
   std::optional<VkDeviceSize> max_allocation_bytes;
@@ -54,6 +56,9 @@ struct Usage {
 class VulkanInterposer {
  public:
   static VulkanInterposer& get();
+
+  /// For code that asks a loader of its own, not volk. Precondition: get() was called.
+  static PFN_vkGetInstanceProcAddr entry();
 
   /// The k-th call from now on that can fail in this way fails, k = 1, 2, ...
   void fail_call(std::uint64_t k, Fault fault);

@@ -181,6 +181,28 @@ TEST(GoldenTolerance, AShiftByTwoPixelsIsFound) {
       << "mean " << difference.mean << ", worst " << difference.worst;
 }
 
+Picture on_cpu_in_bands(const GoldenScene& scene, std::uint64_t samples_at_once) {
+  Picture out = {scene.options.size[0], scene.options.size[1], {}};
+  out.rgb.resize(std::size_t{3} * out.width * out.height);
+  const picture::Scene drawn = picture::make_scene(scene.mesh, scene.spheres, scene.voxel_size, scene.options);
+  for (const picture::Panel& panel : picture::panels_of(scene.options.show, out.width))
+    draw_panel(drawn, panel, scene.options.view, out, samples_at_once);
+  return out;
+}
+
+// What is drawn of a band differs by the rounding of places in it.
+TEST(CpuPicture, BandsMeetWithoutASeam) {
+  for (const GoldenScene& scene : {points_by_angle(), both_by_radius(), balls_by_sheet(), box_from_above()}) {
+    const Picture at_once = on_cpu_in_bands(scene, std::uint64_t{1} << 40);
+    for (const std::uint64_t samples : {20'000u, 60'000u}) {
+      const Picture bands = on_cpu_in_bands(scene, samples);
+      std::size_t differ = 0;
+      for (std::size_t i = 0; i < bands.rgb.size(); ++i) differ += std::abs(bands.rgb[i] - at_once.rgb[i]) > 2 ? 1 : 0;
+      EXPECT_LE(differ, bands.rgb.size() / 1000) << scene.name << ", " << samples << " samples at once";
+    }
+  }
+}
+
 TEST(DevicePicture, TilesAndPanelsMeetWithoutASeam) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   GoldenScene scene = both_by_radius();

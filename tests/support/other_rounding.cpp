@@ -3,13 +3,12 @@
 #include <bit>
 #include <map>
 
+#include "support/spirv_walk.h"
+
 namespace medial_vk::test {
 namespace {
 
-// Numbers from the SPIR-V specification, version 1.5, and from that of GLSL.std.450.
-constexpr std::uint32_t kHeaderWords = 5, kBoundWord = 3;
-constexpr std::uint32_t kExtInst = 12, kTypeFloat = 22, kTypeVector = 23, kConstant = 43, kFMul = 133, kFDiv = 136,
-                        kVectorTimesScalar = 142;
+// Numbers from the specification of GLSL.std.450.
 enum Extended : std::uint32_t {
   kSin = 13,
   kCos = 14,
@@ -47,32 +46,28 @@ float share_of_extended(std::uint32_t instruction, const OtherRounding& rounding
 class Rewriter {
  public:
   Rewriter(std::span<const std::uint32_t> words, const OtherRounding& rounding)
-      : words_(words), rounding_(rounding), bound_(words[kBoundWord]) {}
+      : words_(words), rounding_(rounding), out_(words) {}
 
   std::vector<std::uint32_t> run() {
-    out_.assign(words_.begin(), words_.begin() + kHeaderWords);
-    for (std::size_t at = kHeaderWords; at < words_.size(); at += words_[at] >> 16)
-      rewrite(words_.subspan(at, words_[at] >> 16));
-    out_[kBoundWord] = bound_;
-    return out_;
+    spirv::for_each_instruction(words_, [this](std::uint32_t code, auto instruction) { rewrite(code, instruction); });
+    return out_.take();
   }
 
  private:
-  void rewrite(std::span<const std::uint32_t> instruction) {
-    const std::uint32_t code = instruction[0] & 0xffffu;
-    const float share = code == kFDiv      ? rounding_.division
-                        : code == kExtInst ? share_of_extended(instruction[4], rounding_)
-                                           : 0;
-    const std::size_t begin = out_.size();
-    out_.insert(out_.end(), instruction.begin(), instruction.end());
-    if (code == kTypeFloat) add_factors(instruction[1]);
-    if (code == kTypeVector && instruction[2] == float_type_) is_vector_[instruction[1]] = true;
-    if (share == 0) return;
-    // The result gets a new name, and its product the old one.
-    const std::uint32_t type = instruction[1], product = instruction[2], result = bound_++;
-    out_[begin + 2] = result;
-    const std::uint32_t multiply = is_vector_.contains(type) ? kVectorTimesScalar : kFMul;
-    out_.insert(out_.end(), {5u << 16 | multiply, type, product, result, factors_.at(share)});
+  void rewrite(std::uint32_t code, std::span<const std::uint32_t> instruction) {
+    const float share = code == spirv::kFDiv      ? rounding_.division
+                        : code == spirv::kExtInst ? share_of_extended(instruction[4], rounding_)
+                                                  : 0;
+    if (share != 0) return multiply(instruction, factors_.at(share));
+    out_.copy(instruction);
+    if (code == spirv::kTypeFloat) add_factors(instruction[1]);
+    if (code == spirv::kTypeVector && instruction[2] == float_type_) is_vector_[instruction[1]] = true;
+  }
+
+  /// The result gets a new name, and its product the old one.
+  void multiply(std::span<const std::uint32_t> instruction, std::uint32_t factor) {
+    const std::uint32_t type = instruction[1], product = instruction[2], result = out_.copy_renamed(instruction);
+    out_.add(is_vector_.contains(type) ? spirv::kVectorTimesScalar : spirv::kFMul, {type, product, result, factor});
   }
 
   // Constants, next to the type that they need.
@@ -80,17 +75,16 @@ class Rewriter {
     float_type_ = type;
     for (const float share : {rounding_.division, rounding_.root, rounding_.trigonometry}) {
       if (share == 0 || factors_.contains(share)) continue;
-      factors_[share] = bound_;
-      out_.insert(out_.end(), {4u << 16 | kConstant, type, bound_++, std::bit_cast<std::uint32_t>(1 + share)});
+      factors_[share] = out_.emit(spirv::kConstant, type, {std::bit_cast<std::uint32_t>(1 + share)});
     }
   }
 
   std::span<const std::uint32_t> words_;
   OtherRounding rounding_;
-  std::uint32_t bound_, float_type_ = 0;
+  std::uint32_t float_type_ = 0;
   std::map<float, std::uint32_t> factors_;  // names of constants
   std::map<std::uint32_t, bool> is_vector_;
-  std::vector<std::uint32_t> out_;
+  spirv::Writer out_;
 };
 
 }  // namespace

@@ -1,54 +1,30 @@
 #include "support/other_specials.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+
+#include "support/spirv_walk.h"
 
 namespace medial_vk::test {
 namespace {
 
-// Numbers from the SPIR-V specification, version 1.5.
-enum Code : std::uint32_t {
-  kExtInst = 12,
-  kTypeBool = 20,
-  kTypeInt = 21,
-  kTypeFloat = 22,
-  kTypeVector = 23,
-  kConstant = 43,
-  kConstantComposite = 44,
-  kFunction = 54,
-  kBitcast = 124,
-  kFNegate = 127,
-  kFAdd = 129,
-  kFSub = 131,
-  kFMul = 133,
-  kFDiv = 136,
-  kFRem = 140,
-  kFMod = 141,
-  kVectorTimesScalar = 142,
-  kVectorTimesMatrix = 144,
-  kMatrixTimesVector = 145,
-  kDot = 148,
-  kSelect = 169,
-  kIEqual = 170,
-  kBitwiseAnd = 199
-};
-constexpr std::size_t kHeaderWords = 5, kBoundWord = 3;
 constexpr std::uint32_t kExponent = 0x7f800000u;  // bits of a float; all set: infinity or NaN, none: zero or denormal
 
 bool is_arithmetic(std::uint32_t code) {
   switch (code) {
-    case kExtInst:
-    case kFNegate:
-    case kFAdd:
-    case kFSub:
-    case kFMul:
-    case kFDiv:
-    case kFRem:
-    case kFMod:
-    case kVectorTimesScalar:
-    case kVectorTimesMatrix:
-    case kMatrixTimesVector:
-    case kDot:
+    case spirv::kExtInst:
+    case spirv::kFNegate:
+    case spirv::kFAdd:
+    case spirv::kFSub:
+    case spirv::kFMul:
+    case spirv::kFDiv:
+    case spirv::kFRem:
+    case spirv::kFMod:
+    case spirv::kVectorTimesScalar:
+    case spirv::kVectorTimesMatrix:
+    case spirv::kMatrixTimesVector:
+    case spirv::kDot:
       return true;
     default:
       return false;
@@ -64,53 +40,49 @@ struct Shape {
 class Replacer {
  public:
   Replacer(std::span<const std::uint32_t> words, const OtherSpecials& specials)
-      : words_(words), specials_(specials), bound_(words[kBoundWord]) {}
+      : words_(words), specials_(specials), out_(words) {}
 
   std::vector<std::uint32_t> run() {
-    for (std::size_t at = kHeaderWords; at < words_.size(); at += words_[at] >> 16) note_type(words_.subspan(at));
-    out_.assign(words_.begin(), words_.begin() + kHeaderWords);
-    for (std::size_t at = kHeaderWords; at < words_.size(); at += words_[at] >> 16)
-      rewrite(words_.subspan(at, words_[at] >> 16));
-    out_[kBoundWord] = bound_;
-    return out_;
+    spirv::for_each_instruction(words_, [this](std::uint32_t code, auto words) { note_type(code, words); });
+    spirv::for_each_instruction(words_, [this](std::uint32_t code, auto instruction) { rewrite(code, instruction); });
+    return out_.take();
   }
 
  private:
   /// Types may be there once only.
-  void note_type(std::span<const std::uint32_t> words) {
-    const std::uint32_t code = words[0] & 0xffffu;
-    if (code == kTypeFloat) shapes_[0].real = words[1];
-    if (code == kTypeBool) shapes_[0].truth = words[1];
-    if (code == kTypeInt && words[2] == 32 && words[3] == 0) shapes_[0].bits = words[1];
-    if (code != kTypeVector) return;
+  void note_type(std::uint32_t code, std::span<const std::uint32_t> words) {
+    if (code == spirv::kTypeFloat) shapes_[0].real = words[1];
+    if (code == spirv::kTypeBool) shapes_[0].truth = words[1];
+    if (code == spirv::kTypeInt && words[2] == 32 && words[3] == 0) shapes_[0].bits = words[1];
+    if (code != spirv::kTypeVector) return;
     Shape& shape = shapes_[words[3] - 1];
     if (words[2] == shapes_[0].real) shape.real = words[1];
     if (words[2] == shapes_[0].bits) shape.bits = words[1];
     if (words[2] == shapes_[0].truth) shape.truth = words[1];
   }
 
-  void rewrite(std::span<const std::uint32_t> instruction) {
-    const std::uint32_t code = instruction[0] & 0xffffu;
-    if (code == kFunction && !declared_) declare();
-    const std::size_t begin = out_.size();
-    out_.insert(out_.end(), instruction.begin(), instruction.end());
-    if (!is_arithmetic(code)) return;
-    for (const Shape& shape : shapes_) {
-      if (shape.real == 0 || instruction[1] != shape.real) continue;
-      // The result gets a new name, and what replaces it the old one.
-      out_[begin + 2] = bound_++;
-      replace(shape, out_[begin + 2], instruction[2]);
-    }
+  void rewrite(std::uint32_t code, std::span<const std::uint32_t> instruction) {
+    if (code == spirv::kFunction && !declared_) declare();
+    const Shape* shape = is_arithmetic(code) ? shape_of(instruction[1]) : nullptr;
+    if (shape == nullptr) return out_.copy(instruction);
+    // The result gets a new name, and what replaces it the old one.
+    replace(*shape, out_.copy_renamed(instruction), instruction[2]);
+  }
+
+  /// Of numbers or vectors of that type; null: it has another one.
+  const Shape* shape_of(std::uint32_t type) const {
+    const auto found = std::ranges::find(shapes_, type, &Shape::real);
+    return found == shapes_.end() ? nullptr : &*found;
   }
 
   void replace(const Shape& shape, std::uint32_t result, std::uint32_t replacement) {
-    const std::uint32_t bits = emit(kBitcast, shape.bits, {result});
-    const std::uint32_t exponent = emit(kBitwiseAnd, shape.bits, {bits, shape.exponent});
-    const std::uint32_t is_zero = emit(kIEqual, shape.truth, {exponent, shape.none});
-    const std::uint32_t is_special = emit(kIEqual, shape.truth, {exponent, shape.exponent});
-    const std::uint32_t or_zero = emit(kSelect, shape.bits, {is_zero, shape.zero, bits});
-    const std::uint32_t chosen = emit(kSelect, shape.bits, {is_special, shape.special, or_zero});
-    out_.insert(out_.end(), {4u << 16 | kBitcast, shape.real, replacement, chosen});
+    const std::uint32_t bits = out_.emit(spirv::kBitcast, shape.bits, {result});
+    const std::uint32_t exponent = out_.emit(spirv::kBitwiseAnd, shape.bits, {bits, shape.exponent});
+    const std::uint32_t is_zero = out_.emit(spirv::kIEqual, shape.truth, {exponent, shape.none});
+    const std::uint32_t is_special = out_.emit(spirv::kIEqual, shape.truth, {exponent, shape.exponent});
+    const std::uint32_t or_zero = out_.emit(spirv::kSelect, shape.bits, {is_zero, shape.zero, bits});
+    const std::uint32_t chosen = out_.emit(spirv::kSelect, shape.bits, {is_special, shape.special, or_zero});
+    out_.add(spirv::kBitcast, {shape.real, replacement, chosen});
   }
 
   /// The types that are missing and all constants, behind those of the module.
@@ -118,19 +90,19 @@ class Replacer {
     declared_ = true;
     if (shapes_[0].real == 0) return;
     Shape& number = shapes_[0];
-    if (number.bits == 0) add({number.bits = bound_++, 32, 0}, kTypeInt);
-    if (number.truth == 0) add({number.truth = bound_++}, kTypeBool);
-    number.exponent = emit(kConstant, number.bits, {kExponent});
-    number.none = emit(kConstant, number.bits, {0});
-    number.zero = emit(kConstant, number.bits, {std::bit_cast<std::uint32_t>(specials_.zero)});
-    number.special = emit(kConstant, number.bits, {std::bit_cast<std::uint32_t>(specials_.special)});
+    if (number.bits == 0) out_.add(spirv::kTypeInt, {number.bits = out_.new_name(), 32, 0});
+    if (number.truth == 0) out_.add(spirv::kTypeBool, {number.truth = out_.new_name()});
+    number.exponent = out_.emit(spirv::kConstant, number.bits, {kExponent});
+    number.none = out_.emit(spirv::kConstant, number.bits, {0});
+    number.zero = out_.emit(spirv::kConstant, number.bits, {std::bit_cast<std::uint32_t>(specials_.zero)});
+    number.special = out_.emit(spirv::kConstant, number.bits, {std::bit_cast<std::uint32_t>(specials_.special)});
     for (std::uint32_t length = 2; length <= 4; ++length) {
       Shape& shape = shapes_[length - 1];
       if (shape.real == 0) continue;
-      if (shape.bits == 0) add({shape.bits = bound_++, number.bits, length}, kTypeVector);
-      if (shape.truth == 0) add({shape.truth = bound_++, number.truth, length}, kTypeVector);
+      if (shape.bits == 0) out_.add(spirv::kTypeVector, {shape.bits = out_.new_name(), number.bits, length});
+      if (shape.truth == 0) out_.add(spirv::kTypeVector, {shape.truth = out_.new_name(), number.truth, length});
       const auto repeat = [&](std::uint32_t constant) {
-        return emit(kConstantComposite, shape.bits, std::vector<std::uint32_t>(length, constant));
+        return out_.emit(spirv::kConstantComposite, shape.bits, std::vector<std::uint32_t>(length, constant));
       };
       shape.exponent = repeat(number.exponent);
       shape.none = repeat(number.none);
@@ -139,25 +111,11 @@ class Replacer {
     }
   }
 
-  void add(const std::vector<std::uint32_t>& operands, std::uint32_t code) {
-    out_.push_back(static_cast<std::uint32_t>(operands.size() + 1) << 16 | code);
-    out_.insert(out_.end(), operands.begin(), operands.end());
-  }
-
-  /// An instruction with a result of that type; returns its name.
-  std::uint32_t emit(std::uint32_t code, std::uint32_t type, std::vector<std::uint32_t> operands) {
-    const std::uint32_t name = bound_++;
-    operands.insert(operands.begin(), {type, name});
-    add(operands, code);
-    return name;
-  }
-
   std::span<const std::uint32_t> words_;
   OtherSpecials specials_;
-  std::uint32_t bound_;
   std::array<Shape, 4> shapes_;
   bool declared_ = false;
-  std::vector<std::uint32_t> out_;
+  spirv::Writer out_;
 };
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/spirv_walk.h"
+
 namespace medial_vk::test {
 
 /// One structure with Offset decorations, as one module declares it.
@@ -20,9 +22,7 @@ struct SpirvStruct {
 
 /// Every structure of the module that has Offset decorations (those without are private copies in registers).
 inline std::vector<SpirvStruct> read_spirv_structs(std::span<const std::uint32_t> words) {
-  // SPIR-V 1.5, sections 2.3 and 3.37: a header of five words, then instructions (word count << 16 | opcode).
-  constexpr std::uint32_t kName = 5, kMemberName = 6, kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30,
-                          kDecorate = 71, kMemberDecorate = 72, kArrayStride = 6, kOffset = 35;
+  constexpr std::uint32_t kArrayStride = 6, kOffset = 35;  // decorations
   std::map<std::uint32_t, SpirvStruct> structs;
   std::map<std::uint32_t, std::uint32_t> strides;  // by array type
   std::map<std::uint32_t, bool> is_struct;
@@ -38,18 +38,14 @@ inline std::vector<SpirvStruct> read_spirv_structs(std::span<const std::uint32_t
     }
     return out;
   };
-  for (std::size_t at = 5; at < words.size();) {
-    const std::uint32_t count = words[at] >> 16, opcode = words[at] & 0xffffu;
-    if (count == 0 || at + count > words.size()) break;
-    const std::span<const std::uint32_t> w = words.subspan(at, count);
-    if (opcode == kName) structs[w[1]].name = text(w.subspan(2));
-    if (opcode == kMemberName) structs[w[1]].names[w[2]] = text(w.subspan(3));
-    if (opcode == kMemberDecorate && w[3] == kOffset) structs[w[1]].offsets[w[2]] = w[4];
-    if (opcode == kDecorate && w[2] == kArrayStride) strides[w[1]] = w[3];
-    if (opcode == kTypeArray || opcode == kTypeRuntimeArray) arrays.emplace_back(w[1], w[2]);
-    if (opcode == kTypeStruct) is_struct[w[1]] = true;
-    at += count;
-  }
+  spirv::for_each_instruction(words, [&](std::uint32_t code, std::span<const std::uint32_t> w) {
+    if (code == spirv::kName) structs[w[1]].name = text(w.subspan(2));
+    if (code == spirv::kMemberName) structs[w[1]].names[w[2]] = text(w.subspan(3));
+    if (code == spirv::kMemberDecorate && w[3] == kOffset) structs[w[1]].offsets[w[2]] = w[4];
+    if (code == spirv::kDecorate && w[2] == kArrayStride) strides[w[1]] = w[3];
+    if (code == spirv::kTypeArray || code == spirv::kTypeRuntimeArray) arrays.emplace_back(w[1], w[2]);
+    if (code == spirv::kTypeStruct) is_struct[w[1]] = true;
+  });
   for (const auto& [array, element] : arrays) {
     if (is_struct.contains(element) && strides.contains(array)) structs[element].stride = strides[array];
   }

@@ -212,6 +212,18 @@ TEST(Prepare, EverythingTwice) {
   EXPECT_GT(prepared.report.signed_volume, 0);
 }
 
+// Other triangles in the same place: they are no duplicates, and stay.
+TEST(Prepare, FacesThatOverlapAreNotTrusted) {
+  const Mesh box = make_box({1, 1, 1});
+  Mesh half = make_box({0.5, 0.5, 0.5});  // within the box, three of its sides on the box's
+  const PreparedMesh prepared = prepare(together(box, half));
+  EXPECT_EQ(prepared.report.duplicates_dropped, 0u);
+  EXPECT_EQ(prepared.report.triangles, 24u);
+  EXPECT_GE(prepared.report.intersecting_faces, 12u);
+  EXPECT_LE(prepared.report.trusted_triangles, 12u);
+  EXPECT_TRUE(prepared.report.closed);
+}
+
 TEST(Prepare, TouchingSolidsBecomeOne) {
   // 2 x 2 x 1 cubes, all side by side: the walls between them are there twice, back to back.
   Mesh mesh;
@@ -358,6 +370,9 @@ TEST(Prepare, NothingEnclosedIsRefused) {
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_THAT(refusal(sheet), HasSubstr("encloses nothing: with 4 open edges"));
   EXPECT_THAT(refusal(together(sheet, over(sheet))), HasSubstr("encloses nothing"));
+  Mesh single = sheet;
+  single.triangles.resize(1);
+  EXPECT_THAT(refusal(single), HasSubstr("encloses nothing: with 3 open edges"));
   Mesh flat = sheet;  // a tetrahedron pressed flat: closed, every face has an area
   flat.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
   EXPECT_EQ(refusal(flat), "the mesh encloses nothing: it is closed, but its volume is 0");

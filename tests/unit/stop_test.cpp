@@ -1,8 +1,11 @@
 // Stopping an extraction, from another thread or by the callback: it ends with kInterrupted, and the context is as
 // before.
+#include <algorithm>
 #include <chrono>
+#include <iostream>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 #include "medial_vk/extraction.h"
 #include "support/device_test.h"
@@ -65,6 +68,32 @@ TEST_P(Stop, RequestedByAnotherThreadWhileTheDeviceComputes) {
     expect_interrupted(extract({}, source.get_token()));
   }
   expect_usable();
+}
+
+// Within 200 ms once the driver has compiled the kernels, on a machine that has nothing else to do: docs/reliability.md
+// has figures. Here it may be busy. Whoever waits for the end of the run, or of a level, takes longer.
+TEST_P(Stop, TakesEffectSoon) {
+  using Clock = std::chrono::steady_clock;
+  expect_usable();  // compiles
+  std::vector<Clock::duration> waits;
+  for (int i = 0; i < 9; ++i) {
+    std::stop_source source;
+    Clock::time_point asked;
+    std::jthread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100 + 60 * i));
+      asked = Clock::now();
+      source.request_stop();
+    });
+    const Result<Extraction> result = extract({}, source.get_token());
+    const Clock::time_point ended = Clock::now();
+    other.join();
+    expect_interrupted(result);
+    waits.push_back(ended - asked);
+  }
+  std::ranges::sort(waits);
+  const std::chrono::duration<double, std::milli> median = waits[waits.size() / 2], worst = waits.back();
+  std::cout << "stopped after " << median.count() << " ms, at worst " << worst.count() << " ms\n";
+  EXPECT_LT(median, std::chrono::seconds(1));
 }
 
 // The callback is asked while the device computes, too: this one never says stop between two chunks.

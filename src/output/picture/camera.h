@@ -28,6 +28,13 @@ class Camera {
   /// Looks from there at the points and fills the frame with them. No points: looks at the origin.
   Camera(std::span<const Eigen::Vector3f> points, const PictureView& view, const Frame& frame);
 
+  /// The same view in a picture without its first rows.
+  Camera below(float rows) const {
+    Camera other = *this;
+    other.offset_y_ -= rows;
+    return other;
+  }
+
   ScreenPoint project(const Eigen::Vector3f& point) const;
   /// Turns a direction, or a point, of the shape into view space.
   Eigen::Vector3f turn(const Eigen::Vector3f& direction) const { return rotation_ * direction; }

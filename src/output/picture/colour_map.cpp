@@ -54,4 +54,8 @@ Vector3f to_srgb(const Vector3f& light) {
   });
 }
 
+std::uint8_t byte_of(float share) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * 255.0f));
+}
+
 }  // namespace medial_vk::picture

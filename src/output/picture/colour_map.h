@@ -21,5 +21,7 @@ std::size_t sheet_colour_index(std::int32_t sheet);
 /// From the numbers of a file (IEC 61966-2-1) to light and back.
 Eigen::Vector3f to_light(const Eigen::Vector3f& srgb);
 Eigen::Vector3f to_srgb(const Eigen::Vector3f& light);
+/// The nearest of 256 steps; `share` is clamped to [0, 1].
+std::uint8_t byte_of(float share);
 
 }  // namespace medial_vk::picture

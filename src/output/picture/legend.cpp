@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/picture/colour_map.h"
 #include "output/picture/panel.h"
 #include "output/picture/text.h"
 
@@ -37,7 +38,7 @@ class Pen {
     if (x >= picture_.width || y >= picture_.height) return;
     for (Eigen::Index channel = 0; channel < 3; ++channel) {
       picture_.rgb[(std::size_t{y} * picture_.width + x) * 3 + static_cast<std::size_t>(channel)] =
-          static_cast<std::uint8_t>(std::clamp(colour[channel], 0.0f, 1.0f) * 255.0f + 0.5f);
+          byte_of(colour[channel]);
     }
   }
 

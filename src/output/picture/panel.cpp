@@ -155,7 +155,61 @@ class Composer {
   std::vector<Vector3f> palette_;
 };
 
-std::uint8_t byte_of(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0f, 1.0f) * 255.0f + 0.5f); }
+/// Rows of a picture.
+struct Band {
+  std::uint32_t top = 0, height = 0;
+};
+
+/// The balls that are seen in the band, and where in it.
+std::vector<Mark> balls_in(const std::vector<Mark>& balls, const Band& band) {
+  const auto top = static_cast<float>(band.top), height = static_cast<float>(band.height);
+  std::vector<Mark> out;
+  for (Mark ball : balls) {
+    ball.seen.top = std::max(ball.seen.top - top, 0.0f);
+    ball.seen.bottom = std::min(ball.seen.bottom - top, height);
+    if (ball.seen.top < ball.seen.bottom) out.push_back(ball);
+  }
+  return out;
+}
+
+/// The layers of a band.
+void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
+                 const Band& band, Layers& layers) {
+  if (panel.balls) {
+    draw_balls(balls_in(balls, band), camera, kCpuSamples, layers.marks);
+  } else {
+    draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
+    draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);
+    draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);
+  }
+}
+
+/// With rows above and below, from which light is taken: kGreatestReach, and one for lines.
+void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
+               const Band& band, Picture& picture) {
+  constexpr std::uint32_t kBorder = static_cast<std::uint32_t>(kGreatestReach) + 1;
+  const std::uint32_t top = band.top - std::min(band.top, kBorder);
+  const std::uint32_t bottom = std::min(band.top + band.height + kBorder, picture.height);
+  const Camera below = camera.below(static_cast<float>(top * kCpuSamples));
+  Layers layers(panel.width * kCpuSamples, (bottom - top) * kCpuSamples);
+  draw_layers(scene, panel, below, balls, {top, bottom - top}, layers);
+  const Composer composer(scene, panel, below, layers);
+  constexpr float kShare = 1.0f / (kCpuSamples * kCpuSamples);
+  for (std::uint32_t y = band.top; y < band.top + band.height; ++y) {
+    const float height_share = (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height);
+    for (std::uint32_t x = 0; x < panel.width; ++x) {
+      Vector3f sum = Vector3f::Zero();
+      for (std::uint32_t i = 0; i < kCpuSamples * kCpuSamples; ++i) {
+        sum +=
+            composer.sample(x * kCpuSamples + i % kCpuSamples, (y - top) * kCpuSamples + i / kCpuSamples, height_share)
+                .cwiseMin(1.0f);
+      }
+      const Vector3f colour = to_srgb(sum * kShare);
+      std::uint8_t* out = &picture.rgb[(std::size_t{y} * picture.width + panel.left + x) * 3];
+      for (Eigen::Index channel = 0; channel < 3; ++channel) out[channel] = byte_of(colour[channel]);
+    }
+  }
+}
 
 }  // namespace
 
@@ -169,30 +223,14 @@ std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const Pict
   return seen_balls(scene.balls, camera, panel.width, picture.height);
 }
 
-void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture) {
+void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
+                std::uint64_t samples_at_once) {
   const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
-  Layers layers(panel.width * kCpuSamples, picture.height * kCpuSamples);
-  if (panel.balls) {
-    draw_balls(panel_balls(scene, panel, view, picture), camera, kCpuSamples, layers.marks);
-  } else {
-    draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
-    draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);
-    draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);
-  }
-  const Composer composer(scene, panel, camera, layers);
-  constexpr float kShare = 1.0f / (kCpuSamples * kCpuSamples);
-  for (std::uint32_t y = 0; y < picture.height; ++y) {
-    const float height_share = (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height);
-    for (std::uint32_t x = 0; x < panel.width; ++x) {
-      Vector3f sum = Vector3f::Zero();
-      for (std::uint32_t i = 0; i < kCpuSamples * kCpuSamples; ++i) {
-        sum += composer.sample(x * kCpuSamples + i % kCpuSamples, y * kCpuSamples + i / kCpuSamples, height_share)
-                   .cwiseMin(1.0f);
-      }
-      const Vector3f colour = to_srgb(sum * kShare);
-      std::uint8_t* out = &picture.rgb[(std::size_t{y} * picture.width + panel.left + x) * 3];
-      for (Eigen::Index channel = 0; channel < 3; ++channel) out[channel] = byte_of(colour[channel]);
-    }
+  const std::vector<Mark> balls = panel.balls ? panel_balls(scene, panel, view, picture) : std::vector<Mark>();
+  const std::uint64_t samples_of_row = std::uint64_t{kCpuSamples} * kCpuSamples * panel.width;
+  const auto rows = static_cast<std::uint32_t>(std::max<std::uint64_t>(samples_at_once / samples_of_row, 1));
+  for (std::uint32_t top = 0; top < picture.height; top += std::min(rows, picture.height - top)) {
+    draw_band(scene, panel, camera, balls, {top, std::min(rows, picture.height - top)}, picture);
   }
 }
 

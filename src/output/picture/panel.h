@@ -43,9 +43,14 @@ constexpr float kLeastDiscRadius = 0.8f;
 /// The balls that are seen, at most one for each pixel.
 std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture);
 
-/// On the CPU, 2 x 2 samples per pixel, into the panel's part of the picture.
-void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture);
 constexpr std::uint32_t kCpuSamples = 2;  // Per side.
+/// 450 MiB of layers. The usual picture is drawn at once.
+constexpr std::uint64_t kCpuSamplesAtOnce = 1u << 23;
+
+/// On the CPU, 2 x 2 samples per pixel, into the panel's part of the picture. In bands of rows of so many samples, and
+/// some rows more, so that memory does not grow with the picture.
+void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
+                std::uint64_t samples_at_once = kCpuSamplesAtOnce);
 
 /// Into the lower right corner.
 void draw_legend(const Scene& scene, Picture& picture);

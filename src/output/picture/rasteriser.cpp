@@ -235,7 +235,8 @@ std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, 
   std::vector<Frame> parts(balls.size(), {whole.right, whole.bottom, 0, 0});
   for (std::size_t pixel = 0; pixel < owner.size(); ++pixel) {
     if (nearest[pixel] == 0) continue;
-    const auto x = static_cast<float>(pixel % width), y = static_cast<float>(pixel / width);
+    const std::size_t column = pixel % width, row = pixel / width;
+    const auto x = static_cast<float>(column), y = static_cast<float>(row);
     Frame& part = parts[owner[pixel]];  // and a pixel around it, where it may still hide half of a neighbour's
     part = {std::min(part.left, std::max(x - 1, 0.0f)), std::min(part.top, std::max(y - 1, 0.0f)),
             std::max(part.right, std::min(x + 2, whole.right)), std::max(part.bottom, std::min(y + 2, whole.bottom))};

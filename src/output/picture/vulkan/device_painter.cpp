@@ -42,7 +42,7 @@ DrawingBuffer upload_marks(DrawingDevice& device, const std::vector<Mark>& marks
 class DevicePainter::Impl {
  public:
   Impl(const DeviceDescription& wanted, const PainterOptions& options)
-      : device_(wanted, options.validation),
+      : device_(wanted, options.validation, options.loader),
         samples_(options.samples != 0   ? options.samples
                  : wanted.type == "cpu" ? 2
                                         : 4),
@@ -160,9 +160,9 @@ class DevicePainter::Impl {
   }
 
   void write_set(const DrawingBuffer& marks, const DrawingBuffer& palette) {
-    const std::array<VkDescriptorBufferInfo, 2> buffers = {
-        {{marks.handle, 0, std::min<VkDeviceSize>(marks.bytes, VkDeviceSize{kMarksAtOnce} * sizeof(Mark))},
-         {palette.handle, 0, VK_WHOLE_SIZE}}};
+    const VkDeviceSize most = VkDeviceSize{kMarksAtOnce} * sizeof(Mark);
+    const VkDescriptorBufferInfo seen_marks = {marks.handle, 0, std::min(marks.bytes, most)};
+    const VkDescriptorBufferInfo whole_palette = {palette.handle, 0, VK_WHOLE_SIZE};
     const auto colour = [this](const DrawingImage& image) {
       return VkDescriptorImageInfo{sampler_, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     };
@@ -178,10 +178,10 @@ class DevicePainter::Impl {
       write.descriptorCount = 1;
     }
     writes[0].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC;
-    writes[0].pBufferInfo = &buffers[0];
+    writes[0].pBufferInfo = &seen_marks;
     writes[1].dstBinding = 1;
     writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    writes[1].pBufferInfo = &buffers[1];
+    writes[1].pBufferInfo = &whole_palette;
     writes[2].dstBinding = 2;
     writes[2].descriptorCount = static_cast<std::uint32_t>(images.size());
     writes[2].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;

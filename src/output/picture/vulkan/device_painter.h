@@ -8,12 +8,14 @@
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"
 #include "output/picture/panel.h"
+#include "output/picture/vulkan/functions.h"
 
 namespace medial_vk::picture {
 
 struct PainterOptions {
-  std::uint32_t samples = 0;  ///< Per pixel and side; 0: 2 on a CPU's device, else 4.
-  bool validation = false;    ///< With the validation layer; its messages are printed and counted.
+  std::uint32_t samples = 0;                   ///< Per pixel and side; 0: 2 on a CPU's device, else 4.
+  bool validation = false;                     ///< With the validation layer; its messages are printed and counted.
+  PFN_vkGetInstanceProcAddr loader = nullptr;  ///< Null: that of libvulkan.so.1.
 };
 
 class DevicePainter {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <utility>
 
 namespace medial_vk::picture {
 namespace {
@@ -48,11 +49,12 @@ void DrawingDevice::check(VkResult result, const char* call) {
                                                                            : fmt::format("error {}", int{result})));
 }
 
-DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation) {
+DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader) {
   try {
-    get_instance_proc_addr_ = load_vulkan();
+    get_instance_proc_addr_ = loader != nullptr ? loader : load_vulkan();
     create_instance(validation);
-    create_device(find(wanted));
+    physical_device_ = find(wanted);
+    create_device(physical_device_);
   } catch (...) {
     destroy();  // the destructor of an object that was never whole is not called
     throw;
@@ -64,7 +66,7 @@ DrawingDevice::~DrawingDevice() { destroy(); }
 void DrawingDevice::destroy() {
   if (device != VK_NULL_HANDLE) {
     vk.DeviceWaitIdle(device);
-    for (auto last = at_end_.rbegin(); last != at_end_.rend(); ++last) (*last)();
+    for (; !at_end_.empty(); at_end_.pop_back()) at_end_.back()();
     vk.DestroyDevice(device, nullptr);
   }
   if (messenger_ != VK_NULL_HANDLE) {
@@ -154,6 +156,21 @@ void DrawingDevice::create_device(VkPhysicalDevice physical_device) {
   vk.GetDeviceQueue(device, queue_family, 0, &queue);
 }
 
+/// Not every device draws into depths of 32 bits.
+void DrawingDevice::check_format(VkFormat format, VkImageUsageFlags usage) const {
+  constexpr std::array<std::pair<VkImageUsageFlags, VkFormatFeatureFlags>, 4> kNeeded = {
+      {{VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT},
+       {VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT},
+       {VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT},
+       {VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_FORMAT_FEATURE_TRANSFER_SRC_BIT}}};
+  VkFormatProperties properties{};
+  instance_functions_.GetPhysicalDeviceFormatProperties(physical_device_, format, &properties);
+  for (const auto& [use, feature] : kNeeded) {
+    if ((usage & use) != 0 && (properties.optimalTilingFeatures & feature) == 0)
+      throw DrawingError(fmt::format("the device does not draw with images of VkFormat {}", static_cast<int>(format)));
+  }
+}
+
 VkDeviceMemory DrawingDevice::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted) {
   for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
     if ((needs.memoryTypeBits >> type & 1u) == 0) continue;
@@ -188,6 +205,7 @@ DrawingBuffer DrawingDevice::create_buffer(VkDeviceSize bytes, VkBufferUsageFlag
 
 DrawingImage DrawingDevice::create_image(VkExtent2D size, VkFormat format, VkImageUsageFlags usage,
                                          VkImageAspectFlags aspect) {
+  check_format(format, usage);
   DrawingImage made;
   auto info = vulkan_struct<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
   info.imageType = VK_IMAGE_TYPE_2D;

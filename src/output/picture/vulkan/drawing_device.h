@@ -32,8 +32,9 @@ struct DrawingImage {
 
 class DrawingDevice {
  public:
-  /// On the physical device that is meant by `wanted`: the one of its index, which must have its name.
-  DrawingDevice(const DeviceDescription& wanted, bool validation);
+  /// On the physical device that is meant by `wanted`: the one of its index, which must have its name. `loader`: null
+  /// for that of the system.
+  DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader);
   DrawingDevice(const DrawingDevice&) = delete;
   DrawingDevice& operator=(const DrawingDevice&) = delete;
   ~DrawingDevice();
@@ -58,12 +59,14 @@ class DrawingDevice {
   void add_messenger();
   VkPhysicalDevice find(const DeviceDescription& wanted) const;
   void create_device(VkPhysicalDevice physical_device);
+  void check_format(VkFormat format, VkImageUsageFlags usage) const;
   VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted);
   void destroy();
 
   InstanceFunctions instance_functions_;
   PFN_vkGetInstanceProcAddr get_instance_proc_addr_ = nullptr;
   VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> messages_ = 0;  // written by the validation layer from any thread
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -12,23 +12,67 @@ namespace medial_vk::picture {
   X(DestroyInstance)                            \
   X(EnumeratePhysicalDevices)                   \
   X(GetDeviceProcAddr)                          \
+  X(GetPhysicalDeviceFormatProperties)          \
   X(GetPhysicalDeviceMemoryProperties)          \
   X(GetPhysicalDeviceProperties)                \
   X(GetPhysicalDeviceQueueFamilyProperties)
 
-// clang-format off
+// clang-format off: it would write them in steps
 #define MEDIAL_VK_PICTURE_DEVICE_FUNCTIONS(X) \
-  X(AllocateCommandBuffers) X(AllocateDescriptorSets) X(AllocateMemory) X(BeginCommandBuffer) \
-  X(BindBufferMemory) X(BindImageMemory) X(CmdBeginRenderPass) X(CmdBindDescriptorSets) X(CmdBindPipeline) \
-  X(CmdBindVertexBuffers) X(CmdCopyImageToBuffer) X(CmdDraw) X(CmdEndRenderPass) X(CmdPipelineBarrier) \
-  X(CmdPushConstants) X(CreateBuffer) X(CreateCommandPool) X(CreateDescriptorPool) X(CreateDescriptorSetLayout) \
-  X(CreateFence) X(CreateFramebuffer) X(CreateGraphicsPipelines) X(CreateImage) X(CreateImageView) \
-  X(CreatePipelineLayout) X(CreateRenderPass) X(CreateSampler) X(CreateShaderModule) X(DestroyBuffer) \
-  X(DestroyCommandPool) X(DestroyDescriptorPool) X(DestroyDescriptorSetLayout) X(DestroyDevice) X(DestroyFence) \
-  X(DestroyFramebuffer) X(DestroyImage) X(DestroyImageView) X(DestroyPipeline) X(DestroyPipelineLayout) \
-  X(DestroyRenderPass) X(DestroySampler) X(DestroyShaderModule) X(DeviceWaitIdle) X(EndCommandBuffer) \
-  X(FreeMemory) X(GetBufferMemoryRequirements) X(GetDeviceQueue) X(GetImageMemoryRequirements) X(MapMemory) \
-  X(QueueSubmit) X(ResetCommandPool) X(ResetFences) X(UpdateDescriptorSets) X(WaitForFences)
+  X(AllocateCommandBuffers)                   \
+  X(AllocateDescriptorSets)                   \
+  X(AllocateMemory)                           \
+  X(BeginCommandBuffer)                       \
+  X(BindBufferMemory)                         \
+  X(BindImageMemory)                          \
+  X(CmdBeginRenderPass)                       \
+  X(CmdBindDescriptorSets)                    \
+  X(CmdBindPipeline)                          \
+  X(CmdBindVertexBuffers)                     \
+  X(CmdCopyImageToBuffer)                     \
+  X(CmdDraw)                                  \
+  X(CmdEndRenderPass)                         \
+  X(CmdPipelineBarrier)                       \
+  X(CmdPushConstants)                         \
+  X(CreateBuffer)                             \
+  X(CreateCommandPool)                        \
+  X(CreateDescriptorPool)                     \
+  X(CreateDescriptorSetLayout)                \
+  X(CreateFence)                              \
+  X(CreateFramebuffer)                        \
+  X(CreateGraphicsPipelines)                  \
+  X(CreateImage)                              \
+  X(CreateImageView)                          \
+  X(CreatePipelineLayout)                     \
+  X(CreateRenderPass)                         \
+  X(CreateSampler)                            \
+  X(CreateShaderModule)                       \
+  X(DestroyBuffer)                            \
+  X(DestroyCommandPool)                       \
+  X(DestroyDescriptorPool)                    \
+  X(DestroyDescriptorSetLayout)               \
+  X(DestroyDevice)                            \
+  X(DestroyFence)                             \
+  X(DestroyFramebuffer)                       \
+  X(DestroyImage)                             \
+  X(DestroyImageView)                         \
+  X(DestroyPipeline)                          \
+  X(DestroyPipelineLayout)                    \
+  X(DestroyRenderPass)                        \
+  X(DestroySampler)                           \
+  X(DestroyShaderModule)                      \
+  X(DeviceWaitIdle)                           \
+  X(EndCommandBuffer)                         \
+  X(FreeMemory)                               \
+  X(GetBufferMemoryRequirements)              \
+  X(GetDeviceQueue)                           \
+  X(GetImageMemoryRequirements)               \
+  X(MapMemory)                                \
+  X(QueueSubmit)                              \
+  X(ResetCommandPool)                         \
+  X(ResetFences)                              \
+  X(UpdateDescriptorSets)                     \
+  X(WaitForFences)
 // clang-format on
 
 #define MEDIAL_VK_PICTURE_DECLARE(name) PFN_vk##name name = nullptr;

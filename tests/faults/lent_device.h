@@ -1,0 +1,100 @@
+// A host with a device of its own: that of another context, lent as a host lends its own.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "fault_test.h"
+#include "medial_vk/extraction_job.h"
+#include "medial_vk/host_device.h"
+
+namespace medial_vk::test {
+
+class LentDevice {
+ public:
+  explicit LentDevice(Context owner) : owner_(std::move(owner)) {
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = impl().queue_family;
+    EXPECT_EQ(impl().vk.vkCreateCommandPool(impl().device, &pool, nullptr, &pool_), VK_SUCCESS);
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = pool_;
+    allocation.commandBufferCount = 1;
+    EXPECT_EQ(impl().vk.vkAllocateCommandBuffers(impl().device, &allocation, &commands_), VK_SUCCESS);
+    begin();
+  }
+  LentDevice(const LentDevice&) = delete;
+  LentDevice& operator=(const LentDevice&) = delete;
+  ~LentDevice() { impl().vk.vkDestroyCommandPool(impl().device, pool_, nullptr); }
+
+  HostDevice lend(const VkAllocationCallbacks* callbacks = nullptr) {
+    HostDevice host;
+    host.allocation_callbacks = callbacks;
+    host.instance = impl().instance;
+    host.physical_device = impl().physical_device;
+    host.device = impl().device;
+    host.queue = impl().queue;
+    host.queue_family = impl().queue_family;
+    host.cache_folder = "/dev/null";
+    return host;
+  }
+
+  /// What the job counts, once it has been recorded and run. What the host itself calls does not fail.
+  Answer record_and_run(ExtractionJob& job) {
+    const Status recorded = in_runtime([&] { return record(commands_, job); });
+    VulkanInterposer::get().stop_failing();
+    if (recorded.ok()) submit();
+    begin();
+    if (!recorded.ok()) return recorded.error();
+    const RecordedCounts counts = job.counts();
+    EXPECT_EQ(counts.complete, 1u);
+    EXPECT_GT(counts.spheres, 0u);
+    std::string out;
+    append_bytes(out, counts);
+    return out;
+  }
+
+ private:
+  Context::Impl& impl() { return owner_.impl(); }
+
+  void begin() {
+    EXPECT_EQ(impl().vk.vkResetCommandBuffer(commands_, 0), VK_SUCCESS);
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    EXPECT_EQ(impl().vk.vkBeginCommandBuffer(commands_, &info), VK_SUCCESS);
+  }
+
+  void submit() {
+    EXPECT_EQ(impl().vk.vkEndCommandBuffer(commands_), VK_SUCCESS);
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    EXPECT_EQ(impl().vk.vkQueueSubmit(impl().queue, 1, &info, VK_NULL_HANDLE), VK_SUCCESS);
+    EXPECT_EQ(impl().vk.vkDeviceWaitIdle(impl().device), VK_SUCCESS);
+  }
+
+  Context owner_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+inline PreparedMesh sheared(PreparedMesh mesh) {
+  for (Point& p : mesh.mesh.vertices) p[0] = 1.5 * p[0] + 0.25 * p[1];
+  return mesh;
+}
+
+/// A job on a context of the host's device, the mesh moved, recorded and run.
+inline Answer make_job_and_record(LentDevice& host, Context& context, const PreparedMesh& mesh,
+                                  const PreparedMesh& moved) {
+  const auto create = [&] { return ExtractionJob::create(context, mesh.view(), small_job(Mode::kCertified)); };
+  Result<ExtractionJob> job = in_runtime(create);
+  if (!job.ok()) return job.error();
+  const Status status = in_runtime([&] { return job.value().move_vertices(moved.view()); });
+  if (!status.ok()) return status.error();
+  return host.record_and_run(job.value());
+}
+
+}  // namespace medial_vk::test
