@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sheets/concurrent_sets.h"
+#include "sheets/holes.h"
 #include "sheets/mesh_topology_counts.h"
 #include "sheets/triangle_fans.h"
 #include "sheets/voxel_graph.h"
@@ -108,7 +109,9 @@ class Builder {
 
   bool has_room(const MeshTriangle& t, int k) const { return fans_.has_room(t[k], t[(k + 1) % 3], t[(k + 2) % 3]); }
 
+  /// Unless it closes a bubble.
   void add(const MeshTriangle& t) {
+    if (!boundaries_.add({edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])})) return;
     triangles_.push_back(t);
     present_.insert(t);
     for (int k = 0; k < 3; ++k) {
@@ -171,20 +174,31 @@ class Builder {
   }
 
   /// What is left open between strips. Where two sides of a hole meet and their other ends touch, a triangle makes the
-  /// hole smaller by a side; three sides are closed. Within a sheet the first kind would grow over the rim.
+  /// hole smaller by a side (within a sheet it would grow over the rim); where three sides are there, a triangle closes
+  /// it, unless it would close a bubble.
   void close_holes() {
-    for (const std::size_t sheets : {1u, 2u, 3u, 1u, 2u, 3u}) {
-      for (const Candidate& candidate : candidates(sheets)) {
-        const MeshTriangle& t = candidate.corners;
-        int open = 0, missing = 0;
-        for (int k = 0; k < 3; ++k) {
-          const auto found = edges_.find(edge(t[k], t[(k + 1) % 3]));
-          if (found == edges_.end()) ++missing;
-          if (found != edges_.end() && found->second == 1) ++open;
-        }
-        const bool closes = missing == 0 ? open == 3 : sheets > 1 && missing == 1 && open == 2;
-        if (closes && !present_.contains(t)) add(t);
+    for (int round = 0; round < 2; ++round) {
+      for (const std::size_t sheets : {2u, 3u}) add_if(candidates(sheets), [&](int open, int missing) {
+          return missing == 1 && open == 2;
+        });
+    }
+    for (const std::size_t sheets : {1u, 2u, 3u}) {
+      add_if(candidates(sheets), [](int, int missing) { return missing == 0; });
+    }
+  }
+
+  /// Adds candidates by how many of their sides have one triangle, and how many are no edges yet.
+  template <class Wanted>
+  void add_if(const std::vector<Candidate>& candidates, Wanted wanted) {
+    for (const Candidate& candidate : candidates) {
+      const MeshTriangle& t = candidate.corners;
+      int open = 0, missing = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto found = edges_.find(edge(t[k], t[(k + 1) % 3]));
+        if (found == edges_.end()) ++missing;
+        if (found != edges_.end() && found->second == 1) ++open;
       }
+      if (wanted(open, missing) && !present_.contains(t)) add(t);
     }
   }
 
@@ -236,6 +250,7 @@ class Builder {
   std::vector<std::uint32_t> leaders_;  // by place: itself, or the point that stands for it
   std::vector<std::int32_t> sheet_of_;
   std::vector<MeshTriangle> triangles_;
+  Boundaries boundaries_;
   std::set<MeshTriangle> present_;                // the same
   std::unordered_map<std::uint64_t, int> edges_;  // with the number of their triangles
 };
