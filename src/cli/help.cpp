@@ -67,7 +67,7 @@ What is looked for (lengths are fractions, so units do not matter):
       --seed N          seed of --perturb (default 1)
 
 How points are grouped into sheets:
-      --sheet-angle A   neighbours whose normals differ by no more than A degrees
+      --sheet-angle A   neighbours whose normals differ by at most A degrees
                         are of one sheet, 0 to 90 (default 5.7)
       --sheet-crease A  so are neighbours whose spokes turn by no more than A
                         degrees, as between facets of a round shape, 0 to 180

@@ -137,8 +137,8 @@ TEST(MedialMesh, CurvesStayCurves) {
     }
   }
   EXPECT_EQ(meshed(ring).mesh.topology.euler_characteristic, 0);
-  EXPECT_EQ(meshed(ring).mesh.topology.bare_edges, ring.size());
-  ring.pop_back();
+  EXPECT_EQ(meshed(ring).mesh.topology.bare_edges + 8, ring.size()) << "the four corners are triangles";
+  ring.resize(ring.size() - 2);
   EXPECT_EQ(meshed(ring).mesh.topology.euler_characteristic, 1);
   EXPECT_EQ(meshed(ring).mesh.topology.components, 1u);
 }
