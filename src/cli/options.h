@@ -38,11 +38,11 @@ struct Options {
   std::string device;
   unsigned threads = 0;  ///< 0: all.
 
-  std::string report;   ///< Empty: none; "-": standard output.
-  std::string picture;  ///< The same.
-  std::string html;     ///< The same.
+  std::string report;       ///< Empty: none; "-": standard output.
+  std::string picture;      ///< The same.
+  std::string html;         ///< The same.
   std::string medial_mesh;  ///< The same.
-  PictureOptions look;  ///< Of the picture.
+  PictureOptions look;      ///< Of the picture.
   bool check = false;
 
   bool quiet = false;

@@ -93,8 +93,8 @@ class ExtractionRun {
     if (!options_.html.empty()) {
       if (Status status = check_page_available(); !status) return status;
     }
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html,
-                                    &options_.medial_mesh}) {
+    for (const std::string* path :
+         {&options_.output, &options_.report, &options_.picture, &options_.html, &options_.medial_mesh}) {
       if (path->empty()) continue;
       if (Status status = check_writable(*path); !status) return status;
     }
@@ -181,11 +181,12 @@ class ExtractionRun {
     if (options_.medial_mesh.empty()) return;
     progress_.update("medial mesh", 0);
     Stopwatch stopwatch;
-    const MedialMesh mesh = make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
+    const MedialMesh mesh =
+        make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
     record_.medial_mesh = mesh.topology;
     record_.euler_characteristic = euler_characteristic_of_solid(mesh_);
-    files_.push_back({options_.medial_mesh,
-                      encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets, mesh, options_.ascii)});
+    files_.push_back({options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets,
+                                                               mesh, options_.ascii)});
     record_.host_times.push_back({"medial mesh", stopwatch.lap()});
   }
 

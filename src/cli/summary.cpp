@@ -54,9 +54,9 @@ std::string describe_sheets(const Sheets& sheets) {
 
 /// Both sides of the comparison, so that it is seen at once whether the topology was kept.
 std::string describe_medial_mesh(const RunRecord& record) {
-  std::string text = fmt::format("{}, Euler characteristic {}",
-                                 counted(record.medial_mesh->components, "component", "components"),
-                                 record.medial_mesh->euler_characteristic);
+  std::string text =
+      fmt::format("{}, Euler characteristic {}", counted(record.medial_mesh->components, "component", "components"),
+                  record.medial_mesh->euler_characteristic);
   if (record.euler_characteristic) text += fmt::format(" (of the solid: {})", *record.euler_characteristic);
   return text;
 }

@@ -47,13 +47,13 @@ struct RunRecord {
 
   SheetParameters sheet_parameters;
   Sheets sheets;
-  std::optional<MedialTopology> medial_mesh;          ///< Of --medial-mesh.
+  std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
 
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
   std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
   std::optional<DeviceDescription> device;
-  std::string picture_drawn_by;  ///< Empty: there is no picture.
+  std::string picture_drawn_by;                       ///< Empty: there is no picture.
   std::optional<reference::Certificate> certificate;  ///< Of --check.
 };
 

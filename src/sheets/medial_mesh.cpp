@@ -211,8 +211,8 @@ class Builder {
     return most == 2;
   }
 
-  /// Where sheets meet, each is joined to the one of them with the lowest number only: a seam of three sheets is an edge
-  /// of three triangles, and no tube of three strips around it.
+  /// Where sheets meet, each is joined to the one of them with the lowest number only: a seam of three sheets is an
+  /// edge of three triangles, and no tube of three strips around it.
   bool another_joins_them(const MeshTriangle& t) const {
     const std::int32_t host = std::min({sheet_of_[t[0]], sheet_of_[t[1]], sheet_of_[t[2]]});
     return std::ranges::any_of(t, [&](std::uint32_t corner) {
@@ -248,9 +248,8 @@ class Builder {
   /// it, unless it would close a bubble.
   void close_holes() {
     for (int round = 0; round < 2; ++round) {
-      for (const std::size_t sheets : {2u, 3u}) add_if(candidates(sheets), [&](int open, int missing) {
-          return missing == 1 && open == 2;
-        });
+      for (const std::size_t sheets : {2u, 3u})
+        add_if(candidates(sheets), [&](int open, int missing) { return missing == 1 && open == 2; });
     }
     for (const std::size_t sheets : {1u, 2u, 3u}) {
       add_if(candidates(sheets), [](int, int missing) { return missing == 0; });

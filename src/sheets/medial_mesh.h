@@ -1,4 +1,5 @@
-// Medial points joined to a surface: the neighbours that an edge or a triangle joins. docs/theory.md, "The medial mesh".
+// Medial points joined to a surface: the neighbours that an edge or a triangle joins. docs/theory.md, "The medial
+// mesh".
 #pragma once
 
 #include <array>
@@ -29,14 +30,14 @@ struct MedialMesh {
   std::vector<MeshTriangle> triangles;        ///< Ascending.
   std::vector<std::int32_t> triangle_sheets;  ///< By triangle: the sheet of its corners; -1: it joins two sheets.
   std::vector<MeshEdge> edges;                ///< Ascending: those of the triangles, and bare ones.
-  std::vector<std::uint8_t> edge_marks;       ///< By edge, PointMark: it joins two sheets or has three triangles; or one.
+  std::vector<std::uint8_t> edge_marks;  ///< By edge, PointMark: it joins two sheets or has three triangles; or one.
   MedialTopology topology;
 };
 
-/// Edges join points in voxels that touch, triangles three such points of one sheet or of two that meet there; a hole of
-/// a sheet that these leave gets edges between voxels that are two apart.
-/// `sheets` are those of the same spheres; `epsilon` is the length that points may be off: of those that are closer than
-/// twice that, one is joined to others, and the rest to it. The mesh does not depend on the order of the spheres.
+/// Edges join points in voxels that touch, triangles three such points of one sheet or of two that meet there; a hole
+/// of a sheet that these leave gets edges between voxels that are two apart. `sheets` are those of the same spheres;
+/// `epsilon` is the length that points may be off: of those that are closer than twice that, one is joined to others,
+/// and the rest to it. The mesh does not depend on the order of the spheres.
 MedialMesh make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets, double epsilon);
 
 /// The part of a mesh whose edges and triangles (indices of points, ascending) are in a complex, such as the dual

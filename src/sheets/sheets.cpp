@@ -76,8 +76,8 @@ bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
 
 std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::uint32_t place) {
   const auto neighbours = graph.neighbours(place);
-  const bool seam = std::ranges::any_of(
-      neighbours, [&](std::uint32_t other) { return sheet_of[other] != sheet_of[place]; });
+  const bool seam =
+      std::ranges::any_of(neighbours, [&](std::uint32_t other) { return sheet_of[other] != sheet_of[place]; });
   return static_cast<std::uint8_t>((seam ? kSeam : 0) | (is_rim(graph, place) ? kRim : 0));
 }
 
@@ -114,8 +114,8 @@ void describe(const VoxelGraph& graph, std::span<const double> areas, const std:
 
 }  // namespace
 
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
-                   const ExtractionParameters& extraction, const SheetParameters& parameters) {
+Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
+                   const SheetParameters& parameters) {
   const VoxelGraph graph(spheres);
   std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
   const std::vector<double> areas = areas_in_voxels(graph, grid, extraction.epsilon);

@@ -58,7 +58,7 @@ struct Sheets {
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` is what the points were found with: its object angle and epsilon. Precondition: at most one point per
 /// voxel of `grid`.
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
-                   const ExtractionParameters& extraction, const SheetParameters& parameters);
+Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
+                   const SheetParameters& parameters);
 
 }  // namespace medial_vk

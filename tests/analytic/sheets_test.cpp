@@ -50,11 +50,11 @@ KnownSolid box() {
            "front top", "back top", "front left", "back left", "front right", "back right"}};
 }
 
-/// Arms 0.35 thick and 1 long, 0.5 high: nowhere does a ball touch bottom and top, as the largest, at the corner, has the
-/// radius 0.35 (2 - sqrt(2)) = 0.205. Each arm has a middle; they meet that of the outer corner where a ball touches both
-/// outer walls and the reflex edge. The two inner walls and the reflex edge between them are one part: spokes turn from
-/// one wall to the other without a jump. Both ends have a bisector with each wall beside them, and bottom and top one
-/// with everything else.
+/// Arms 0.35 thick and 1 long, 0.5 high: nowhere does a ball touch bottom and top, as the largest, at the corner, has
+/// the radius 0.35 (2 - sqrt(2)) = 0.205. Each arm has a middle; they meet that of the outer corner where a ball
+/// touches both outer walls and the reflex edge. The two inner walls and the reflex edge between them are one part:
+/// spokes turn from one wall to the other without a jump. Both ends have a bisector with each wall beside them, and
+/// bottom and top one with everything else.
 KnownSolid l_shape() {
   const auto inner = [](const Vector3d& p) {
     const Vector3d q(std::max(p.x(), 0.35), std::max(p.y(), 0.35), 0);
@@ -90,8 +90,7 @@ KnownSolid plate_with_hole() {
            {"bottom", wall(2, 0)},
            {"top", wall(2, 0.15)}},
           {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole",
-           "hole top"}};
+           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole", "hole top"}};
 }
 
 std::string part_at(const KnownSolid& solid, const Vector3d& p) {
@@ -120,8 +119,7 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
   Context context = test::make_context();
   ExtractionParameters parameters;
   parameters.resolution = 80;
-  const Extraction extraction =
-      test::extract_on_device(context, test::prepare(solid.mesh), parameters).extraction;
+  const Extraction extraction = test::extract_on_device(context, test::prepare(solid.mesh), parameters).extraction;
   const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
 
   std::vector<std::map<std::string, std::uint64_t>> names(sheets.sheets.size());
@@ -156,8 +154,8 @@ TEST(KnownAreas, OfABox) {
   double area = 0, exact = (1 - 0.5) * (0.75 - 0.5);
   for (const Sheet& sheet : sheets.sheets) area += sheet.area;
   for (const double edge : {1.0, 0.75, 0.5}) exact += 4 * (edge - 0.25) * 0.5 / std::sqrt(2.0);
-  // Voxels on a rim count as if the sheet went through all of them, those on a seam for one sheet only: a strip of about
-  // half a voxel along 4 (1 + 0.75 + 0.5) of rim.
+  // Voxels on a rim count as if the sheet went through all of them, those on a seam for one sheet only: a strip of
+  // about half a voxel along 4 (1 + 0.75 + 0.5) of rim.
   EXPECT_NEAR(area, exact, 0.03 * exact);
 }
 
@@ -173,8 +171,7 @@ TEST(KnownSheetsOfATorus, OneRing) {
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid), parameters).extraction;
   const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
   ASSERT_EQ(sheets.sheets.size(), 1u);
-  const MedialMesh mesh =
-      make_medial_mesh(extraction.spheres, sheets, parameters.epsilon * extraction.grid.voxel_size);
+  const MedialMesh mesh = make_medial_mesh(extraction.spheres, sheets, parameters.epsilon * extraction.grid.voxel_size);
   EXPECT_EQ(mesh.topology.components, 1u);
   EXPECT_NEAR(static_cast<double>(mesh.topology.euler_characteristic), 0, 6);
 }

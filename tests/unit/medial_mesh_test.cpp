@@ -101,8 +101,8 @@ TEST(MedialMesh, AFlatRingHasAHole) {
 TEST(MedialMesh, AFinJoinsItsHost) {
   std::vector<MedialSphere> spheres = plane(
       {0, 0, 1}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 9); }, 1);
-  for (const MedialSphere& s : plane({1, 0, 0}, {12.4, 12.3, 12.6},
-                                     [](const Point& p) { return within(p, 0, 8) && p[2] > 13; }, 2)) {
+  for (const MedialSphere& s : plane(
+           {1, 0, 0}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 8) && p[2] > 13; }, 2)) {
     spheres.push_back(s);
   }
   const Meshed m = meshed(std::move(spheres));
@@ -162,7 +162,9 @@ TEST(MedialMesh, RestrictedToAComplex) {
   const auto all = [](std::span<const std::uint32_t>) { return true; };
   EXPECT_EQ(restrict_medial_mesh(m.mesh, m.spheres, m.sheets, all).triangles, m.mesh.triangles);
   const MeshEdge gone = m.mesh.edges[m.mesh.edges.size() / 2];
-  const auto without = [&](std::span<const std::uint32_t> s) { return !(s.size() == 2 && s[0] == gone[0] && s[1] == gone[1]); };
+  const auto without = [&](std::span<const std::uint32_t> s) {
+    return !(s.size() == 2 && s[0] == gone[0] && s[1] == gone[1]);
+  };
   const MedialMesh less = restrict_medial_mesh(m.mesh, m.spheres, m.sheets, without);
   EXPECT_EQ(less.edges.size() + 1, m.mesh.edges.size());
   EXPECT_EQ(less.triangles.size() + 2, m.mesh.triangles.size());

@@ -39,9 +39,9 @@ RunRecord some_record() {
 
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
-  for (const char* key :
-       {"format", "program", "version", "input", "output", "parameters", "mesh", "grid", "voxels", "levels", "queries",
-        "narrowing_steps", "retries", "points", "sheets", "grouping", "medial_mesh", "seconds", "device", "certificate"}) {
+  for (const char* key : {"format", "program",  "version",     "input",   "output",          "parameters", "mesh",
+                          "grid",   "voxels",   "levels",      "queries", "narrowing_steps", "retries",    "points",
+                          "sheets", "grouping", "medial_mesh", "seconds", "device",          "certificate"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
