@@ -46,6 +46,7 @@ Output:
                         1200x900; 1800x900 with --show both)
       --html FILE       a page that shows mesh, balls, points and report in a
                         browser: one file, no network
+      --medial-mesh FILE  points joined to a surface, .ply or .ma (Q-MAT)
       --report FILE     everything about the run as JSON; "-": standard output
 
 What is looked for (lengths are fractions, so units do not matter):
@@ -67,6 +68,16 @@ What is looked for (lengths are fractions, so units do not matter):
       --perturb A       move every vertex by up to A times the longest side,
                         0 to 0.1, for degenerate solids (default 0: off)
       --seed N          seed of --perturb (default 1)
+
+How points are grouped into sheets:
+      --sheet-angle A   neighbours whose normals differ by at most A degrees
+                        are of one sheet, 0 to 90 (default 5.7)
+      --sheet-crease A  so are neighbours whose spokes turn by no more than A
+                        degrees, as between facets of a round shape, 0 to 180
+                        (default 40; 0: only the angle decides, as published)
+      --sheet-width W   pieces narrower than W times the diameter of their
+                        balls, 0 to 1, join a neighbour (default 0.3; 0: none)
+      --absorb-fragments N  so do pieces of fewer than N points (default 0)
 
 Where it runs:
       --list-devices    show the Vulkan devices and exit

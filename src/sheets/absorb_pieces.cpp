@@ -7,8 +7,12 @@
 #include <queue>
 #include <utility>
 
+#include "mesh/point_ops.h"
+
 namespace medial_vk {
 namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 struct Piece {
   std::vector<std::uint32_t> places;
@@ -21,7 +25,11 @@ class Absorption {
  public:
   Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
              std::vector<std::uint32_t>& piece_of)
-      : graph_(graph), voxel_size_(voxel_size), parameters_(parameters), piece_of_(piece_of), depths_(graph.size(), 0) {
+      : graph_(graph),
+        voxel_size_(voxel_size),
+        parameters_(parameters),
+        piece_of_(piece_of),
+        nearest_(graph.size(), kNone) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) enter(place);
     into_.resize(pieces_.size());
     for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;
@@ -68,36 +76,43 @@ class Absorption {
                                [&](std::uint32_t other) { return absorber(piece_of_[other]) != own; });
   }
 
-  /// Voxel by voxel from its borders inwards: the depth of the deepest of its voxels, 1 at the border. What lies beside
-  /// a rim is not at a border.
-  std::uint32_t greatest_depth(std::uint32_t own) {
+  /// Voxel by voxel from its borders inwards, with the nearest point of the border that a point heard of from those
+  /// before it: the distance of the farthest. What lies beside a rim is not at a border.
+  double greatest_depth(std::uint32_t own) {
     std::vector<std::uint32_t> front, reached;
     for (const std::uint32_t place : pieces_[own].places) {
-      if (is_at_border(place, own)) front.push_back(place);
+      if (!is_at_border(place, own)) continue;
+      nearest_[place] = place;
+      front.push_back(place);
     }
-    std::uint32_t depth = 0;
+    double depth = 0;
     while (!front.empty()) {
-      ++depth;
-      for (const std::uint32_t place : front) depths_[place] = depth;
       reached.clear();
       for (const std::uint32_t place : front) {
         for (const std::uint32_t other : graph_.neighbours(place)) {
-          if (depths_[other] != 0 || absorber(piece_of_[other]) != own) continue;
-          depths_[other] = depth + 1;
-          reached.push_back(other);
+          if (absorber(piece_of_[other]) != own) continue;
+          if (nearest_[other] == kNone) reached.push_back(other);
+          if (nearest_[other] == kNone || distance(other, nearest_[place]) < distance(other, nearest_[other])) {
+            nearest_[other] = nearest_[place];
+          }
         }
       }
+      for (const std::uint32_t place : front) depth = std::max(depth, distance(place, nearest_[place]));
       front.swap(reached);
     }
-    for (const std::uint32_t place : pieces_[own].places) depths_[place] = 0;
+    for (const std::uint32_t place : pieces_[own].places) nearest_[place] = kNone;
     return depth;
+  }
+
+  double distance(std::uint32_t a, std::uint32_t b) const {
+    return length(graph_.sphere(a).centre - graph_.sphere(b).centre);
   }
 
   void measure_and_ask(std::uint32_t i) {
     Piece& piece = pieces_[i];
     if (piece.borders.empty()) return;
-    // As wide as the widest strip that fits.
-    const double width = (2.0 * greatest_depth(i) - 1) * voxel_size_;
+    // As wide as the widest strip that fits, from one voxel of the border to that on the other side.
+    const double width = 2 * greatest_depth(i) + voxel_size_;
     const double diameter = 2 * piece.radii / static_cast<double>(piece.places.size());
     piece.width = diameter > 0 ? width / diameter : std::numeric_limits<double>::max();
     if (is_small(piece)) queue_.push({piece.width, i});
@@ -145,8 +160,8 @@ class Absorption {
   const SheetParameters& parameters_;
   std::vector<std::uint32_t>& piece_of_;
   std::vector<Piece> pieces_;
-  std::vector<std::uint32_t> into_;    // by piece: itself, or the one that it went to
-  std::vector<std::uint32_t> depths_;  // by place; 0 except while one piece is measured
+  std::vector<std::uint32_t> into_;     // by piece: itself, or the one that it went to
+  std::vector<std::uint32_t> nearest_;  // by place: a place of the border; kNone except while its piece is measured
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
   Absorbed absorbed_;
 };

@@ -1,6 +1,7 @@
 #include "sheets/medial_mesh.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "sheets/concurrent_sets.h"
+#include "sheets/holes.h"
 #include "sheets/mesh_topology_counts.h"
 #include "sheets/triangle_fans.h"
 #include "sheets/voxel_graph.h"
@@ -47,6 +49,7 @@ class Builder {
   void run() {
     join_crowds();
     join_within_sheets();
+    for (const bool empty : {true, true, false, false}) add_with_room(ears(empty));
     join_across_seams();
     close_holes();
     join_curves();
@@ -108,7 +111,9 @@ class Builder {
 
   bool has_room(const MeshTriangle& t, int k) const { return fans_.has_room(t[k], t[(k + 1) % 3], t[(k + 2) % 3]); }
 
+  /// Unless it closes a bubble.
   void add(const MeshTriangle& t) {
+    if (!boundaries_.add({edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])})) return;
     triangles_.push_back(t);
     present_.insert(t);
     for (int k = 0; k < 3; ++k) {
@@ -130,12 +135,80 @@ class Builder {
     return found == edges_.end() ? 0 : found->second;
   }
 
-  /// Small circles first, as long as the triangles around each corner do not overlap.
+  /// Is no other point of the sheet in the ball around the circumscribed circle? On a flat sheet that is the triangle's
+  /// empty circle, the mark of a Delaunay triangulation. Points on the circle do not count.
+  bool is_empty(const Candidate& candidate) const {
+    const MeshTriangle& t = candidate.corners;
+    const Point& origin = graph_.sphere(t[0]).centre;
+    const Point u = graph_.sphere(t[1]).centre - origin, v = graph_.sphere(t[2]).centre - origin;
+    const Point n = cross(u, v);
+    const Point centre = origin + 1 / (2 * dot(n, n)) * (dot(u, u) * cross(v, n) + dot(v, v) * cross(n, u));
+    const double least = (1 - 1e-9) * candidate.squared_circumradius;
+    return std::ranges::none_of(t, [&](std::uint32_t corner) {
+      return std::ranges::any_of(graph_.neighbours(corner), [&](std::uint32_t other) {
+        if (sheet_of_[other] != sheet_of_[corner] || !leads(other)) return false;
+        if (other == t[0] || other == t[1] || other == t[2]) return false;
+        const Point d = graph_.sphere(other).centre - centre;
+        return dot(d, d) < least;
+      });
+    });
+  }
+
+  /// Those of empty circles, then others, small circles first, as long as the triangles around each corner do not
+  /// overlap. The others serve where a triangle of an empty circle would join voxels that do not touch.
   void join_within_sheets() {
-    for (const Candidate& candidate : candidates(1)) {
+    const std::vector<Candidate> all = candidates(1);
+    std::vector<Candidate> empty;
+    std::ranges::copy_if(all, std::back_inserter(empty), [&](const Candidate& c) { return is_empty(c); });
+    add_with_room(empty);
+    add_with_room(all);
+  }
+
+  void add_with_room(const std::vector<Candidate>& candidates) {
+    for (const Candidate& candidate : candidates) {
       const MeshTriangle& t = candidate.corners;
-      if (has_room(t, 0) && has_room(t, 1) && has_room(t, 2)) add(t);
+      if (!present_.contains(t) && has_room(t, 0) && has_room(t, 1) && has_room(t, 2)) add(t);
     }
+  }
+
+  /// Triangles at two sides that have one triangle, whose other ends are two voxels apart: where points lie so in their
+  /// voxels that no triangle of voxels that touch closes a hole of a sheet. Not beside seams, which have strips.
+  std::vector<Candidate> ears(bool empty) const {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> open;
+    for (const auto& [key, count] : edges_) {
+      if (count != 1) continue;
+      open[ends_of(key)[0]].push_back(ends_of(key)[1]);
+      open[ends_of(key)[1]].push_back(ends_of(key)[0]);
+    }
+    std::vector<Candidate> out;
+    for (auto& [tip, ends] : open) {
+      std::sort(ends.begin(), ends.end());
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (std::size_t j = i + 1; j < ends.size(); ++j) {
+          if (!two_apart(ends[i], ends[j]) || is_at_seam(tip) || is_at_seam(ends[i]) || is_at_seam(ends[j])) continue;
+          Candidate ear = {squared_circumradius(graph_.sphere(tip).centre, graph_.sphere(ends[i]).centre,
+                                                graph_.sphere(ends[j]).centre),
+                           {tip, ends[i], ends[j]}};
+          std::sort(ear.corners.begin(), ear.corners.end());
+          if (!(ear.squared_circumradius < std::numeric_limits<double>::infinity())) continue;
+          if (!empty || is_empty(ear)) out.push_back(ear);
+        }
+      }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  bool is_at_seam(std::uint32_t place) const {
+    return std::ranges::any_of(graph_.neighbours(place),
+                               [&](std::uint32_t other) { return sheet_of_[other] != sheet_of_[place]; });
+  }
+
+  bool two_apart(std::uint32_t a, std::uint32_t b) const {
+    const auto &u = graph_.sphere(a).voxel, &v = graph_.sphere(b).voxel;
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, std::max(u[i], v[i]) - std::min(u[i], v[i]));
+    return most == 2;
   }
 
   /// Where sheets meet, each is joined to the one of them with the lowest number only: a seam of three sheets is an
@@ -171,20 +244,30 @@ class Builder {
   }
 
   /// What is left open between strips. Where two sides of a hole meet and their other ends touch, a triangle makes the
-  /// hole smaller by a side; three sides are closed. Within a sheet the first kind would grow over the rim.
+  /// hole smaller by a side (within a sheet it would grow over the rim); where three sides are there, a triangle closes
+  /// it, unless it would close a bubble.
   void close_holes() {
-    for (const std::size_t sheets : {1u, 2u, 3u, 1u, 2u, 3u}) {
-      for (const Candidate& candidate : candidates(sheets)) {
-        const MeshTriangle& t = candidate.corners;
-        int open = 0, missing = 0;
-        for (int k = 0; k < 3; ++k) {
-          const auto found = edges_.find(edge(t[k], t[(k + 1) % 3]));
-          if (found == edges_.end()) ++missing;
-          if (found != edges_.end() && found->second == 1) ++open;
-        }
-        const bool closes = missing == 0 ? open == 3 : sheets > 1 && missing == 1 && open == 2;
-        if (closes && !present_.contains(t)) add(t);
+    for (int round = 0; round < 2; ++round) {
+      for (const std::size_t sheets : {2u, 3u})
+        add_if(candidates(sheets), [&](int open, int missing) { return missing == 1 && open == 2; });
+    }
+    for (const std::size_t sheets : {1u, 2u, 3u}) {
+      add_if(candidates(sheets), [](int, int missing) { return missing == 0; });
+    }
+  }
+
+  /// Adds candidates by how many of their sides have one triangle, and how many are no edges yet.
+  template <class Wanted>
+  void add_if(const std::vector<Candidate>& candidates, Wanted wanted) {
+    for (const Candidate& candidate : candidates) {
+      const MeshTriangle& t = candidate.corners;
+      int open = 0, missing = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto found = edges_.find(edge(t[k], t[(k + 1) % 3]));
+        if (found == edges_.end()) ++missing;
+        if (found != edges_.end() && found->second == 1) ++open;
       }
+      if (wanted(open, missing) && !present_.contains(t)) add(t);
     }
   }
 
@@ -236,6 +319,7 @@ class Builder {
   std::vector<std::uint32_t> leaders_;  // by place: itself, or the point that stands for it
   std::vector<std::int32_t> sheet_of_;
   std::vector<MeshTriangle> triangles_;
+  Boundaries boundaries_;
   std::set<MeshTriangle> present_;                // the same
   std::unordered_map<std::uint64_t, int> edges_;  // with the number of their triangles
 };

@@ -34,9 +34,10 @@ struct MedialMesh {
   MedialTopology topology;
 };
 
-/// Edges join points in voxels that touch, triangles three such points of one sheet or of two that meet there.
-/// `sheets` are those of the same spheres; `epsilon` is the length that points may be off: of those that are closer
-/// than twice that, one is joined to others, and the rest to it. The mesh does not depend on the order of the spheres.
+/// Edges join points in voxels that touch, triangles three such points of one sheet or of two that meet there; a hole
+/// of a sheet that these leave gets edges between voxels that are two apart. `sheets` are those of the same spheres;
+/// `epsilon` is the length that points may be off: of those that are closer than twice that, one is joined to others,
+/// and the rest to it. The mesh does not depend on the order of the spheres.
 MedialMesh make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets, double epsilon);
 
 /// The part of a mesh whose edges and triangles (indices of points, ascending) are in a complex, such as the dual

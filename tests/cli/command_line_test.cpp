@@ -185,6 +185,23 @@ TEST_F(CommandLine, PictureAsAskedFor) {
   EXPECT_EQ(read_file(path("p.png")).substr(16, 8), std::string("\0\0\0\x60\0\0\0\x40", 8));
 }
 
+TEST_F(CommandLine, SheetsAreInPointsAndReport) {
+  ASSERT_EQ(run_cpu({"part.obj", "--report", "r.json", "--medial-mesh", "m.ma"}).exit_code, 0);
+  const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
+  std::vector<std::uint64_t> counts(report["sheets"].size(), 0);
+  for (const MedialSphere& sphere : points("part.medial.ply").spheres) {
+    ++counts.at(static_cast<std::size_t>(sphere.sheet));
+  }
+  ASSERT_GT(counts.size(), 1u);
+  for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_EQ(report["sheets"][i]["points"], counts[i]);
+  EXPECT_EQ(report["medial_mesh"]["components"], 1);
+  EXPECT_THAT(read_file(path("m.ma")), StartsWith(std::to_string(report["points"]["written"].get<int>()) + " "));
+
+  // Everything in one.
+  ASSERT_EQ(run_cpu({"part.obj", "-o", "one.ply", "--sheet-crease", "180"}).exit_code, 0);
+  for (const MedialSphere& sphere : points("one.ply").spheres) EXPECT_EQ(sphere.sheet, 0);
+}
+
 TEST_F(CommandLine, PerturbIsSeededAndSimplifyOnlyRemoves) {
   ASSERT_EQ(run_cpu({"part.obj", "-o", "plain.ply"}).exit_code, 0);
   for (const char* name : {"a.ply", "b.ply"}) {

@@ -318,9 +318,81 @@ def glb_mesh_by_assimp(run):
     expect_brighter_with_angle(run.reference["object_angle"], np.float64(colours[:, 0, :3]))
 
 
+def without_edges(run, name):
+    """meshio refuses an element `edge`; as the last one it is cut off here, and decoded from the text of its header."""
+    header, body = (run.folder / name).read_bytes().split(b"end_header\n", 1)
+    count = int(re.search(rb"element edge (\d+)\n", header)[1])
+    start = header.index(b"element edge")
+    assert header[start:].count(b"element") == 1, "the last element"
+    if b"format ascii" in header:
+        lines = body.splitlines(keepends=True)
+        edges = np.array([line.split() for line in lines[-count:]], dtype=np.int64)
+        body = b"".join(lines[:-count])
+    else:
+        row = np.dtype([("ends", "<i4", 2), ("seam", "u1"), ("rim", "u1")])
+        cut = len(body) - count * row.itemsize
+        found = np.frombuffer(body[cut:], dtype=row)
+        edges = np.column_stack([found["ends"], found["seam"], found["rim"]]).astype(np.int64)
+        body = body[:cut]
+    (run.folder / "faces.ply").write_bytes(header[:start] + b"end_header\n" + body)
+    return meshio.read(run.folder / "faces.ply"), edges
+
+
+def expect_medial_mesh(run, edges, triangles):
+    """Neighbouring voxels, few of them two apart; sides of triangles are edges."""
+    ends = np.concatenate([edges, triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]])
+    assert len(triangles) > 50 and ends.min() >= 0 and ends.max() < len(run.reference["radius"])
+    apart = np.abs(run.voxels()[ends[:, 0]] - run.voxels()[ends[:, 1]]).max(axis=1)
+    assert apart.min() == 1 and apart.max() <= 2 and np.mean(apart == 1) > 0.9, np.bincount(apart)
+    assert {tuple(sorted(pair)) for pair in ends.tolist()} == {tuple(pair) for pair in edges.tolist()}
+    assert len(np.unique(edges, axis=0)) == len(edges) and len(np.unique(triangles, axis=0)) == len(triangles)
+
+
+def medial_mesh_ply(run, *options):
+    run.make("other.ply", "--medial-mesh", "mesh.ply", *options)
+    mesh, edges = without_edges(run, "mesh.ply")
+    assert np.array_equal(mesh.points, run.centres())
+    for name in ("radius", "sheet"):
+        assert np.array_equal(mesh.point_data[name], run.reference[name]), name
+    triangles = mesh.cells_dict["triangle"]
+    expect_medial_mesh(run, edges[:, :2], triangles)
+    sheets = run.reference["sheet"]
+    across = sheets[edges[:, 0]] != sheets[edges[:, 1]]
+    assert np.any(across) and np.all(edges[across, 2] == 1)
+    of_corners = sheets[triangles]
+    one = np.all(of_corners == of_corners[:, :1], axis=1)
+    found = np.ravel(mesh.cell_data["sheet"])
+    assert np.array_equal(found, np.where(one, of_corners[:, 0], -1))
+    counts = {}
+    for t in triangles.tolist():
+        for a, b in ((0, 1), (1, 2), (0, 2)):
+            side = tuple(sorted((t[a], t[b])))
+            counts[side] = counts.get(side, 0) + 1
+    assert np.array_equal(edges[:, 3] == 1, [counts.get(tuple(pair), 0) == 1 for pair in edges[:, :2].tolist()])
+    assert set(np.unique(mesh.point_data["seam"])) == set(np.unique(mesh.point_data["rim"])) == {0, 1}
+
+
+def medial_mesh_ply_text(run):
+    medial_mesh_ply(run, "--ascii")
+
+
+def medial_mesh_ma(run):
+    run.make("other.ply", "--medial-mesh", "mesh.ma")
+    lines = [line.split() for line in (run.folder / "mesh.ma").read_text().splitlines()]
+    vertices, edges, faces = (int(word) for word in lines[0])
+    assert len(lines) == 1 + vertices + edges + faces and vertices == len(run.reference["radius"])
+    parts = {kind: [line[1:] for line in lines[1:] if line[0] == kind] for kind in "vef"}
+    assert [len(parts[kind]) for kind in "vef"] == [vertices, edges, faces]
+    values = np.array(parts["v"], dtype=np.float64)
+    assert np.array_equal(values[:, :3], run.centres()) and np.array_equal(values[:, 3], run.reference["radius"])
+    expect_medial_mesh(run, np.array(parts["e"], dtype=np.int64), np.array(parts["f"], dtype=np.int64))
+
+
 CASES = {"ply": ply, "ply_text": ply_text, "csv": csv_table, "npz": npz, "json": json_points, "mesh_ply": mesh_ply,
          "mesh_ply_text": mesh_ply_text, "glb": glb, "glb_nodes_by_assimp": glb_nodes_by_assimp,
-         "glb_gpu_instancing": glb_gpu_instancing, "glb_mesh_by_assimp": glb_mesh_by_assimp}
+         "glb_gpu_instancing": glb_gpu_instancing, "glb_mesh_by_assimp": glb_mesh_by_assimp,
+         "medial_mesh_ply": medial_mesh_ply, "medial_mesh_ply_text": medial_mesh_ply_text,
+         "medial_mesh_ma": medial_mesh_ma}
 
 
 def main():

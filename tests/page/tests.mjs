@@ -373,7 +373,7 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** Sheets have no numbers yet: some are put in here. */
+  /** More sheets than colours, and points of none: put in here. */
   async sheets({workshop, browser}) {
     const points = workshop.make(lShape(), kSmall);
     const numbers = Buffer.from(Int32Array.from(points, (_, i) => i % 20 - 1).buffer).toString('base64');

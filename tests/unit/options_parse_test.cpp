@@ -133,6 +133,28 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
   EXPECT_THAT(message_of({"a.obj", "--show", "both"}), HasSubstr("use it with --picture FILE.png"));
 }
 
+TEST(Options, SheetsAreGroupedAsAskedFor) {
+  EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetParameters());
+  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-width", "0.1",
+                                         "--absorb-fragments", "20"})
+                                     .sheets;
+  EXPECT_EQ(sheets.angle, 10);
+  EXPECT_EQ(sheets.crease, 0);
+  EXPECT_EQ(sheets.width, 0.1);
+  EXPECT_EQ(sheets.absorb_fragments, 20u);
+  EXPECT_THAT(message_of({"a.obj", "--sheet-angle", "91"}), HasSubstr("--sheet-angle"));
+  EXPECT_THAT(message_of({"a.obj", "--sheet-crease", "-1"}), HasSubstr("--sheet-crease"));
+  EXPECT_THAT(message_of({"a.obj", "--sheet-width", "2"}), HasSubstr("--sheet-width"));
+  EXPECT_THAT(message_of({"a.obj", "--absorb-fragments", "many"}), HasSubstr("--absorb-fragments"));
+}
+
+TEST(Options, TheMedialMeshHasTwoFormats) {
+  EXPECT_EQ(parsed({"a.obj", "--medial-mesh", "m.ma"}).medial_mesh, "m.ma");
+  EXPECT_EQ(parsed({"a.obj", "--medial-mesh", "m.PLY"}).medial_mesh, "m.PLY");
+  EXPECT_THAT(message_of({"a.obj", "--medial-mesh", "m.obj"}), HasSubstr("ends in neither .ply nor .ma"));
+  EXPECT_THAT(message_of({"a.obj", "-o", "m.ply", "--medial-mesh", "m.ply"}), HasSubstr("are the same file"));
+}
+
 TEST(Options, EveryOptionIsUnderstood) {
   const Options options = parsed({"a.obj",
                                   "-o",

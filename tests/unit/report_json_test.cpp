@@ -39,9 +39,9 @@ RunRecord some_record() {
 
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
-  for (const char* key :
-       {"format", "program", "version", "input", "output", "parameters", "mesh", "grid", "voxels", "levels", "queries",
-        "narrowing_steps", "retries", "points", "seconds", "device", "certificate"}) {
+  for (const char* key : {"format", "program",  "version",     "input",   "output",          "parameters", "mesh",
+                          "grid",   "voxels",   "levels",      "queries", "narrowing_steps", "retries",    "points",
+                          "sheets", "grouping", "medial_mesh", "seconds", "device",          "certificate"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
@@ -84,6 +84,63 @@ TEST(ReportJson, HoldsEveryDocumentedKey) {
   EXPECT_EQ(report["seconds"]["device"][0]["seconds"], 1.5);
   EXPECT_EQ(report["device"]["name"], "Some GPU");
   EXPECT_TRUE(report["certificate"].is_null());
+}
+
+TEST(ReportJson, SheetsAndMedialMesh) {
+  RunRecord record = some_record();
+  Sheet sheet;
+  sheet.points = 200;
+  sheet.area = 1.5;
+  sheet.mean_radius = 0.2;
+  sheet.mean_object_angle = 1.1;
+  record.sheets.sheets = {sheet, sheet};
+  record.sheets.sheets[1].significance = 0.25;
+  record.sheets.fragments = 3;
+  record.sheets.absorbed_points = 17;
+  json report = json::parse(report_json(record));
+  ASSERT_EQ(report["sheets"].size(), 2u);
+  EXPECT_EQ(report["sheets"][1]["id"], 1);
+  EXPECT_EQ(report["sheets"][0]["points"], 200);
+  EXPECT_EQ(report["sheets"][0]["area"], 1.5);
+  EXPECT_EQ(report["sheets"][0]["mean_radius"], 0.2);
+  EXPECT_EQ(report["sheets"][0]["mean_object_angle"], 1.1);
+  EXPECT_TRUE(report["sheets"][0]["significance"].is_null());
+  EXPECT_EQ(report["sheets"][1]["significance"], 0.25);
+  EXPECT_EQ(report["grouping"]["fragments"]["sheets"], 3);
+  EXPECT_EQ(report["grouping"]["absorbed"]["points"], 17);
+  EXPECT_EQ(report["grouping"]["sheet_angle"], 5.7);
+  EXPECT_TRUE(report["medial_mesh"].is_null());
+
+  record.medial_mesh = MedialTopology{1, -1, 20, 3, 4};
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["medial_mesh"]["euler_characteristic"], -1);
+  EXPECT_TRUE(report["medial_mesh"]["solid"]["euler_characteristic"].is_null());
+  record.euler_characteristic = 0;
+  EXPECT_EQ(json::parse(report_json(record))["medial_mesh"]["solid"]["euler_characteristic"], 0);
+  EXPECT_THAT(cli::summary(record, {}), HasSubstr("Euler characteristic -1 (of the solid: 0)"));
+}
+
+TEST(ReportJson, UnionAndRemoval) {
+  RunRecord record = some_record();
+  json report = json::parse(report_json(record));
+  EXPECT_TRUE(report["union"].is_null());
+  EXPECT_TRUE(report["removal"].is_null());
+
+  record.mesh.closed = true;
+  record.mesh.signed_volume = 8;
+  record.ball_union = UnionRecord{6, 12, {1, 2, 3}};
+  record.removal = SheetRemoval{{2, 0}, {0.75, 0.5}, {1, 3}};
+  record.keep_volume = 0.5;
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["union"],
+            json({{"volume", 6.0}, {"area", 12.0}, {"components", 1}, {"tunnels", 2}, {"cavities", 3}}));
+  EXPECT_EQ(report["removal"]["removed"], json({2, 0}));
+  EXPECT_EQ(report["removal"]["kept"], json({1, 3}));
+  EXPECT_EQ(report["removal"]["volume_left"], json({0.75, 0.5}));
+  EXPECT_EQ(report["removal"]["keep_topology"], false);
+  const std::string text = cli::summary(record, {});
+  EXPECT_THAT(text, HasSubstr("6, 75.00 % of the solid; 1 component, 2 tunnels, 3 cavities"));
+  EXPECT_THAT(text, HasSubstr("2 of 4 sheets, 50.00 % of the volume"));
 }
 
 TEST(ReportJson, CertificateAndCpu) {

@@ -21,8 +21,7 @@ std::string ply_header(const MedialHeader& header, std::size_t points, const Med
       "element face {}\nproperty list uchar int vertex_indices\nproperty int sheet\n"
       "element edge {}\nproperty int vertex1\nproperty int vertex2\nproperty uchar seam\nproperty uchar rim\n"
       "end_header\n",
-      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points, mesh.triangles.size(),
-      mesh.edges.size());
+      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points, mesh.triangles.size(), mesh.edges.size());
 }
 
 std::uint8_t flag(std::uint8_t marks, PointMark mark) { return (marks & mark) != 0 ? 1 : 0; }

@@ -1,0 +1,27 @@
+// Does a triangle close a hole or a bubble?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace medial_vk {
+
+/// The boundaries of triangles modulo 2, reduced as in persistent homology (Edelsbrunner, Letscher and Zomorodian
+/// 2002). A triangle whose three sides are there already closes a hole if its boundary is no sum of boundaries of the
+/// triangles before it; if it is one, the triangle closes a bubble.
+class Boundaries {
+ public:
+  /// By its three sides, in any numbers that tell edges apart. True: it closes no bubble, and counts from now on.
+  bool add(std::array<std::uint64_t, 3> sides);
+
+ private:
+  using Chain = std::vector<std::uint32_t>;  // edges, descending
+  std::uint32_t number_of(std::uint64_t side);
+
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
+  std::vector<Chain> by_last_;  // by edge: the reduced chain that it is the last of, or none
+};
+
+}  // namespace medial_vk

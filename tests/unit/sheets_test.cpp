@@ -1,0 +1,286 @@
+// Sheets of points that are put down by hand.
+#include "sheets/sheets.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <thread>
+
+#include "sheets/check_sheets.h"
+#include "sheets/concurrent_sets.h"
+#include "sheets/voxel_graph.h"
+#include "sheets/voxel_section.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::ElementsAre;
+
+const VoxelGrid kGrid = {{0, 0, 0}, 1.0, {64, 64, 64}};
+
+/// A point in the middle of a voxel, of a sheet with the given normal (of unit length): spokes at right angles to it.
+MedialSphere point_at(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::array<float, 3> normal,
+                      double radius = 4) {
+  MedialSphere s;
+  s.voxel = {x, y, z};
+  s.centre = {x + 0.5, y + 0.5, z + 0.5};
+  s.radius = radius;
+  s.spoke_a = normal;
+  s.spoke_b = {-normal[0], -normal[1], -normal[2]};
+  s.object_angle = static_cast<float>(std::numbers::pi / 2);
+  return s;
+}
+
+/// A square of n x n points across z, its normal tilted by an angle in degrees.
+std::vector<MedialSphere> square(std::uint32_t n, double tilt = 0, std::uint32_t x = 1, std::uint32_t z = 8) {
+  const double turn = tilt * std::numbers::pi / 180;
+  const std::array<float, 3> normal = {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))};
+  std::vector<MedialSphere> out;
+  for (std::uint32_t j = 1; j <= n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) out.push_back(point_at(x + i, j, z, normal));
+  }
+  return out;
+}
+
+std::vector<MedialSphere> together(std::vector<MedialSphere> a, const std::vector<MedialSphere>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Only the published test.
+SheetParameters as_published(double angle = 5.7) { return {angle, 0, 0, 0}; }
+
+Sheets find(const std::vector<MedialSphere>& spheres, const SheetParameters& parameters) {
+  return find_sheets(spheres, kGrid, ExtractionParameters(), parameters);
+}
+
+std::vector<std::uint64_t> sizes(const Sheets& sheets) {
+  std::vector<std::uint64_t> out;
+  for (const Sheet& sheet : sheets.sheets) out.push_back(sheet.points);
+  return out;
+}
+
+TEST(Sheets, ASquareIsOneSheetOfItsArea) {
+  const Sheets sheets = find(square(10), as_published());
+  ASSERT_EQ(sheets.sheets.size(), 1u);
+  EXPECT_EQ(sheets.sheets[0].points, 100u);
+  EXPECT_NEAR(sheets.sheets[0].area, 100, 1e-6);
+  EXPECT_DOUBLE_EQ(sheets.sheets[0].mean_radius, 4);
+  EXPECT_NEAR(sheets.sheets[0].mean_object_angle, std::numbers::pi / 2, 1e-6);
+  EXPECT_FALSE(sheets.sheets[0].significance.has_value());
+  EXPECT_EQ(sheets.seam_points, 0u);
+  EXPECT_EQ(sheets.rim_points, 36u);  // the outermost ring
+}
+
+TEST(Sheets, NothingHasNoSheets) {
+  const Sheets sheets = find({}, SheetParameters());
+  EXPECT_TRUE(sheets.sheets.empty());
+  EXPECT_TRUE(sheets.of_point.empty());
+}
+
+// Section 2.5: within tau, whatever the sign of the normal.
+TEST(Sheets, TheAngleDecidesAndTheSignDoesNot) {
+  const std::vector<MedialSphere> a = square(6);
+  std::vector<MedialSphere> b = square(6, 5, 7);
+  for (MedialSphere& s : b) std::swap(s.spoke_a, s.spoke_b);
+  EXPECT_THAT(sizes(find(together(a, b), as_published(5.1))), ElementsAre(72));
+  EXPECT_THAT(sizes(find(together(a, b), as_published(4.9))), ElementsAre(36, 36));
+  EXPECT_EQ(find(together(a, b), as_published(4.9)).seam_points, 12u);
+}
+
+// A facet's crease turns both spokes by its angle.
+TEST(Sheets, CreasesJoin) {
+  const std::vector<MedialSphere> bent = together(square(6), square(6, 20, 7));
+  SheetParameters parameters = as_published();
+  parameters.crease = 19;
+  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u);
+  parameters.crease = 21;
+  EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
+}
+
+// Normals that agree do not join two sheets if a salient one may pass between them: here two bisectors of a square
+// prism's opposite edges, in one plane.
+TEST(Sheets, OppositeBisectorsAreTwoSheets) {
+  std::vector<MedialSphere> a = square(6), b = square(6, 0, 7);
+  const auto root = static_cast<float>(std::sqrt(0.5));
+  for (MedialSphere& s : a) s.spoke_a = {-root, 0, root}, s.spoke_b = {-root, 0, -root};
+  for (MedialSphere& s : b) s.spoke_a = {root, 0, root}, s.spoke_b = {root, 0, -root};
+  EXPECT_EQ(sizes(find(together(a, b), SheetParameters())).size(), 2u);
+  EXPECT_EQ(sizes(find(together(a, b), as_published())).size(), 1u) << "as published, normals alone decide";
+}
+
+// Section 2.5: a sheet may turn by any angle along the way.
+TEST(Sheets, ASheetMayTurnSlowly) {
+  std::vector<MedialSphere> strip;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const double turn = i * 5 * std::numbers::pi / 180;
+    for (std::uint32_t j = 1; j < 4; ++j) {
+      strip.push_back(
+          point_at(i + 1, j, 5, {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
+    }
+  }
+  EXPECT_EQ(sizes(find(strip, as_published())).size(), 1u);
+}
+
+TEST(Sheets, DecreasingNumberOfPointsThenFirstVoxel) {
+  // Apart from each other: 9, 16, 9 points.
+  const std::vector<MedialSphere> spheres =
+      together(together(square(3, 0, 1, 20), square(4, 0, 1, 10)), square(3, 0, 20, 10));
+  const Sheets sheets = find(spheres, SheetParameters());
+  EXPECT_THAT(sizes(sheets), ElementsAre(16, 9, 9));
+  EXPECT_EQ(sheets.of_point.front(), 2) << "z = 20 comes after z = 10";
+  EXPECT_EQ(sheets.of_point.back(), 1);
+  EXPECT_EQ(sheets.fragments, 2u);
+  EXPECT_EQ(sheets.fragment_points, 18u);
+}
+
+/// Patches of random tilts side by side, so that there is a lot to decide.
+std::vector<MedialSphere> patchwork(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> tilts(0, 60);
+  std::vector<MedialSphere> out;
+  for (std::uint32_t k = 0; k < 12; ++k) out = together(out, square(5, tilts(random), 1 + 5 * k, 8));
+  std::uniform_real_distribution<double> radii(1, 20);
+  for (MedialSphere& s : out) s.radius = radii(random);
+  return out;
+}
+
+TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const std::vector<MedialSphere> spheres = patchwork(seed);
+    std::vector<std::uint32_t> order(spheres.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::mt19937 random(seed);
+    std::shuffle(order.begin(), order.end(), random);
+    std::vector<MedialSphere> shuffled;
+    for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
+
+    for (const SheetParameters& parameters : {SheetParameters(), as_published(), SheetParameters{5.7, 20, 0.2, 30}}) {
+      const Sheets a = find(spheres, parameters), b = find(shuffled, parameters);
+      ASSERT_EQ(a.sheets.size(), b.sheets.size());
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        ASSERT_EQ(b.of_point[i], a.of_point[order[i]]) << "seed " << seed;
+        ASSERT_EQ(b.marks[i], a.marks[order[i]]);
+      }
+      for (std::size_t i = 0; i < a.sheets.size(); ++i) {
+        EXPECT_EQ(a.sheets[i].area, b.sheets[i].area);
+        EXPECT_EQ(a.sheets[i].mean_radius, b.sheets[i].mean_radius);
+      }
+    }
+  }
+}
+
+TEST(Sheets, SmallPiecesJoinTheNeighbourTheyTouchMost) {
+  // Ten columns, a strip of two, three columns, all 13 high; bends of 60 degrees.
+  std::vector<MedialSphere> spheres;
+  for (const MedialSphere& s : square(15)) {
+    if (s.voxel[1] > 13) continue;
+    const bool strip = s.voxel[0] == 11 || s.voxel[0] == 12;
+    const auto side = static_cast<float>(std::sin(std::numbers::pi / 3));
+    spheres.push_back(strip ? point_at(s.voxel[0], s.voxel[1], s.voxel[2], {side, 0, 0.5f}) : s);
+  }
+  SheetParameters parameters;
+  parameters.width = 0;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(130, 39, 26));
+  parameters.absorb_fragments = 27;
+  const Sheets absorbed = find(spheres, parameters);
+  EXPECT_EQ(absorbed.pieces, 3u);
+  EXPECT_EQ(absorbed.absorbed_pieces, 1u);
+  EXPECT_EQ(absorbed.absorbed_points, 26u);
+  EXPECT_THAT(sizes(absorbed), ElementsAre(156, 39)) << "of two that it touches as much, the first";
+  // The strip is one voxel deep: 1/8 of the diameter. The columns beside it are three deep from there: 5/8.
+  parameters = {};
+  parameters.width = 0.12;
+  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 3u);
+  parameters.width = 0.13;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(156, 39));
+}
+
+TEST(Sheets, APieceWithoutNeighboursStays) {
+  SheetParameters parameters;
+  parameters.width = 1;
+  parameters.absorb_fragments = 1000;
+  EXPECT_EQ(sizes(find(together(square(2), square(2, 0, 30)), parameters)).size(), 2u);
+}
+
+TEST(Sheets, CheckFindsPartsAndWrongNumbers) {
+  std::vector<MedialSphere> spheres = together(square(4), square(3, 0, 20));
+  const Sheets sheets = find(spheres, SheetParameters());
+  for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = sheets.of_point[i];
+  for (const auto& line : check_sheets(spheres)) EXPECT_EQ(line.failed, 0u) << line.first_failure;
+  for (MedialSphere& s : spheres) s.sheet = 0;
+  EXPECT_EQ(check_sheets(spheres)[0].failed, 1u) << "two parts";
+  for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = 1 - sheets.of_point[i];
+  EXPECT_EQ(check_sheets(spheres)[1].failed, 1u) << "the smaller one first";
+  for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = -1;
+  EXPECT_EQ(check_sheets(spheres)[1].failed, 1u) << "none";
+}
+
+TEST(VoxelGraph, NeighboursAreThoseOfTheTwentySixVoxels) {
+  std::mt19937 random(3);
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t z = 0; z < 6; ++z) {
+    for (std::uint32_t y = 0; y < 6; ++y) {
+      for (std::uint32_t x = 0; x < 6; ++x) {
+        if (random() % 2 == 0) spheres.push_back(point_at(x, y, z, {0, 0, 1}));
+      }
+    }
+  }
+  std::shuffle(spheres.begin(), spheres.end(), random);
+  const VoxelGraph graph(spheres);
+  ASSERT_EQ(graph.size(), spheres.size());
+  for (std::uint32_t a = 0; a < graph.size(); ++a) {
+    EXPECT_EQ(&graph.sphere(a), &spheres[graph.index(a)]);
+    EXPECT_TRUE(a == 0 || is_earlier_voxel(graph.sphere(a - 1).voxel, graph.sphere(a).voxel));
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t b = 0; b < graph.size(); ++b) {
+      if (a != b && graph.touch(a, b)) expected.push_back(b);
+    }
+    const auto found = graph.neighbours(a);
+    EXPECT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), expected);
+  }
+}
+
+TEST(VoxelSection, KnownAreas) {
+  constexpr double kTolerance = 1e-12;
+  EXPECT_NEAR(section_area({0.5, 0.5, 0.3}, {0, 0, 2}), 1, kTolerance);
+  EXPECT_NEAR(section_area({0.5, 0.5, 0.5}, {1, 1, 0}), std::sqrt(2), kTolerance);
+  EXPECT_NEAR(section_area({0.5, 0.5, 0.5}, {1, 1, 1}), 0.75 * std::sqrt(3), kTolerance);  // the regular hexagon
+  EXPECT_NEAR(section_area({1 / 3.0, 1 / 3.0, 1 / 3.0}, {1, 1, 1}), std::sqrt(3) / 2, kTolerance);
+  EXPECT_EQ(section_area({0.5, 0.5, 1.5}, {0, 0, 1}), 0);
+  EXPECT_EQ(section_area({0.5, 0.5, 0.5}, {0, 0, 0}), 0);
+}
+
+// Where a sheet lies in the wall between two layers of voxels, both have points of it.
+TEST(Sheets, ASheetInAWallCountsOnce) {
+  std::vector<MedialSphere> below = square(10), above = square(10, 0, 1, 9);
+  for (MedialSphere& s : below) s.centre[2] = 9 - 0.003;
+  for (MedialSphere& s : above) s.centre[2] = 9 + 0.003;
+  const Sheets sheets = find(together(below, above), SheetParameters());
+  ASSERT_EQ(sheets.sheets.size(), 1u);
+  EXPECT_NEAR(sheets.sheets[0].area, 100, 1e-6);
+}
+
+TEST(ConcurrentSets, TheRootIsTheLeastMemberWhateverTheThreads) {
+  constexpr std::uint32_t kSize = 40000;
+  ConcurrentSets sets(kSize);
+  const auto work = [&](std::uint32_t seed) {
+    std::mt19937 random(seed);
+    // Chains of every seventh, in a random order: seven sets.
+    std::vector<std::uint32_t> order(kSize - 7);
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::uint32_t i : order) sets.join(i, i + 7);
+  };
+  std::vector<std::thread> threads;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) threads.emplace_back(work, seed);
+  for (std::thread& thread : threads) thread.join();
+  for (std::uint32_t i = 0; i < kSize; ++i) ASSERT_EQ(sets.root(i), i % 7);
+}
+
+}  // namespace
+}  // namespace medial_vk
