@@ -47,6 +47,9 @@ Output:
       --html FILE       a page that shows mesh, balls, points and report in a
                         browser: one file, no network
       --medial-mesh FILE  points joined to a surface, .ply or .ma (Q-MAT)
+      --sheet-curve FILE  .csv or .svg: the volume that is left when sheets go,
+                        the least significant first, and so that topology stays
+      --ball-volumes FILE  .csv: what each ball adds to the union's volume
       --report FILE     everything about the run as JSON; "-": standard output
 
 What is looked for (lengths are fractions, so units do not matter):
@@ -78,6 +81,10 @@ How points are grouped into sheets:
       --sheet-width W   pieces narrower than W times the diameter of their
                         balls, 0 to 1, join a neighbour (default 0.3; 0: none)
       --absorb-fragments N  so do pieces of fewer than N points (default 0)
+      --keep-volume V   keep only the most significant sheets, with at least V
+                        of the volume of the union of balls, above 0 to 1
+      --keep-topology   remove none of them without which the union had another
+                        number of components, tunnels or cavities
 
 Where it runs:
       --list-devices    show the Vulkan devices and exit

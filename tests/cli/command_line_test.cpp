@@ -4,8 +4,10 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "output/medial_file.h"
@@ -200,6 +202,40 @@ TEST_F(CommandLine, SheetsAreInPointsAndReport) {
   // Everything in one.
   ASSERT_EQ(run_cpu({"part.obj", "-o", "one.ply", "--sheet-crease", "180"}).exit_code, 0);
   for (const MedialSphere& sphere : points("one.ply").spheres) EXPECT_EQ(sphere.sheet, 0);
+}
+
+TEST_F(CommandLine, VolumesOfBallsAndSheets) {
+  ASSERT_EQ(run_cpu({"part.obj", "--report", "r.json", "--ball-volumes", "b.csv", "--sheet-curve", "c.svg"}).exit_code,
+            0);
+  const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
+  double sum = 0;
+  for (const auto& sheet : report["sheets"]) sum += sheet["significance"].get<double>();
+  EXPECT_NEAR(sum, 1, 1e-12);
+  // Balls inside: less than the solid.
+  EXPECT_LT(report["union"]["volume"], report["mesh"]["signed_volume"]);
+  EXPECT_GT(report["union"]["volume"], 0.5 * report["mesh"]["signed_volume"].get<double>());
+  const std::string table = read_file(path("b.csv"));
+  EXPECT_THAT(table, StartsWith("point,sheet,volume,area,significance\n0,"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), report["points"]["written"].get<int>() + 1);
+  EXPECT_THAT(read_file(path("c.svg")), StartsWith("<svg "));
+}
+
+TEST_F(CommandLine, KeepsTheSheetsThatCount) {
+  const ToolResult result = run_cpu({"part.obj", "--report", "r.json", "--keep-volume", "0.7", "--keep-topology",
+                                     "--sheet-curve", "c.csv", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
+  const nlohmann::json& removal = report["removal"];
+  ASSERT_FALSE(removal["removed"].empty());
+  EXPECT_GE(removal["volume_left"].back(), 0.7);
+  std::set<std::int32_t> kept, written;
+  for (const auto& sheet : removal["kept"]) kept.insert(sheet.get<std::int32_t>());
+  const auto& spheres = points("part.medial.ply").spheres;
+  for (const MedialSphere& sphere : spheres) written.insert(sphere.sheet);
+  EXPECT_EQ(written, kept);
+  EXPECT_EQ(report["points"]["written"], spheres.size());
+  EXPECT_THAT(read_file(path("c.csv")), HasSubstr("\ntopology,"));
+  EXPECT_THAT(result.err, HasSubstr("kept"));
 }
 
 TEST_F(CommandLine, PerturbIsSeededAndSimplifyOnlyRemoves) {

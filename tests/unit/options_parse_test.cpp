@@ -148,6 +148,20 @@ TEST(Options, SheetsAreGroupedAsAskedFor) {
   EXPECT_THAT(message_of({"a.obj", "--absorb-fragments", "many"}), HasSubstr("--absorb-fragments"));
 }
 
+TEST(Options, VolumesAreMeasuredAsAskedFor) {
+  const Options options =
+      parsed({"a.obj", "--keep-volume", "0.9", "--keep-topology", "--sheet-curve", "c.SVG", "--ball-volumes", "b.csv"});
+  EXPECT_EQ(options.keep_volume, 0.9);
+  EXPECT_TRUE(options.keep_topology);
+  EXPECT_EQ(options.sheet_curve, "c.SVG");
+  EXPECT_EQ(options.ball_volumes, "b.csv");
+  EXPECT_THAT(message_of({"a.obj", "--keep-volume", "0"}), HasSubstr("--keep-volume"));
+  EXPECT_THAT(message_of({"a.obj", "--keep-volume", "1.1"}), HasSubstr("--keep-volume"));
+  EXPECT_THAT(message_of({"a.obj", "--keep-topology"}), HasSubstr("use it with --keep-volume"));
+  EXPECT_THAT(message_of({"a.obj", "--sheet-curve", "c.png"}), HasSubstr("ends in neither .csv nor .svg"));
+  EXPECT_THAT(message_of({"a.obj", "--ball-volumes", "b.txt"}), HasSubstr("does not end in .csv"));
+}
+
 TEST(Options, TheMedialMeshHasTwoFormats) {
   EXPECT_EQ(parsed({"a.obj", "--medial-mesh", "m.ma"}).medial_mesh, "m.ma");
   EXPECT_EQ(parsed({"a.obj", "--medial-mesh", "m.PLY"}).medial_mesh, "m.PLY");
