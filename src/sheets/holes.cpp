@@ -13,9 +13,9 @@ std::uint32_t Boundaries::number_of(std::uint64_t side) {
   return found->second;
 }
 
-bool Boundaries::add(std::array<std::uint64_t, 3> sides) {
+Boundaries::Chain Boundaries::reduced(std::span<const std::uint64_t> edges) {
   Chain chain;
-  for (const std::uint64_t side : sides) chain.push_back(number_of(side));
+  for (const std::uint64_t edge : edges) chain.push_back(number_of(edge));
   std::sort(chain.begin(), chain.end(), std::greater<>());
   Chain sum;
   while (!chain.empty() && !by_last_[chain.front()].empty()) {
@@ -25,6 +25,13 @@ bool Boundaries::add(std::array<std::uint64_t, 3> sides) {
                                   std::greater<>());
     chain.swap(sum);
   }
+  return chain;
+}
+
+bool Boundaries::is_boundary(std::span<const std::uint64_t> loop) { return reduced(loop).empty(); }
+
+bool Boundaries::add(std::array<std::uint64_t, 3> sides) {
+  Chain chain = reduced(sides);
   if (chain.empty()) return false;
   const std::uint32_t last = chain.front();
   by_last_[last] = std::move(chain);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -15,10 +16,13 @@ class Boundaries {
  public:
   /// By its three sides, in any numbers that tell edges apart. True: it closes no bubble, and counts from now on.
   bool add(std::array<std::uint64_t, 3> sides);
+  /// Is a loop of edges a sum of the boundaries so far? Else it goes around a hole.
+  bool is_boundary(std::span<const std::uint64_t> loop);
 
  private:
   using Chain = std::vector<std::uint32_t>;  // edges, descending
   std::uint32_t number_of(std::uint64_t side);
+  Chain reduced(std::span<const std::uint64_t> edges);
 
   std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
   std::vector<Chain> by_last_;  // by edge: the reduced chain that it is the last of, or none

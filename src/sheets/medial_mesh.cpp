@@ -244,15 +244,39 @@ class Builder {
   }
 
   /// What is left open between strips. Where two sides of a hole meet and their other ends touch, a triangle makes the
-  /// hole smaller by a side (within a sheet it would grow over the rim); where three sides are there, a triangle closes
-  /// it, unless it would close a bubble.
+  /// hole smaller by a side (within a sheet it would grow over the rim); where three or four sides are there, triangles
+  /// close it, unless they would close a bubble.
   void close_holes() {
     for (int round = 0; round < 2; ++round) {
       for (const std::size_t sheets : {2u, 3u})
         add_if(candidates(sheets), [&](int open, int missing) { return missing == 1 && open == 2; });
     }
     for (const std::size_t sheets : {1u, 2u, 3u}) {
-      add_if(candidates(sheets), [](int, int missing) { return missing == 0; });
+      const std::vector<Candidate> all = candidates(sheets);
+      add_if(all, [](int, int missing) { return missing == 0; });
+      for (const Candidate& candidate : all) close_with_partner(candidate.corners);
+    }
+  }
+
+  /// Two triangles that share the only side of the first that is no edge yet, if they close a hole of four sides.
+  void close_with_partner(const MeshTriangle& t) {
+    int missing = 0, tip = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (edges_.contains(edge(t[(k + 1) % 3], t[(k + 2) % 3]))) continue;
+      ++missing;
+      tip = k;
+    }
+    if (missing != 1) return;
+    const std::uint32_t at = t[tip], left = t[(tip + 1) % 3], right = t[(tip + 2) % 3];
+    for (const std::uint32_t other : graph_.neighbours(left)) {
+      if (other == at || !edges_.contains(edge(other, left)) || !edges_.contains(edge(other, right))) continue;
+      const std::array loop = {edge(at, left), edge(left, other), edge(other, right), edge(right, at)};
+      if (boundaries_.is_boundary(loop)) continue;
+      add(t);
+      MeshTriangle partner = {left, right, other};
+      std::sort(partner.begin(), partner.end());
+      add(partner);
+      return;
     }
   }
 

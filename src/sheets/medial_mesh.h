@@ -27,9 +27,8 @@ struct MedialTopology {
 
 /// All vertices are the medial points, by their indices.
 struct MedialMesh {
-  std::vector<MeshTriangle> triangles;        ///< Ascending.
-  std::vector<std::int32_t> triangle_sheets;  ///< By triangle: the sheet of its corners; -1: it joins two sheets.
-  std::vector<MeshEdge> edges;                ///< Ascending: those of the triangles, and bare ones.
+  std::vector<MeshTriangle> triangles;   ///< Ascending.
+  std::vector<MeshEdge> edges;           ///< Ascending: those of the triangles, and bare ones.
   std::vector<std::uint8_t> edge_marks;  ///< By edge, PointMark: it joins two sheets or has three triangles; or one.
   MedialTopology topology;
 };

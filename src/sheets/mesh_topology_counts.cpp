@@ -37,12 +37,6 @@ std::uint64_t count_components(std::size_t points, const MedialMesh& mesh) {
 
 void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh) {
   sort_all(mesh);
-  mesh.triangle_sheets.clear();
-  for (const MeshTriangle& t : mesh.triangles) {
-    const std::int32_t sheet = sheets.of_point[t[0]];
-    const bool one = sheets.of_point[t[1]] == sheet && sheets.of_point[t[2]] == sheet;
-    mesh.triangle_sheets.push_back(one ? sheet : -1);
-  }
   MedialTopology& topology = mesh.topology;
   topology = {};
   mesh.edge_marks.clear();

@@ -30,6 +30,7 @@ struct KnownSolid {
   Mesh mesh;
   std::vector<Part> parts;
   std::set<std::string> sheets;  ///< "part part", names ascending.
+  std::int64_t euler_characteristic;
 };
 
 std::function<double(const Vector3d&)> wall(int axis, double at) {
@@ -47,7 +48,8 @@ KnownSolid box() {
            {"bottom", wall(2, 0)},
            {"top", wall(2, 0.5)}},
           {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right"}};
+           "front top", "back top", "front left", "back left", "front right", "back right"},
+          1};
 }
 
 /// Arms 0.35 thick and 1 long, 0.5 high: nowhere does a ball touch bottom and top, as the largest, at the corner, has
@@ -71,7 +73,8 @@ KnownSolid l_shape() {
            {"top", wall(2, 0.5)}},
           {"inner left", "front inner", "front left", "end_x front", "end_x inner", "end_y left", "end_y inner",
            "bottom left", "bottom front", "bottom inner", "bottom end_x", "bottom end_y", "left top", "front top",
-           "inner top", "end_x top", "end_y top"}};
+           "inner top", "end_x top", "end_y top"},
+          1};
 }
 
 /// The middle, a ring; bisectors of the four outer walls with each other, with bottom and with top; and one bisector of
@@ -90,7 +93,8 @@ KnownSolid plate_with_hole() {
            {"bottom", wall(2, 0)},
            {"top", wall(2, 0.15)}},
           {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole", "hole top"}};
+           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole", "hole top"},
+          0};
 }
 
 std::string part_at(const KnownSolid& solid, const Vector3d& p) {
@@ -135,6 +139,11 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
     found.insert(most->first);
   }
   EXPECT_EQ(found, std::multiset<std::string>(solid.sheets.begin(), solid.sheets.end()));
+  const MedialMesh mesh = make_medial_mesh(extraction.spheres, sheets, parameters.epsilon * extraction.grid.voxel_size);
+  EXPECT_EQ(mesh.topology.components, 1u);
+  // No bubbles; but holes of five and more sides may be left at seams: 6, 8 and 11 here.
+  EXPECT_LE(mesh.topology.euler_characteristic, solid.euler_characteristic);
+  EXPECT_GE(mesh.topology.euler_characteristic, solid.euler_characteristic - 12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, KnownSheets, testing::Values(&box, &l_shape, &plate_with_hole),

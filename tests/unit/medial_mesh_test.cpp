@@ -207,7 +207,12 @@ TEST(Holes, TheLastFaceOfATetrahedronClosesABubble) {
   EXPECT_TRUE(hole.add({12, 24, 14}));
   EXPECT_TRUE(hole.add({23, 35, 25}));
   EXPECT_TRUE(hole.add({13, 36, 16}));
+  const std::uint64_t around[] = {12, 23, 13}, outside[] = {24, 14, 13, 23};
+  EXPECT_FALSE(hole.is_boundary(around));
+  EXPECT_FALSE(hole.is_boundary(outside));
   EXPECT_TRUE(hole.add({12, 23, 13}));
+  EXPECT_TRUE(hole.is_boundary(around));
+  EXPECT_TRUE(hole.is_boundary(outside));
 }
 
 }  // namespace

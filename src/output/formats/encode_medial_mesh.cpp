@@ -18,7 +18,7 @@ std::string ply_header(const MedialHeader& header, std::size_t points, const Med
       "element vertex {}\n"
       "property double x\nproperty double y\nproperty double z\nproperty double radius\n"
       "property int sheet\nproperty uchar seam\nproperty uchar rim\n"
-      "element face {}\nproperty list uchar int vertex_indices\nproperty int sheet\n"
+      "element face {}\nproperty list uchar int vertex_indices\n"
       "element edge {}\nproperty int vertex1\nproperty int vertex2\nproperty uchar seam\nproperty uchar rim\n"
       "end_header\n",
       ascii ? "ascii" : "binary_little_endian", ply_comments(header), points, mesh.triangles.size(), mesh.edges.size());
@@ -34,10 +34,9 @@ void append_binary(std::string& out, std::span<const MedialSphere> spheres, cons
     append_little_endian(out, sheets.of_point[i]);
     for (const PointMark mark : {kSeam, kRim}) append_little_endian(out, flag(sheets.marks[i], mark));
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (const MeshTriangle& t : mesh.triangles) {
     append_little_endian(out, std::uint8_t{3});
-    for (const std::uint32_t corner : mesh.triangles[i]) append_little_endian(out, corner);
-    append_little_endian(out, mesh.triangle_sheets[i]);
+    for (const std::uint32_t corner : t) append_little_endian(out, corner);
   }
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
     for (const std::uint32_t end : mesh.edges[i]) append_little_endian(out, end);
@@ -53,10 +52,7 @@ void append_text(std::string& out, std::span<const MedialSphere> spheres, const 
     fmt::format_to(end, "{:.17g} {:.17g} {:.17g} {:.17g} {} {} {}\n", c[0], c[1], c[2], spheres[i].radius,
                    sheets.of_point[i], flag(sheets.marks[i], kSeam), flag(sheets.marks[i], kRim));
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const MeshTriangle& t = mesh.triangles[i];
-    fmt::format_to(end, "3 {} {} {} {}\n", t[0], t[1], t[2], mesh.triangle_sheets[i]);
-  }
+  for (const MeshTriangle& t : mesh.triangles) fmt::format_to(end, "3 {} {} {}\n", t[0], t[1], t[2]);
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
     fmt::format_to(end, "{} {} {} {}\n", mesh.edges[i][0], mesh.edges[i][1], flag(mesh.edge_marks[i], kSeam),
                    flag(mesh.edge_marks[i], kRim));

@@ -9,7 +9,8 @@
 
 namespace medial_vk {
 
-/// Points with radius, sheet and marks; triangles with their sheets; edges with their marks.
+/// Points with radius, sheet and marks; triangles; edges with their marks. The sheet of a triangle is left to its
+/// corners: some readers of binary PLY (meshio 5) take faces for lists only.
 std::string encode_medial_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres,
                                    const Sheets& sheets, const MedialMesh& mesh, bool ascii);
 /// Numbers have the fewest digits that read back exactly. Sheets and marks have no place in it.
