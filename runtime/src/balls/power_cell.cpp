@@ -11,6 +11,8 @@ namespace {
 
 // Room between the ball and the box: corners on walls must lie outside the ball, whatever rounding does.
 constexpr double kRoom = 1 + 0x1p-20;
+// Corners that rounding may have moved by more, in radii, are found from the ends of their edges.
+constexpr double kSharp = 0x1p-40;
 
 /// Where three planes meet, and how far rounding may have moved it. With unit normals, |p x q| <= 1, so every product
 /// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
@@ -94,15 +96,16 @@ PowerCell::Corner PowerCell::corner_on_edge(const Corner& kept, const Corner& cu
   const auto [at, slack] = meet(planes_[corner.planes[0]], planes_[corner.planes[1]], planes_[corner.planes[2]]);
   corner.at = at;
   corner.slack = slack;
-  // Where planes are nearly parallel, the ends of the edge say more.
-  const Point edge = cut.at - kept.at;
-  const double within = length(edge) + std::max(kept.slack, cut.slack);
-  if (!(slack <= within)) {
+  // Where planes are nearly parallel, or nearly have a line in common, the point above may be off in any direction. The
+  // ends of the edge keep it on the edge at least, which is what volumes need.
+  if (!(slack <= kSharp * balls_[ball_].radius)) {
+    const Point edge = cut.at - kept.at;
+    const double within = length(edge) + std::max(kept.slack, cut.slack);
     const double above = heights_[static_cast<std::size_t>(&cut - corners_.data())];
     const double below = heights_[static_cast<std::size_t>(&kept - corners_.data())];
     const double share = above - below > 0 ? std::clamp(-below / (above - below), 0.0, 1.0) : 0.5;
     corner.at = kept.at + share * edge;
-    corner.slack = within;
+    corner.slack = std::min(within, slack + length(corner.at - at));
   }
   return corner;
 }
