@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -39,11 +40,17 @@ void expect_same_measures(const std::vector<Ball>& balls, const BallUnion& found
   EXPECT_NEAR(found.area, expected.area, kAgrees * expected.area);
 }
 
+/// Ours is a complex of the union in its own right: the same measures follow from it.
+void expect_consistent(const std::vector<Ball>& balls, const BallUnion& found) {
+  expect_same_measures(balls, found, found.complex);
+}
+
 /// Ties may be broken in another way: only the topology is the same.
 void expect_same_union(const std::vector<Ball>& balls) {
   const BallUnion found = measure(balls);
   const DualComplex complex = test::dual_complex_by_cgal(balls);
   expect_same_measures(balls, found, complex);
+  expect_consistent(balls, found);
   EXPECT_EQ(betti_numbers(found.complex), betti_numbers(complex));
   EXPECT_EQ(euler(found.complex), euler(complex));
 }
@@ -101,9 +108,22 @@ TEST(UnionByCgal, OfLatticesWithNoise) {
 /// Noise of one rounding: CGAL's radii, squared and rounded, are not ours, and the diagrams differ everywhere.
 TEST(UnionByCgal, OfLatticesWithRoundingNoise) {
   for (const double radius : {0.625, 0.8, 1.0, 1.3}) {
-    for (const double noise : {1e-17, 1e-16, 1e-15}) {
-      const auto balls = test::lattice(5, radius, noise);
-      expect_same_measures(balls, measure(balls), test::dual_complex_by_cgal(balls));
+    for (const double noise : {1e-18, 1e-17, 1e-16, 1e-15}) expect_same_union(test::lattice(5, radius, noise));
+  }
+}
+
+/// Few balls on a plane, a line, a sphere or through a point, but for noise.
+TEST(UnionByCgal, OfNearlyDegenerateBalls) {
+  std::mt19937_64 engine(7);
+  for (unsigned n = 0; n < 200; ++n) {
+    const double noise = std::pow(10, -8 - static_cast<double>(engine() % 11));
+    for (auto balls : {test::flat_lattice(4, 1.3), test::collinear(20, n), test::cospherical(20 + n % 20, 1.1),
+                       test::through_a_point(20, n, true), test::on_a_plane(20, n)}) {
+      std::uniform_real_distribution<double> by(-noise, noise);
+      for (auto& [c, r] : balls) c = {c[0] + by(engine), c[1] + by(engine), c[2] + by(engine)};
+      const BallUnion found = measure(balls);
+      expect_same_measures(balls, found, test::dual_complex_by_cgal(balls));
+      expect_consistent(balls, found);
     }
   }
 }

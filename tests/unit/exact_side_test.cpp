@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -191,6 +192,36 @@ TEST(ExactSide, DecidesTheSameForAllCellsOfFourCoplanarBalls) {
     for (std::size_t k = 0; k < 5; ++k) balls[k].centre[2] = k == static_cast<std::size_t>(n) % 5 ? 0.5 : 0.25;
     expect_one_triangulation(balls, n);
   }
+}
+
+/// However flat a corner is, it is found to a few units in the last place: put into the planes' equations, multiplied out
+/// exactly, it leaves no more than its slack allows.
+TEST(ExactSide, MeetsWithinItsSlack) {
+  std::mt19937 random(7);
+  const std::vector<Wall> no_walls;
+  int flat = 0;
+  for (int n = 0; n < 500; ++n) {
+    const auto balls = five_balls(random, 4, kNoises[random() % 4]);
+    std::array<Row, 3> r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = row(balls, no_walls, 0, static_cast<std::int32_t>(k + 1));
+    const ExactNumber determinant = test::exact_determinant(r[0], r[1], r[2]);
+    if (determinant.sign() == 0) continue;
+    ExactSide exact(balls, no_walls);
+    const auto [at, slack] = exact.meet(0, 1, 2, 3);
+    const double size = std::hypot(at[0], at[1], at[2]);
+    EXPECT_LE(slack, 0x1p-46 * balls[0].radius + 0x1p-48 * size);
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Cramer: coordinate k times the determinant is the one with the offsets as column k.
+      std::array<Row, 3> with_offsets = r;
+      for (Row& w : with_offsets) w[k] = w[3];
+      const ExactNumber rest = ExactNumber(at[k]) * determinant -
+                               test::exact_determinant(with_offsets[0], with_offsets[1], with_offsets[2]);
+      const ExactNumber allowed = ExactNumber(slack) * determinant;
+      EXPECT_LE((rest * rest - allowed * allowed).sign(), 0) << n;
+    }
+    flat += (determinant * determinant - ExactNumber(0x1p-60)).sign() < 0;
+  }
+  EXPECT_GT(flat, 20);
 }
 
 TEST(ExactSide, OfEqualBallsTheFirstKeepsAll) {
