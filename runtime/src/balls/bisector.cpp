@@ -35,6 +35,27 @@ auto determinant(const Row& a, const Row& b, const Row& c, const Difference& dif
              product(a.normal[2], minor(0, 1)));
 }
 
+/// Cramer's rule: the point is (x, y, z) / determinant.
+template <class Number>
+struct Quotient {
+  Number x[3], determinant;
+};
+
+template <class Row, class Difference, class Sum, class Product>
+auto meeting_point(const Row& a, const Row& b, const Row& c, const Difference& difference, const Sum& sum,
+                   const Product& product) {
+  Quotient<decltype(product(a.offset, a.offset))> point;
+  for (int k = 0; k < 3; ++k) {
+    const int u = (k + 1) % 3, v = (k + 2) % 3;
+    const auto part = [&](const Row& p, const Row& q, const Row& s) {
+      return product(p.offset, difference(product(q.normal[u], s.normal[v]), product(q.normal[v], s.normal[u])));
+    };
+    point.x[k] = sum(sum(part(a, b, c), part(b, c, a)), part(c, a, b));
+  }
+  point.determinant = determinant(a, b, c, difference, sum, product);
+  return point;
+}
+
 }  // namespace
 
 ExactSide::Row<DoubleDouble> ExactSide::rounded_row(std::uint32_t i, std::int32_t plane) const {
@@ -128,6 +149,33 @@ bool ExactSide::keeps_by_expansions(std::uint32_t i, const std::array<std::int32
   }
   // Without a decision m is a wall: walls are imagined a little farther out.
   return decision.sign == 0 || decision.sign == orientation;
+}
+
+std::pair<Point, double> ExactSide::meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s) {
+  const auto point = meeting_point(rounded_row(i, p), rounded_row(i, q), rounded_row(i, s), std::minus<>{},
+                                   std::plus<>{}, std::multiplies<>{});
+  const double size = std::fabs(point.determinant.value()), error = point.determinant.error();
+  Point at;
+  double slack = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    at[k] = point.x[k].value() / point.determinant.value();
+    slack += (point.x[k].error() + std::fabs(at[k]) * error) / size;
+  }
+  // Twice, as the determinant may be smaller than its rounded value and for the roundings here.
+  if (error < 0.25 * size && 2 * slack <= 0x1p-46 * balls_[i].radius) return {at, 2 * slack};
+  return meet_by_expansions(i, {p, q, s});
+}
+
+std::pair<Point, double> ExactSide::meet_by_expansions(std::uint32_t i, const std::array<std::int32_t, 3>& names) {
+  arena_.reset();
+  const auto point = meeting_point(
+      exact_row(i, names[0]), exact_row(i, names[1]), exact_row(i, names[2]),
+      [&](Expansion a, Expansion b) { return math_.difference(a, b); },
+      [&](Expansion a, Expansion b) { return math_.sum(a, b); },
+      [&](Expansion a, Expansion b) { return math_.product(a, b); });
+  Point at;
+  for (std::size_t k = 0; k < 3; ++k) at[k] = value(point.x[k]) / value(point.determinant);
+  return {at, 8 * DBL_EPSILON * length(at)};
 }
 
 }  // namespace medial_vk

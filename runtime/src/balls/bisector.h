@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "balls/double_double.h"
@@ -44,6 +45,9 @@ class ExactSide {
   /// True if plane m keeps the point where planes p, q, s of the cell of ball i meet. Their normals are independent.
   /// Each is a ball's number or -1 - a wall's.
   bool keeps(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s, std::int32_t m);
+  /// Where planes p, q, s of the cell of ball i meet, relative to its centre, and how far rounding may have moved that:
+  /// a few units in the last place of the point's distance, however flat the corner.
+  std::pair<Point, double> meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s);
   /// True if the plane between i and j, which have the same centre, keeps anything: if i is the larger one, or as large
   /// and named first.
   bool keeps_concentric(std::uint32_t i, std::uint32_t j) const {
@@ -57,6 +61,7 @@ class ExactSide {
     Number normal[3], offset;
   };
   bool keeps_by_expansions(std::uint32_t i, const std::array<std::int32_t, 4>& names);
+  std::pair<Point, double> meet_by_expansions(std::uint32_t i, const std::array<std::int32_t, 3>& names);
   Row<DoubleDouble> rounded_row(std::uint32_t i, std::int32_t plane) const;
   Row<Expansion> exact_row(std::uint32_t i, std::int32_t plane);
 

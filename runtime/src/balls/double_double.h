@@ -44,6 +44,10 @@ class DoubleDouble {
     return high_ > 0 ? 1 : -1;
   }
 
+  /// The nearest double, and how far the true number may be from it.
+  double value() const { return high_; }
+  double error() const { return 0x1p-102 * error_ + 0x1p-53 * std::fabs(high_); }
+
   friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.high_, -a.low_, a.size_, a.error_}; }
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
     const auto [high, high_rest] = two_sum(a.high_, b.high_);

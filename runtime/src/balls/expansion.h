@@ -52,6 +52,13 @@ using Expansion = std::span<const double>;
 /// -1, 0 or 1: the largest component outweighs all others.
 inline int sign(Expansion e) { return e.empty() ? 0 : e.back() > 0 ? 1 : -1; }
 
+/// Rounded: off by less than two units in its last place, the components being smaller and smaller.
+inline double value(Expansion e) {
+  double sum = 0;
+  for (const double component : e) sum += component;
+  return sum;
+}
+
 /// Sums, differences and products of expansions, exactly. The results live as long as the arena is not reset.
 class ExpansionMath {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <tuple>
 
 #include "point_math.h"
 
@@ -11,6 +12,9 @@ namespace {
 
 // Room between the ball and the box: corners on walls must lie outside the ball, whatever rounding does.
 constexpr double kRoom = 1 + 0x1p-20;
+// Corners that rounding may have moved by more, in radii, are found with more digits: where planes nearly have a line
+// in common, anything may happen along it, and volumes and simplices must not depend on which.
+constexpr double kSharp = 0x1p-40;
 
 /// Where three planes meet, and how far rounding may have moved it. With unit normals, |p x q| <= 1, so every product
 /// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
@@ -86,23 +90,16 @@ bool PowerCell::find_cut_corners(const Bisector& plane) {
   return !cut_.empty();
 }
 
-/// The corner where the edge between two others, at the cut one opposite its plane `slot`, meets the new plane.
-PowerCell::Corner PowerCell::corner_on_edge(const Corner& kept, const Corner& cut, std::size_t slot,
-                                            std::uint32_t plane) const {
+/// The corner where the edge that ends in a cut corner, opposite its plane `slot`, meets the new plane.
+PowerCell::Corner PowerCell::corner_on_edge(const Corner& cut, std::size_t slot, std::uint32_t plane) const {
   Corner corner = cut;
   corner.planes[slot] = plane;
   const auto [at, slack] = meet(planes_[corner.planes[0]], planes_[corner.planes[1]], planes_[corner.planes[2]]);
   corner.at = at;
   corner.slack = slack;
-  // Where planes are nearly parallel, the ends of the edge say more.
-  const Point edge = cut.at - kept.at;
-  const double within = length(edge) + std::max(kept.slack, cut.slack);
-  if (!(slack <= within)) {
-    const double above = heights_[static_cast<std::size_t>(&cut - corners_.data())];
-    const double below = heights_[static_cast<std::size_t>(&kept - corners_.data())];
-    const double share = above - below > 0 ? std::clamp(-below / (above - below), 0.0, 1.0) : 0.5;
-    corner.at = kept.at + share * edge;
-    corner.slack = within;
+  if (!(slack <= kSharp * balls_[ball_].radius)) {
+    const auto name = [&](std::size_t k) { return planes_[corner.planes[k]].ball; };
+    std::tie(corner.at, corner.slack) = exact_.meet(ball_, name(0), name(1), name(2));
   }
   return corner;
 }
@@ -114,7 +111,7 @@ void PowerCell::add_corners(std::uint32_t plane) {
       const std::uint32_t kept = corners_[c].neighbours[slot];
       if (kept >= is_cut_.size() || is_cut_[kept]) continue;
       const auto name = static_cast<std::uint32_t>(corners_.size());
-      Corner corner = corner_on_edge(corners_[kept], corners_[c], slot, plane);
+      Corner corner = corner_on_edge(corners_[c], slot, plane);
       corner.neighbours[slot] = kept;
       for (std::size_t k = 0; k < 3; ++k) {
         if (corners_[kept].neighbours[k] != c) continue;

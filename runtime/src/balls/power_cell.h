@@ -42,7 +42,7 @@ class PowerCell {
   void add_corners(std::uint32_t plane);
   void link_new_corners();
   void remove_cut_corners();
-  Corner corner_on_edge(const Corner& kept, const Corner& cut, std::size_t slot, std::uint32_t plane) const;
+  Corner corner_on_edge(const Corner& cut, std::size_t slot, std::uint32_t plane) const;
 
   std::span<const Ball> balls_;
   std::uint32_t ball_ = 0;

@@ -1,0 +1,17 @@
+// The dual complex by CGAL: its regular triangulation with exact predicates and its own criteria of what is in it.
+#pragma once
+
+#include <span>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk::test {
+
+/// Complete and sorted, like BallUnion::complex. Squared radii are rounded to double; of balls that are equal, any one
+/// counts.
+DualComplex dual_complex_by_cgal(std::span<const Ball> balls);
+
+/// How many vertices the regular triangulation of the balls has; nothing else is done with it (for measurements).
+std::size_t triangulate_by_cgal(std::span<const Ball> balls);
+
+}  // namespace medial_vk::test
