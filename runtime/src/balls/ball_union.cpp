@@ -1,7 +1,6 @@
 #include "medial_vk/ball_union.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
+#include "balls/unit_balls.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 
@@ -16,55 +16,6 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kBlock = 64;  // balls that one builder measures without forgetting: fixed, so that bytes are, too
-
-Status check(std::span<const Ball> balls) {
-  if (balls.size() >= 1u << 31) return Error{ErrorCode::kUsage, "a union of 2^31 balls or more"};
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const auto& [centre, radius] = balls[i];
-    const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]) && std::isfinite(centre[2]);
-    if (!finite || !std::isfinite(radius) || radius < 0) {
-      return Error{ErrorCode::kUsage, "ball " + std::to_string(i) +
-                                          " has a centre or radius that is not finite, or a " + "negative radius"};
-    }
-  }
-  return {};
-}
-
-/// A power of two that brings all numbers to at most 1, which costs no rounding.
-double scale_of(std::span<const Ball> balls) {
-  double largest = 0;
-  for (const auto& [centre, radius] : balls) {
-    largest = std::max({largest, std::fabs(centre[0]), std::fabs(centre[1]), std::fabs(centre[2]), radius});
-  }
-  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
-}
-
-/// To a multiple of 2^-150, so that products of five of them are exact.
-double snap(double x) {
-  if (std::fabs(x) >= 0x1p-98) return x;
-  constexpr double kRounder = 0x1.8p-98;
-  return (x + kRounder) - kRounder;
-}
-
-std::vector<Ball> scaled(std::span<const Ball> balls, double scale) {
-  std::vector<Ball> result(balls.begin(), balls.end());
-  for (auto& [centre, radius] : result) {
-    for (double& x : centre) x = snap(scale * x);
-    radius = snap(scale * radius);
-  }
-  return result;
-}
-
-/// Sums with the rounding errors of the additions carried along (Neumaier): the result does not wear out with n.
-double careful_sum(std::span<const double> terms) {
-  double sum = 0, lost = 0;
-  for (const double term : terms) {
-    const double next = sum + term;
-    lost += std::fabs(sum) >= std::fabs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
-}
 
 /// What one block of balls adds to the lists.
 struct Pieces {
@@ -148,10 +99,10 @@ void scale_back(BallUnion& result, double scale) {
 }  // namespace
 
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options) {
-  if (const Status status = check(balls); !status.ok()) return status.error();
+  if (const Status status = check_balls(balls); !status.ok()) return status.error();
   try {
     const double scale = scale_of(balls);
-    const std::vector<Ball> unit_balls = scaled(balls, scale);
+    const std::vector<Ball> unit_balls = scaled_balls(balls, scale);
     BallUnion result = Measuring(unit_balls, options).run();
     scale_back(result, scale);
     return result;
