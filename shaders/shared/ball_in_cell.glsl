@@ -5,7 +5,9 @@
 #include "angle_of.glsl"
 
 // Roundings of heights, gaps and places along an edge, and of the terms made of them.
-const float kEdgeRounding = 32.0 * kRounding;
+const float kEdgeRounding = 24.0 * kRounding;
+// Of an edge this short, terms of its length squared are below a rounding.
+const float kShortEdge = 6.1035156e-5;  // 2^-14
 // What an edge's face may grow by while the surface moves, per unit of displacement: more than sqrt(2 * displacement).
 const float kGrowth = 0.0078125;
 
@@ -28,7 +30,7 @@ void add_to(inout vec2 sum, float term) {
 void add_inside(float h, float g, float a, float b) {
   float size = max(b - a, 0.0);
   add_to(volume_sum, h * g * size / 6.0);
-  volume_doubt += (abs(h) + abs(g)) * size + abs(h * g);
+  volume_doubt += ((abs(h) + abs(g)) * size + abs(h * g)) / 6.0;
   flat_area += 0.5 * abs(g) * size;
 }
 
@@ -70,17 +72,44 @@ void add_outside(float height, float g, float f2, float a, float b) {
     doubt = abs(of_a) + abs(of_b);
   }
   float arc = h < 1.0 ? abs(phi) : 0.0;
-  doubt += 2.0 * arc + low * (1.0 + abs(g)) * size + low * abs(g);
+  doubt += low * abs(g) + (h < 1.0 ? (2.0 + h * abs(g)) * arc + 0.5 * h * size : (1.0 + abs(g)) * size);
   float disk = 0.5 * (1.0 - low * low) * phi;
   float signed_one = height < 0.0 ? -1.0 : 1.0;
   add_to(area_sum, signed_one * solid_angle);
   add_to(volume_sum, signed_one * (low * disk + solid_angle) / 3.0);
   area_doubt += doubt;
-  volume_doubt += doubt;
+  volume_doubt += 0.5 * doubt;
   flat_area += abs(disk);
   arc_angles += arc;
   // A plane that only just misses the ball may in truth cut a cap off it.
   if (abs(h - 1.0) < kGrowth) arc_angles += 6.2831853;
+}
+
+// An edge so short that its direction says nothing: the integrands at its middle. `moment`: twice the area of the
+// triangle between the edge and the foot of the centre on the face's plane, times its sign.
+void add_point(float height, float moment, float r2, float size) {
+  float h = abs(height), low = min(h, 1.0), rho = sqrt(r2);
+  float beyond_disk = max(r2 - h * h, 1e-12);  // squared distance from the foot
+  float of_disk = low * moment * clamp((1.0 - low * low) / beyond_disk, 0.0, 1.0);
+  float solid_angle = moment * (h < 1.0 ? min(h * (rho - 1.0) / (rho * beyond_disk), 0.5) : 1.0 / (rho * (rho + h)));
+  float signed_one = height < 0.0 ? -1.0 : 1.0;
+  bool inside = r2 <= 1.0;
+  add_to(area_sum, inside ? 0.0 : signed_one * solid_angle);
+  add_to(volume_sum, inside ? height * moment / 6.0 : signed_one * (0.5 * of_disk + solid_angle) / 3.0);
+  area_doubt += 4.0 * size;
+  volume_doubt += 2.0 * size;
+}
+
+void measure_side(vec3 normal, vec3 direction, vec3 foot, float from, float to, float sense) {
+  // A face is flat up to the displacement of its corners: take the plane through the edge that fits best.
+  float tilt = dot(normal, direction), scale = inversesqrt(1.0 - tilt * tilt);
+  float h = scale * dot(normal, foot), g = scale * sense * dot(cross(direction, normal), foot);
+  float f2 = dot(foot, foot), half_chord = sqrt(max(1.0 - f2, 0.0));
+  float enter = clamp(-half_chord, from, to), leave = clamp(half_chord, from, to);
+  bool misses = f2 >= 1.0;
+  if (!misses) add_inside(h, g, enter, leave);
+  if (misses || enter > from) add_outside(h, g, f2, from, misses ? to : enter);
+  if (!misses && leave < to) add_outside(h, g, f2, leave, to);
 }
 
 // The edge from corner `other` to corner c, in the faces of two planes.
@@ -90,35 +119,25 @@ void measure_edge(uint c, uint other, uint p, uint q) {
   if (!(size > 0.0)) return;
   vec3 direction = along / size;
   float from = dot(direction, begin), to = from + size;
-  vec3 foot = begin - from * direction;
-  float f2 = dot(foot, foot), half_chord = sqrt(max(1.0 - f2, 0.0));
-  float enter = clamp(-half_chord, from, to), leave = clamp(half_chord, from, to);
-  bool misses = f2 >= 1.0;
+  vec3 foot = begin - from * direction, middle = begin + 0.5 * along;
   for (uint side = 0u; side < 2u; ++side) {
     vec3 normal = plane[side == 0u ? p : q].xyz;
-    float h = dot(normal, foot);
-    float g = dot(side == 0u ? cross(direction, normal) : cross(normal, direction), foot);
+    float sense = side == 0u ? 1.0 : -1.0;
     flat_area += kGrowth;
     arc_angles += kGrowth;
-    if (!misses) add_inside(h, g, enter, leave);
-    if (misses || enter > from) add_outside(h, g, f2, from, misses ? to : enter);
-    if (!misses && leave < to) add_outside(h, g, f2, leave, to);
+    if (size > kShortEdge) {
+      measure_side(normal, direction, foot, from, to, sense);
+    } else {
+      add_point(dot(normal, middle), sense * dot(cross(along, normal), begin), dot(middle, middle), size);
+    }
   }
   spent += 3u;
 }
 
 // A polyhedron with three faces at each corner has V / 2 + 2 faces (Euler).
 bool is_polyhedron() {
-  uvec3 used = uvec3(0u);
-  for (uint c = 0u; c < corner_count; ++c) {
-    for (uint k = 0u; k < 3u; ++k) {
-      uint p = byte_of(corner_planes[c], k);
-      used[p >> 5] |= 1u << (p & 31u);
-    }
-  }
-  spent += 4u * corner_count;
-  ivec3 counts = bitCount(used);
-  return uint(counts.x + counts.y + counts.z) * 2u == corner_count + 4u;
+  ivec2 faces = bitCount(used_planes());
+  return uint(faces.x + faces.y) * 2u == corner_count + 4u;
 }
 
 MeasuredBall measure_cell() {
@@ -135,7 +154,7 @@ MeasuredBall measure_cell() {
   MeasuredBall found;
   found.volume = max(volume_sum.x + volume_sum.y, 0.0);
   found.area = max(area_sum.x + area_sum.y, 0.0);
-  float moves = 2.0 * displacement();
+  float moves = displacement();
   found.volume_bound = moves * flat_area + kEdgeRounding * volume_doubt;
   found.area_bound = moves * arc_angles + kEdgeRounding * area_doubt;
   return found;

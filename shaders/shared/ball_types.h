@@ -47,7 +47,7 @@ MEDIAL_VK_GPU_CONSTANT kBallsPerLeaf = 4u;
 MEDIAL_VK_GPU_CONSTANT kBallHints = 8u;
 // Of a cell while it is cut. Corners and planes are named by bytes.
 MEDIAL_VK_GPU_CONSTANT kMostCorners = 64u;
-MEDIAL_VK_GPU_CONSTANT kMostPlanes = 96u;
+MEDIAL_VK_GPU_CONSTANT kMostPlanes = 64u;
 
 // Smaller balls, with the largest coordinate or radius below 1, are left to the host: squares would underflow.
 MEDIAL_VK_GPU_CONSTANT_FLOAT kLeastRadius = 5.9604645e-8f;  // 2^-24

@@ -49,6 +49,16 @@ void ask_ball(uint j) {
   clip_cell(vec4(difference.xyz * closeness, offset), error);
 }
 
+// Corner c's power to the cell's ball above which none of the node's balls takes it, less the node's `least`.
+float power_over(uint k, vec3 offset, uint c) {
+  vec3 v = corner[c].xyz;
+  vec3 x = v * own_radius + offset;
+  vec4 axis_0 = nodes[k].axis_0, axis_1 = nodes[k].axis_1, axis_2 = nodes[k].axis_2;
+  vec3 along = vec3(dot(axis_0.xyz, x), dot(axis_1.xyz, x), dot(axis_2.xyz, x));
+  vec3 across = abs(nodes[k].slope.xyz - 2.0 * along);
+  return dot(x, x) - own_radius * own_radius * (dot(v, v) - 1.0) - dot(across, vec3(axis_0.w, axis_1.w, axis_2.w));
+}
+
 // The host's CellBuilder::may_cut(), with a margin for float: every term is at most scale^2, and fewer than 128 are
 // rounded.
 bool may_cut(uint k) {
@@ -57,20 +67,16 @@ bool may_cut(uint k) {
   precise vec3 offset = (own_high.xyz - high.xyz) + (own_middle.xyz - low.xyz);
   float distance = length(offset);
   if (distance > (high.w + own_radius) * 1.00001) return false;
-  vec4 axis_0 = nodes[k].axis_0, axis_1 = nodes[k].axis_1, axis_2 = nodes[k].axis_2;
-  vec3 slope = nodes[k].slope.xyz;
   float scale = distance + 2.0 * own_radius + high.w;
-  float enough = 128.0 * kRounding * scale * scale - low.w;
   float least = 3e38;
-  for (uint c = 0u; c < corner_count; ++c) {
-    vec3 v = corner[c].xyz;
-    vec3 x = v * own_radius + offset;
-    vec3 across = abs(slope - 2.0 * vec3(dot(axis_0.xyz, x), dot(axis_1.xyz, x), dot(axis_2.xyz, x)));
-    float power = dot(x, x) - own_radius * own_radius * (dot(v, v) - 1.0);
-    least = min(least, power - dot(across, vec3(axis_0.w, axis_1.w, axis_2.w)));
+  uint last = corner_count - 1u;
+  for (uint c = 0u; c <= last; c += 4u) {
+    float p0 = power_over(k, offset, c), p1 = power_over(k, offset, min(c + 1u, last));
+    float p2 = power_over(k, offset, min(c + 2u, last)), p3 = power_over(k, offset, min(c + 3u, last));
+    least = min(least, min(min(p0, p1), min(p2, p3)));
+    ++spent;
   }
-  spent += corner_count;
-  return least <= enough;
+  return least <= 128.0 * kRounding * scale * scale - low.w;
 }
 
 void ask_hints() {
@@ -89,18 +95,24 @@ void ask_leaf(uint k) {
   }
 }
 
-// No stack: the tree is complete. Counted from 1, the children of m are 2 m and 2 m + 1, and the node after all of m's is
-// m + 1 without the zeros at its end.
+// From the ball's own leaf up: what is near comes first. No stack: the tree is complete. Counted from 1, the children of
+// m are 2 m and 2 m + 1, its sibling is m ^ 1, and the node after all of m's is m + 1 without the zeros at its end.
 void walk_balls() {
-  for (uint m = 1u; !walk_is_over();) {
+  uint up = own / kBallsPerLeaf + push.first_leaf + 1u;  // its leaf, whose balls are hints; then what has been walked
+  uint root = up ^ 1u, m = root;
+  while (up > 1u && !walk_is_over()) {
     ++spent;
     bool enter = may_cut(m - 1u), leaf = m > push.first_leaf;
     if (enter && leaf) ask_leaf(m - 1u);
     if (enter && !leaf) {
       m = 2u * m;
     } else {
-      m = (m + 1u) >> findLSB(m + 1u);
-      if (m == 1u) break;
+      uint next = (m + 1u) >> findLSB(m + 1u);
+      int deeper = findMSB(next) - findMSB(root);
+      bool inside = deeper >= 0 && next >> deeper == root;
+      up = inside ? up : up >> 1;
+      m = inside ? next : up ^ 1u;
+      root = inside ? root : m;
     }
   }
 }

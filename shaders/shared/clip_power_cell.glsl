@@ -2,20 +2,31 @@
 #ifndef MEDIAL_VK_CLIP_POWER_CELL_GLSL
 #define MEDIAL_VK_CLIP_POWER_CELL_GLSL
 
-// Least and greatest height of a corner over the plane.
+uvec2 cut_corners;  // a bit for each that the plane cuts
+
+float find_height(vec4 by, uint c) {
+  float height = dot(by.xyz, corner[c].xyz) - by.w;
+  corner[c].w = height;
+  if (height > kTie) cut_corners[c >> 5] |= 1u << (c & 31u);
+  return height;
+}
+
+// Least and greatest height of a corner over the plane. Four at a time: iterations are counted.
 vec2 find_heights(vec4 by) {
   vec2 range = vec2(3e38, -3e38);
-  for (uint c = 0u; c < corner_count; ++c) {
-    float height = dot(by.xyz, corner[c].xyz) - by.w;
-    corner[c].w = height;
-    range = vec2(min(range.x, height), max(range.y, height));
+  uint last = corner_count - 1u;
+  cut_corners = uvec2(0u);
+  for (uint c = 0u; c <= last; c += 4u) {
+    float h0 = find_height(by, c), h1 = find_height(by, min(c + 1u, last));
+    float h2 = find_height(by, min(c + 2u, last)), h3 = find_height(by, min(c + 3u, last));
+    range = vec2(min(range.x, min(min(h0, h1), min(h2, h3))), max(range.y, max(max(h0, h1), max(h2, h3))));
+    ++spent;
   }
-  spent += corner_count;
   return range;
 }
 
 // Where the edge between a kept and a cut corner, at the latter opposite its plane `slot`, meets the new plane.
-void add_corner(uint cut, uint kept, uint slot) {
+void add_corner(uint cut, uint kept, uint slot, uint name_of_plane) {
   if (corner_count == kMostCorners) {
     cell_failed = true;
     return;
@@ -27,45 +38,45 @@ void add_corner(uint cut, uint kept, uint slot) {
   generations = max(generations, generation);
   uint name = corner_count++;
   corner[name] = vec4(place, 0.0);
-  corner_planes[name] = with_byte(with_byte(corner_planes[cut], slot, plane_count), 3u, generation);
+  corner_planes[name] = with_byte(with_byte(corner_planes[cut], slot, name_of_plane), 3u, generation);
   corner_links[name] = with_byte(0u, slot, kept);
   corner_links[kept] = with_name(corner_links[kept], cut, name);
 }
 
-void add_corners() {
+void add_corners(uint name_of_plane) {
   uint old = corner_count;
-  for (uint c = 0u; c < old; ++c) {
-    if (corner[c].w <= kTie) continue;
+  for (uvec2 left = cut_corners; (left.x | left.y) != 0u;) {
+    uint c = left.x != 0u ? findLSB(left.x) : 32u + findLSB(left.y);
+    left[c >> 5] &= ~(1u << (c & 31u));
     for (uint slot = 0u; slot < 3u; ++slot) {
       uint kept = byte_of(corner_links[c], slot);
-      if (kept < old && corner[kept].w <= kTie) add_corner(c, kept, slot);
+      if (kept < old && corner[kept].w <= kTie) add_corner(c, kept, slot, name_of_plane);
     }
-    spent += 3u;
+    spent += 4u;
   }
-  spent += old;
 }
 
-uint slot_of_cut(uint c) {
+uint slot_of(uint c, uint p) {
   uint planes = corner_planes[c];
-  return byte_of(planes, 0u) == plane_count ? 0u : byte_of(planes, 1u) == plane_count ? 1u : 2u;
+  return byte_of(planes, 0u) == p ? 0u : byte_of(planes, 1u) == p ? 1u : 2u;
 }
 
 // Around the new face: in each old face that it cuts, one new corner leaves and one arrives. A face that is cut twice
 // shows that rounding made heights that no plane has.
-void link_new_corners(uint first) {
+void link_new_corners(uint first, uint name_of_plane) {
+  uint stamp = cuts << 16;
   for (uint c = first; c < corner_count; ++c) {
-    uint slot = slot_of_cut(c);
+    uint slot = slot_of(c, name_of_plane);
     uint next = byte_of(corner_planes[c], (slot + 1u) % 3u), after = byte_of(corner_planes[c], (slot + 2u) % 3u);
-    uint stamp = plane_count << 16;
-    uint edges = (plane_edges[next] & 0xff0000u) == stamp ? plane_edges[next] : stamp | 0xffffu;
+    uint edges = (plane_edges[next] & 0xffff0000u) == stamp ? plane_edges[next] : stamp | 0xffffu;
     cell_failed = cell_failed || (edges & 255u) != 255u;
     plane_edges[next] = with_byte(edges, 0u, c);
-    edges = (plane_edges[after] & 0xff0000u) == stamp ? plane_edges[after] : stamp | 0xffffu;
+    edges = (plane_edges[after] & 0xffff0000u) == stamp ? plane_edges[after] : stamp | 0xffffu;
     cell_failed = cell_failed || (edges >> 8 & 255u) != 255u;
     plane_edges[after] = with_byte(edges, 1u, c);
   }
   for (uint c = first; c < corner_count; ++c) {
-    uint slot = slot_of_cut(c), next = (slot + 1u) % 3u, after = (slot + 2u) % 3u;
+    uint slot = slot_of(c, name_of_plane), next = (slot + 1u) % 3u, after = (slot + 2u) % 3u;
     uint leaving = byte_of(plane_edges[byte_of(corner_planes[c], after)], 0u);
     uint arriving = byte_of(plane_edges[byte_of(corner_planes[c], next)], 1u);
     cell_failed = cell_failed || leaving == 255u || arriving == 255u;
@@ -74,12 +85,12 @@ void link_new_corners(uint first) {
   spent += 2u * (corner_count - first);
 }
 
-// Closes the gaps with the last corners.
-void remove_cut_corners(uint old) {
-  spent += old;
-  for (uint k = old; k > 0u; --k) {
-    uint gap = k - 1u;
-    if (corner[gap].w <= kTie) continue;
+// Closes the gaps with the last corners, from the last gap on: then the last corner is none that is cut.
+void remove_cut_corners() {
+  for (uvec2 left = cut_corners; (left.x | left.y) != 0u;) {
+    uint gap = left.y != 0u ? 32u + findMSB(left.y) : findMSB(left.x);
+    left[gap >> 5] &= ~(1u << (gap & 31u));
+    ++spent;
     uint last = --corner_count;
     if (gap == last) continue;
     corner[gap] = corner[last];
@@ -105,19 +116,13 @@ void clip_cell(vec4 by, float error) {
     beyond = range.x;
     return;
   }
-  if (plane_count == kMostPlanes) {
-    cell_failed = true;
-    return;
-  }
-  plane[plane_count] = by;
-  plane_edges[plane_count] = 0u;
-  uint old = corner_count;
-  add_corners();
+  uint name_of_plane = take_plane(), old = corner_count;
+  plane[name_of_plane] = by;
+  ++cuts;
+  add_corners(name_of_plane);
+  if (!cell_failed) link_new_corners(old, name_of_plane);
   if (cell_failed) return;
-  link_new_corners(old);
-  if (cell_failed) return;
-  ++plane_count;
-  remove_cut_corners(old);
+  remove_cut_corners();
 }
 
 #endif

@@ -17,8 +17,9 @@ uint corner_planes[kMostCorners]; // bytes: three planes, with det(normals) > 0,
 uint corner_links[kMostCorners];  // bytes: byte k names the other end of the edge that is not in plane k
 uint corner_count;
 vec4 plane[kMostPlanes];          // normal . x <= w; the first six are the box's
-uint plane_edges[kMostPlanes];    // of the cut in progress: corners that leave and arrive, the cut's plane
-uint plane_count;
+uint plane_edges[kMostPlanes];    // bytes: of a cut, the corners that leave and arrive; above: the cut's number
+uvec2 free_planes;     // a bit for each
+uint cuts;
 float plane_error;     // greatest displacement of a plane by rounding
 uint generations;      // the greatest of a corner
 bool cell_is_empty;
@@ -31,6 +32,28 @@ uint with_byte(uint word, uint k, uint value) { return bitfieldInsert(word, valu
 uint with_name(uint word, uint old, uint name) {
   uint k = byte_of(word, 0u) == old ? 0u : byte_of(word, 1u) == old ? 1u : 2u;
   return with_byte(word, k, name);
+}
+
+uvec2 used_planes() {
+  uvec2 used = uvec2(0u);
+  for (uint c = 0u; c < corner_count; ++c) {
+    uint planes = corner_planes[c];
+    uint p = byte_of(planes, 0u), q = byte_of(planes, 1u), s = byte_of(planes, 2u);
+    used[p >> 5] |= 1u << (p & 31u);
+    used[q >> 5] |= 1u << (q & 31u);
+    used[s >> 5] |= 1u << (s & 31u);
+  }
+  spent += corner_count;
+  return used;
+}
+
+// A place in `plane`: no cell has more faces than corners.
+uint take_plane() {
+  if ((free_planes.x | free_planes.y) == 0u) free_planes = ~used_planes();
+  uint p = free_planes.x != 0u ? findLSB(free_planes.x) : 32u + findLSB(free_planes.y);
+  free_planes[p >> 5] &= ~(1u << (p & 31u));
+  plane_edges[p] = 0u;
+  return p;
 }
 
 void start_cell() {
@@ -51,7 +74,8 @@ void start_cell() {
     corner_links[c] = links.x | links.y << 8 | links.z << 16;
   }
   corner_count = 8u;
-  plane_count = 6u;
+  free_planes = uvec2(~63u, ~0u);
+  cuts = 0u;
   plane_error = 0.0;
   generations = 0u;
   cell_is_empty = false;

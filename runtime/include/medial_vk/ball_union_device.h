@@ -18,7 +18,7 @@ struct DeviceBallUnionOptions {
   unsigned threads = 0;  ///< Of the host, which builds the tree and measures what the device leaves: 0 is one per core.
   /// The greatest error bound that is accepted, as a share of the cube of a ball's radius for its volume, and ten times
   /// that of the square for its surface.
-  double tolerance = 1e-4;
+  double tolerance = 1e-3;
 };
 
 /// What measure_ball_union() finds on a device. Lengths in the units of the balls. Against the exact figures, each number
