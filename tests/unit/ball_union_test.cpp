@@ -128,6 +128,26 @@ TEST(BallUnion, OfADozenAgainstSlices) {
   }
 }
 
+/// Eight planes meet in each corner of a cell, up to rounding: cells in the middle must be equal nevertheless.
+TEST(BallUnion, OfGridsWhoseNumbersAreRounded) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double unit = 1 + 0.37 * share(random);
+    auto balls = grid(5, 0.75 * unit);
+    const Point shift = {share(random), share(random), share(random)};
+    for (Ball& ball : balls) {
+      for (std::size_t k = 0; k < 3; ++k) ball.centre[k] = unit * ball.centre[k] + shift[k];
+    }
+    const BallUnion found = measure(balls, false);
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      const std::size_t x = i % 5, y = i / 5 % 5, z = i / 25;
+      if (x % 4 == 0 || y % 4 == 0 || z % 4 == 0) continue;
+      EXPECT_NEAR(found.areas[i], 0.341608006695 * unit * unit, 1e-11) << "trial " << trial << ", ball " << i;
+    }
+  }
+}
+
 TEST(BallUnion, OfNestedBallsIsTheLargest) {
   const std::vector<Ball> balls = {{{0, 0, 0}, 0.2}, {{0.1, 0, 0}, 1}, {{0.1, 0, 0}, 0.5}, {{0.6, 0, 0}, 0.5}};
   expect_volume(balls, ball_volume(1));

@@ -1,6 +1,7 @@
 #include "balls/ball_in_cell.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "balls/cell_edge.h"
@@ -53,13 +54,36 @@ BallInCell measure_pyramid(const CellEdge& edge, std::size_t side) {
   return pyramid.sum;
 }
 
+// Where more than three planes meet in a point, or nearly, rounding leaves edges whose direction says nothing: taken
+// for one, they would be seen from the foot of the centre under any angle. Of edges this short, terms of their length
+// squared are below a rounding, so that the integrands at their middles do.
+constexpr double kShortEdge = 0x1p-26;
+
+BallInCell measure_short_edge(const PowerCell& cell, const CellEdge& edge, std::size_t side) {
+  const Point& normal = cell.planes()[edge.planes[side]].normal;
+  const double size = edge.to - edge.from;
+  const Point middle = edge.foot + (0.5 * (edge.from + edge.to)) * edge.direction;
+  const double sense = side == 0 ? size : -size;
+  // Twice the area of the triangle between the edge and the foot of the centre on the face's plane, with its sign.
+  const double moment = sense * dot(cross(edge.direction, normal), middle);
+  const double height = dot(normal, middle), squared = dot(middle, middle);
+  if (squared <= 1) return {height * moment / 6, 0};
+  const double h = std::fabs(height), rho = std::sqrt(squared), from_foot = std::max(squared - h * h, DBL_MIN);
+  const double disk = std::max(0.0, 1 - h * h) / from_foot;  // at most 1
+  // h (1 - 1 / rho) / (rho^2 - h^2), but 1 - h / rho where there is no disk
+  const double angle = h < 1 ? h * (rho - 1) / (rho * from_foot) : 1 / (rho * (rho + h));
+  const double solid_angle = std::copysign(moment, height * moment) * std::min(angle, 0.5);
+  return {(0.5 * height * moment * std::min(disk, 1.0) + solid_angle) / 3, solid_angle};
+}
+
 }  // namespace
 
 BallInCell measure_ball_in_cell(const PowerCell& cell, double radius) {
   BallInCell sum;
   for_each_edge(cell, radius, [&](const CellEdge& edge) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const BallInCell part = measure_pyramid(edge, side);
+      const bool is_short = edge.to - edge.from < kShortEdge;
+      const BallInCell part = is_short ? measure_short_edge(cell, edge, side) : measure_pyramid(edge, side);
       sum.volume += part.volume;
       sum.area += part.area;
     }

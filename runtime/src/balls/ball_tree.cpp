@@ -143,7 +143,7 @@ std::span<const std::uint32_t> BallTree::balls_of_leaf(std::uint32_t k) const {
 }
 
 BallMask::BallMask(const BallTree& tree)
-    : is_in_(tree.order().size(), 1), leaf_of_(tree.order().size()), count_(tree.nodes(), 0) {
+    : is_in_(tree.order().size(), 1), leaf_of_(tree.order().size()), count_(tree.node_count(), 0) {
   for (std::uint32_t n = 0; n < tree.order().size(); ++n) {
     const std::uint32_t leaf = tree.first_leaf() + n / BallTree::kLeaf;
     leaf_of_[tree.order()[n]] = leaf;

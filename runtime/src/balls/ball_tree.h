@@ -35,7 +35,7 @@ class BallTree {
   std::span<const std::uint32_t> order() const { return order_; }
   /// Node 0 is the root; children of k: 2 k + 1 and 2 k + 2.
   const Node& node(std::uint32_t k) const { return nodes_[k]; }
-  std::size_t nodes() const { return nodes_.size(); }
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(nodes_.size()); }
   std::uint32_t first_leaf() const { return leaves_ - 1; }
   bool is_leaf(std::uint32_t k) const { return k + 1 >= leaves_; }
   std::span<const std::uint32_t> balls_of_leaf(std::uint32_t k) const;

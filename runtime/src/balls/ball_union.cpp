@@ -5,10 +5,10 @@
 #include <string>
 
 #include "balls/ball_in_cell.h"
-#include "balls/ball_scale.h"
 #include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
+#include "balls/unit_balls.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 
@@ -93,9 +93,10 @@ void scale_back(BallUnion& result, double unit) {
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
   try {
-    const ScaledBalls scaled = scale_balls(balls);
-    BallUnion result = Measuring(scaled.balls, options).run();
-    scale_back(result, scaled.unit);
+    const double scale = scale_of(balls);
+    const std::vector<Ball> unit_balls = scaled_balls(balls, scale);
+    BallUnion result = Measuring(unit_balls, options).run();
+    scale_back(result, 1 / scale);
     return result;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "out of memory: a union of " + std::to_string(balls.size()) + " balls"};

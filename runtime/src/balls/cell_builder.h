@@ -24,6 +24,8 @@ class CellBuilder {
   /// The balls whose bisectors bound the cell that was built last; the ball itself first. Of an empty cell: those of
   /// the cell before.
   std::span<const std::uint32_t> neighbours() const { return hints_; }
+  /// Forgets the ball before: the rounding of cells then depends only on the calls that follow.
+  void forget() { hints_.clear(); }
 
  private:
   bool may_cut(const BallTree::Node& node, const Point& offset) const;
@@ -36,7 +38,7 @@ class CellBuilder {
   const BallTree& tree_;
   const BallMask* mask_;
   PowerCell cell_;
-  std::vector<std::uint32_t> hints_;      // balls to ask first
+  std::vector<std::uint32_t> hints_;       // balls to ask first
   std::vector<double> x_, y_, z_, power_;  // of the cell's corners: place, and power of its ball with all slack
   std::vector<std::uint8_t> is_used_;
 };

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "balls/ball_in_cell.h"
-#include "balls/ball_scale.h"
 #include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
+#include "balls/unit_balls.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 
@@ -38,9 +38,10 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 class ShrinkingUnion::Impl {
  public:
   Impl(std::span<const Ball> balls, unsigned threads)
-      : scaled_(scale_balls(balls)),
+      : scale_(scale_of(balls)),
+        balls_(scaled_balls(balls, scale_)),
         threads_(thread_count(threads)),
-        tree_(scaled_.balls, threads_),
+        tree_(balls_, threads_),
         mask_(tree_),
         pieces_(balls.size()),
         volumes_(balls.size()) {
@@ -104,7 +105,7 @@ class ShrinkingUnion::Impl {
     pieces_[i] = std::move(piece);
     refresh_volume(i);
   }
-  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume * scaled_.unit * scaled_.unit * scaled_.unit; }
+  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume / (scale_ * scale_ * scale_); }
 
   /// Balls whose cells grow when others go: two cells share a face or not, whichever of them is asked. A ball without a
   /// cell may get one where it overlaps one that goes.
@@ -120,9 +121,9 @@ class ShrinkingUnion::Impl {
   }
 
   bool overlaps_any(std::uint32_t i, const std::vector<std::uint32_t>& others) const {
-    const Ball& a = scaled_.balls[i];
+    const Ball& a = balls_[i];
     return std::any_of(others.begin(), others.end(), [&](std::uint32_t j) {
-      const Ball& b = scaled_.balls[j];
+      const Ball& b = balls_[j];
       return length(b.centre - a.centre) <= a.radius + b.radius;
     });
   }
@@ -140,7 +141,7 @@ class ShrinkingUnion::Impl {
   std::vector<std::pair<std::uint32_t, Piece>> measure(std::span<const std::uint32_t> balls) const {
     std::vector<std::pair<std::uint32_t, Piece>> result(balls.size());
     parallel_blocks(balls.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
-      CellBuilder builder(scaled_.balls, tree_, &mask_);
+      CellBuilder builder(balls_, tree_, &mask_);
       SimplexCollector collector;
       for (std::size_t n = begin; n < end; ++n) {
         result[n].first = balls[n];
@@ -151,7 +152,7 @@ class ShrinkingUnion::Impl {
   }
 
   void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, Piece& piece) const {
-    const Ball& ball = scaled_.balls[i];
+    const Ball& ball = balls_[i];
     if (ball.radius == 0) return;
     const PowerCell& cell = builder.build(i);
     piece.is_hidden = cell.empty();
@@ -163,7 +164,8 @@ class ShrinkingUnion::Impl {
     collector.collect(cell, ball, piece.simplices, unused);
   }
 
-  ScaledBalls scaled_;
+  double scale_;
+  std::vector<Ball> balls_;
   unsigned threads_;
   BallTree tree_;
   BallMask mask_;

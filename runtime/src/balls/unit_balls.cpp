@@ -1,0 +1,60 @@
+#include "balls/unit_balls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace medial_vk {
+
+Status check_balls(std::span<const Ball> balls) {
+  if (balls.size() >= 1u << 31) return Error{ErrorCode::kUsage, "a union of 2^31 balls or more"};
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const auto& [centre, radius] = balls[i];
+    const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]) && std::isfinite(centre[2]);
+    if (!finite || !std::isfinite(radius) || radius < 0) {
+      return Error{ErrorCode::kUsage, "ball " + std::to_string(i) +
+                                          " has a centre or radius that is not finite, or a " + "negative radius"};
+    }
+  }
+  return {};
+}
+
+double scale_of(std::span<const Ball> balls) {
+  double largest = 0;
+  for (const auto& [centre, radius] : balls) {
+    largest = std::max({largest, std::fabs(centre[0]), std::fabs(centre[1]), std::fabs(centre[2]), radius});
+  }
+  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
+}
+
+namespace {
+
+/// To a multiple of 2^-150, so that products of five of them are exact.
+double snap(double x) {
+  if (std::fabs(x) >= 0x1p-98) return x;
+  constexpr double kRounder = 0x1.8p-98;
+  return (x + kRounder) - kRounder;
+}
+
+}  // namespace
+
+std::vector<Ball> scaled_balls(std::span<const Ball> balls, double scale) {
+  std::vector<Ball> result(balls.begin(), balls.end());
+  for (auto& [centre, radius] : result) {
+    for (double& x : centre) x = snap(scale * x);
+    radius = snap(scale * radius);
+  }
+  return result;
+}
+
+double careful_sum(std::span<const double> terms) {
+  double sum = 0, lost = 0;
+  for (const double term : terms) {
+    const double next = sum + term;
+    lost += std::fabs(sum) >= std::fabs(term) ? (sum - next) + term : (term - next) + sum;
+    sum = next;
+  }
+  return sum + lost;
+}
+
+}  // namespace medial_vk
