@@ -4,9 +4,9 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "sheets/concurrent_sets.h"
@@ -24,6 +24,15 @@ struct Candidate {
   MeshTriangle corners;
   bool operator<(const Candidate& other) const {
     return std::tie(squared_circumradius, corners) < std::tie(other.squared_circumradius, other.corners);
+  }
+};
+
+struct TriangleHash {
+  std::size_t operator()(const MeshTriangle& t) const {
+    // Fibonacci hashing, corner by corner.
+    std::uint64_t key = 0;
+    for (const std::uint32_t corner : t) key = (key ^ corner) * 0x9e3779b97f4a7c15ull;
+    return static_cast<std::size_t>(key ^ key >> 32);
   }
 };
 
@@ -122,12 +131,12 @@ class Builder {
     }
   }
 
-  /// Both ends of an edge in one number, the smaller first.
+  /// Both ends of an edge in one number, the greater first: numbers ascend along the voxels, as Boundaries wants them.
   static std::uint64_t edge(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    return std::uint64_t{std::max(a, b)} << 32 | std::min(a, b);
   }
   static MeshEdge ends_of(std::uint64_t key) {
-    return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
+    return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   }
 
   int triangles_at(std::uint32_t a, std::uint32_t b) const {
@@ -344,8 +353,8 @@ class Builder {
   std::vector<std::int32_t> sheet_of_;
   std::vector<MeshTriangle> triangles_;
   Boundaries boundaries_;
-  std::set<MeshTriangle> present_;                // the same
-  std::unordered_map<std::uint64_t, int> edges_;  // with the number of their triangles
+  std::unordered_set<MeshTriangle, TriangleHash> present_;  // the same
+  std::unordered_map<std::uint64_t, int> edges_;            // with the number of their triangles
 };
 
 }  // namespace
