@@ -269,13 +269,16 @@ class Builder {
 
   /// Two triangles that share the only side of the first that is no edge yet, if they close a hole of four sides.
   void close_with_partner(const MeshTriangle& t) {
-    int missing = 0, tip = 0;
+    int missing = 0, open = 0, tip = 0;
     for (int k = 0; k < 3; ++k) {
-      if (edges_.contains(edge(t[(k + 1) % 3], t[(k + 2) % 3]))) continue;
+      const auto side = edges_.find(edge(t[(k + 1) % 3], t[(k + 2) % 3]));
+      if (side != edges_.end() && side->second <= 1) ++open;
+      if (side != edges_.end()) continue;
       ++missing;
       tip = k;
     }
-    if (missing != 1) return;
+    // Within a sheet all sides of a hole are open.
+    if (missing != 1 || (open < 2 && count_sheets(t[0], t[1], t[2]) == 1)) return;
     const std::uint32_t at = t[tip], left = t[(tip + 1) % 3], right = t[(tip + 2) % 3];
     for (const std::uint32_t other : graph_.neighbours(left)) {
       if (other == at || !edges_.contains(edge(other, left)) || !edges_.contains(edge(other, right))) continue;
