@@ -14,18 +14,17 @@ namespace medial_vk {
 /// triangles before it; if it is one, the triangle closes a bubble.
 class Boundaries {
  public:
-  /// By its three sides, in any numbers that tell edges apart. True: it closes no bubble, and counts from now on.
+  /// By its three sides, in any numbers that tell edges apart. Chains stay short if the numbers of edges that are close
+  /// to each other are, too. True: it closes no bubble, and counts from now on.
   bool add(std::array<std::uint64_t, 3> sides);
   /// Is a loop of edges a sum of the boundaries so far? Else it goes around a hole.
-  bool is_boundary(std::span<const std::uint64_t> loop);
+  bool is_boundary(std::span<const std::uint64_t> loop) const;
 
  private:
-  using Chain = std::vector<std::uint32_t>;  // edges, descending
-  std::uint32_t number_of(std::uint64_t side);
-  Chain reduced(std::span<const std::uint64_t> edges);
+  using Chain = std::vector<std::uint64_t>;  // edges, descending
+  Chain reduced(std::span<const std::uint64_t> edges) const;
 
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
-  std::vector<Chain> by_last_;  // by edge: the reduced chain that it is the last of, or none
+  std::unordered_map<std::uint64_t, Chain> by_last_;  // by edge: the reduced chain that it is the greatest of
 };
 
 }  // namespace medial_vk

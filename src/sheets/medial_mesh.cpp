@@ -4,9 +4,9 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "sheets/concurrent_sets.h"
@@ -24,6 +24,15 @@ struct Candidate {
   MeshTriangle corners;
   bool operator<(const Candidate& other) const {
     return std::tie(squared_circumradius, corners) < std::tie(other.squared_circumradius, other.corners);
+  }
+};
+
+struct TriangleHash {
+  std::size_t operator()(const MeshTriangle& t) const {
+    // Fibonacci hashing, corner by corner.
+    std::uint64_t key = 0;
+    for (const std::uint32_t corner : t) key = (key ^ corner) * 0x9e3779b97f4a7c15ull;
+    return static_cast<std::size_t>(key ^ key >> 32);
   }
 };
 
@@ -122,12 +131,12 @@ class Builder {
     }
   }
 
-  /// Both ends of an edge in one number, the smaller first.
+  /// Both ends of an edge in one number, the greater first: numbers ascend along the voxels, as Boundaries wants them.
   static std::uint64_t edge(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    return std::uint64_t{std::max(a, b)} << 32 | std::min(a, b);
   }
   static MeshEdge ends_of(std::uint64_t key) {
-    return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
+    return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   }
 
   int triangles_at(std::uint32_t a, std::uint32_t b) const {
@@ -260,13 +269,16 @@ class Builder {
 
   /// Two triangles that share the only side of the first that is no edge yet, if they close a hole of four sides.
   void close_with_partner(const MeshTriangle& t) {
-    int missing = 0, tip = 0;
+    int missing = 0, open = 0, tip = 0;
     for (int k = 0; k < 3; ++k) {
-      if (edges_.contains(edge(t[(k + 1) % 3], t[(k + 2) % 3]))) continue;
+      const auto side = edges_.find(edge(t[(k + 1) % 3], t[(k + 2) % 3]));
+      if (side != edges_.end() && side->second <= 1) ++open;
+      if (side != edges_.end()) continue;
       ++missing;
       tip = k;
     }
-    if (missing != 1) return;
+    // Within a sheet all sides of a hole are open.
+    if (missing != 1 || (open < 2 && count_sheets(t[0], t[1], t[2]) == 1)) return;
     const std::uint32_t at = t[tip], left = t[(tip + 1) % 3], right = t[(tip + 2) % 3];
     for (const std::uint32_t other : graph_.neighbours(left)) {
       if (other == at || !edges_.contains(edge(other, left)) || !edges_.contains(edge(other, right))) continue;
@@ -344,8 +356,8 @@ class Builder {
   std::vector<std::int32_t> sheet_of_;
   std::vector<MeshTriangle> triangles_;
   Boundaries boundaries_;
-  std::set<MeshTriangle> present_;                // the same
-  std::unordered_map<std::uint64_t, int> edges_;  // with the number of their triangles
+  std::unordered_set<MeshTriangle, TriangleHash> present_;  // the same
+  std::unordered_map<std::uint64_t, int> edges_;            // with the number of their triangles
 };
 
 }  // namespace
