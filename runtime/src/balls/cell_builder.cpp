@@ -28,19 +28,27 @@ bool CellBuilder::may_cut(const BallTree::Node& node, const Point& offset) const
   const double margin = 64 * DBL_EPSILON * scale * scale;
   const double enough = margin - node.least;
   for (std::size_t c = 0; c < x_.size(); c += kLanes) {
-    std::array<double, kLanes> power;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {  // compilers make vectors of this
-      const double x = x_[c + lane] + offset[0], y = y_[c + lane] + offset[1], z = z_[c + lane] + offset[2];
-      double sum = x * x + y * y + z * z - power_[c + lane];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Point& axis = node.axes[k];
-        sum -= std::fabs(node.slope[k] - 2 * (axis[0] * x + axis[1] * y + axis[2] * z)) * node.half[k];
-      }
-      power[lane] = sum;
-    }
-    if (*std::min_element(power.begin(), power.end()) <= enough) return true;
+    if (least_power(node, offset, c) <= enough) return true;
   }
   return false;
+}
+
+/// The least of some corners, without node.least. Lane by lane in every step: compilers make vectors of that.
+double CellBuilder::least_power(const BallTree::Node& node, const Point& offset, std::size_t first) const {
+  using Lanes = std::array<double, kLanes>;
+  Lanes x, y, z, power;
+  for (std::size_t n = 0; n < kLanes; ++n) x[n] = x_[first + n] + offset[0];
+  for (std::size_t n = 0; n < kLanes; ++n) y[n] = y_[first + n] + offset[1];
+  for (std::size_t n = 0; n < kLanes; ++n) z[n] = z_[first + n] + offset[2];
+  for (std::size_t n = 0; n < kLanes; ++n) power[n] = x[n] * x[n] + y[n] * y[n] + z[n] * z[n] - power_[first + n];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point axis = 2 * node.axes[k];
+    const double slope = node.slope[k], half = node.half[k];
+    for (std::size_t n = 0; n < kLanes; ++n) {
+      power[n] -= std::fabs(slope - (axis[0] * x[n] + axis[1] * y[n] + axis[2] * z[n])) * half;
+    }
+  }
+  return std::min(std::min(power[0], power[1]), std::min(power[2], power[3]));
 }
 
 void CellBuilder::read_corners() {

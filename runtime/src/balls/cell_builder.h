@@ -29,6 +29,7 @@ class CellBuilder {
 
  private:
   bool may_cut(const BallTree::Node& node, const Point& offset) const;
+  double least_power(const BallTree::Node& node, const Point& offset, std::size_t first) const;
   void cut_by(std::uint32_t j);
   void read_corners();
   void walk_tree();
