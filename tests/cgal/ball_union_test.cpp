@@ -74,7 +74,7 @@ void expect_same_complex(const std::vector<Ball>& balls) {
 TEST(UnionByCgal, OfADozenAgainstSlices) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     const auto balls = test::random_balls(12, seed, 0.2, 0.6);
-    std::vector<reference::Sphere> spheres;
+    std::vector<reference::UnionBall> spheres;
     for (const auto& [c, r] : balls) spheres.push_back({{c[0], c[1], c[2]}, r});
     const double expected = reference::union_volume_by_slices(spheres);
     const double found = test::measure_by_complex(balls, test::dual_complex_by_cgal(balls)).volume;
