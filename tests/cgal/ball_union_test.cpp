@@ -1,5 +1,5 @@
-// Unions of balls against CGAL's regular triangulation and inclusion-exclusion: another diagram, other predicates, other
-// formulas, other precision. Only with MEDIAL_VK_TEST_CGAL.
+// Unions of balls against CGAL's regular triangulation and inclusion-exclusion: another diagram, other predicates,
+// other formulas, other precision. Only with MEDIAL_VK_TEST_CGAL.
 #include "medial_vk/ball_union.h"
 
 #include <gtest/gtest.h>

@@ -27,8 +27,9 @@ struct CellEdge {
   double leave(double half_chord) const { return std::clamp(half_chord, from, to); }
 };
 
-/// The ends say little of the direction of an edge that is hardly longer than their rounding, and a direction that is not
-/// in both planes can put the foot anywhere; normals say little if planes are nearly parallel. The longer vector decides.
+/// The ends say little of the direction of an edge that is hardly longer than their rounding, and a direction that is
+/// not in both planes can put the foot anywhere; normals say little if planes are nearly parallel. The longer vector
+/// decides.
 inline Point direction_of_edge(const Point& between_ends, const Point& between_normals) {
   const double ends = dot(between_ends, between_ends), normals = dot(between_normals, between_normals);
   if (ends >= normals) return ends > 0 ? (1 / std::sqrt(ends)) * between_ends : Point{};
