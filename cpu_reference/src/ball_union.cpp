@@ -58,9 +58,9 @@ double union_area(const std::vector<Disk>& disks) {
   return area;
 }
 
-double slice(const std::vector<Sphere>& spheres, double z) {
+double slice(const std::vector<UnionBall>& spheres, double z) {
   std::vector<Disk> disks;
-  for (const Sphere& sphere : spheres) {
+  for (const UnionBall& sphere : spheres) {
     const double height = z - sphere.centre.z();
     const double squared = (sphere.radius - height) * (sphere.radius + height);
     if (squared > 0) disks.push_back({sphere.centre.x(), sphere.centre.y(), std::sqrt(squared)});
@@ -73,7 +73,7 @@ struct Circle {
   double radius;
 };
 
-std::optional<Circle> circle_of(const Sphere& a, const Sphere& b) {
+std::optional<Circle> circle_of(const UnionBall& a, const UnionBall& b) {
   const Eigen::Vector3d between = b.centre - a.centre;
   const double distance = between.norm();
   if (distance == 0) return {};
@@ -84,7 +84,7 @@ std::optional<Circle> circle_of(const Sphere& a, const Sphere& b) {
   return Circle{a.centre + along * normal, normal, std::sqrt(squared)};
 }
 
-void add_points(const Circle& circle, const Sphere& sphere, std::vector<double>& heights) {
+void add_points(const Circle& circle, const UnionBall& sphere, std::vector<double>& heights) {
   const Eigen::Vector3d towards = sphere.centre - circle.centre;
   const Eigen::Vector3d in_plane = towards - towards.dot(circle.normal) * circle.normal;
   const double reach = in_plane.norm();
@@ -100,7 +100,7 @@ void add_points(const Circle& circle, const Sphere& sphere, std::vector<double>&
 }
 
 /// Where slices change shape, ascending.
-std::vector<double> critical_heights(const std::vector<Sphere>& spheres) {
+std::vector<double> critical_heights(const std::vector<UnionBall>& spheres) {
   std::vector<double> heights;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     for (const double side : {-1.0, 1.0}) heights.push_back(spheres[i].centre.z() + side * spheres[i].radius);
@@ -134,7 +134,7 @@ double integrate(double from, double to, const Function& f) {
 
 }  // namespace
 
-double union_volume_by_slices(const std::vector<Sphere>& spheres) {
+double union_volume_by_slices(const std::vector<UnionBall>& spheres) {
   const std::vector<double> heights = critical_heights(spheres);
   double volume = 0;
   for (std::size_t k = 1; k < heights.size(); ++k) {

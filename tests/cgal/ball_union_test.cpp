@@ -1,5 +1,5 @@
-// Unions of balls against CGAL's regular triangulation and inclusion-exclusion: another diagram, other predicates, other
-// formulas, other precision. Only with MEDIAL_VK_TEST_CGAL.
+// Unions of balls against CGAL's regular triangulation and inclusion-exclusion: another diagram, other predicates,
+// other formulas, other precision. Only with MEDIAL_VK_TEST_CGAL.
 #include "medial_vk/ball_union.h"
 
 #include <gtest/gtest.h>
@@ -34,23 +34,28 @@ std::int64_t euler(const DualComplex& c) {
          static_cast<std::int64_t>(c.edges.size() + c.tetrahedra.size());
 }
 
-void expect_same_measures(const std::vector<Ball>& balls, const BallUnion& found, const DualComplex& complex) {
-  const test::Measures expected = test::measure_by_complex(balls, complex);
+void expect_measures(const BallUnion& found, const test::Measures& expected) {
   EXPECT_NEAR(found.volume, expected.volume, kAgrees * expected.volume);
   EXPECT_NEAR(found.area, expected.area, kAgrees * expected.area);
 }
 
+void expect_same_measures(const std::vector<Ball>& balls, const BallUnion& found, const DualComplex& complex) {
+  expect_measures(found, test::measure_by_complex(balls, complex, true));
+}
+
 /// Ours is a complex of the union in its own right: the same measures follow from it.
 void expect_consistent(const std::vector<Ball>& balls, const BallUnion& found) {
-  expect_same_measures(balls, found, found.complex);
+  expect_measures(found, test::measure_by_complex(balls, found.complex));
 }
 
 /// Ties may be broken in another way: only the topology is the same.
-void expect_same_union(const std::vector<Ball>& balls) {
+/// `touching`: spheres touch on the union's surface, by less than what counts as touching; simplices of such spheres
+/// are in ours, which changes no topology, but inclusion and exclusion knows no tolerance.
+void expect_same_union(const std::vector<Ball>& balls, bool touching = false) {
   const BallUnion found = measure(balls);
   const DualComplex complex = test::dual_complex_by_cgal(balls);
   expect_same_measures(balls, found, complex);
-  expect_consistent(balls, found);
+  if (!touching) expect_consistent(balls, found);
   EXPECT_EQ(betti_numbers(found.complex), betti_numbers(complex));
   EXPECT_EQ(euler(found.complex), euler(complex));
 }
@@ -71,7 +76,7 @@ void expect_same_complex(const std::vector<Ball>& balls) {
 TEST(UnionByCgal, OfADozenAgainstSlices) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     const auto balls = test::random_balls(12, seed, 0.2, 0.6);
-    std::vector<reference::Sphere> spheres;
+    std::vector<reference::UnionBall> spheres;
     for (const auto& [c, r] : balls) spheres.push_back({{c[0], c[1], c[2]}, r});
     const double expected = reference::union_volume_by_slices(spheres);
     const double found = test::measure_by_complex(balls, test::dual_complex_by_cgal(balls)).volume;
@@ -99,8 +104,9 @@ TEST(UnionByCgal, OfLattices) {
 
 TEST(UnionByCgal, OfLatticesWithNoise) {
   for (const double radius : {0.625, 0.8125, 1.0, 1.3}) {
-    for (const double noise : {1e-13, 1e-9, 1e-5}) {
-      for (unsigned seed = 1; seed < 4; ++seed) expect_same_complex(test::lattice(5, radius, noise, seed));
+    for (unsigned seed = 1; seed < 4; ++seed) {
+      for (const double noise : {1e-9, 1e-5}) expect_same_complex(test::lattice(5, radius, noise, seed));
+      expect_same_union(test::lattice(5, radius, 1e-13, seed));  // rounding of squared radii still decides some
     }
   }
 }
@@ -157,8 +163,8 @@ std::vector<Ball> medial_balls(Mesh mesh, double resolution) {
 }
 
 TEST(UnionByCgal, OfMedialBalls) {
-  expect_same_union(medial_balls(test::make_turned_torus(), 40));
-  expect_same_union(medial_balls(test::make_box({1, 0.7, 0.45}), 40));
+  expect_same_union(medial_balls(test::make_turned_torus(), 40), true);
+  expect_same_union(medial_balls(test::make_box({1, 0.7, 0.45}), 40), true);
 }
 
 TEST(UnionByCgal, OfMedialBallsOfModels) {
@@ -167,7 +173,7 @@ TEST(UnionByCgal, OfMedialBallsOfModels) {
   for (const auto& [name, resolution] : {std::pair{"spot", 100.0}, {"homer", 60.0}, {"rocker-arm", 60.0}}) {
     Result<Mesh> mesh = read_mesh((folder / (std::string(name) + ".obj")).string());
     ASSERT_TRUE(mesh.ok()) << mesh.error().message;
-    expect_same_union(medial_balls(std::move(mesh).value(), resolution));
+    expect_same_union(medial_balls(std::move(mesh).value(), resolution), true);
   }
 }
 

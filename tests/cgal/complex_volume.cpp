@@ -101,12 +101,14 @@ Both of_triple(const Sphere& a, const Sphere& b, const Sphere& c) {
 
 class Measuring {
  public:
-  Measuring(std::span<const Ball> balls, const DualComplex& complex)
+  Measuring(std::span<const Ball> balls, const DualComplex& complex, bool rounded_squares)
       : complex_(complex),
         corners_(complex.vertices.size(), Real(1)),
         edges_(complex.edges.size(), Real(1)),
         triangles_(complex.triangles.size(), Real(1)) {
-    for (const auto& [c, r] : balls) spheres_.push_back({{Real(c[0]), Real(c[1]), Real(c[2])}, Real(r)});
+    for (const auto& [c, r] : balls) {
+      spheres_.push_back({{Real(c[0]), Real(c[1]), Real(c[2])}, rounded_squares ? sqrt(Real(r * r)) : Real(r)});
+    }
   }
 
   Measures run() {
@@ -153,8 +155,8 @@ class Measuring {
 
 }  // namespace
 
-Measures measure_by_complex(std::span<const Ball> balls, const DualComplex& complex) {
-  return Measuring(balls, complex).run();
+Measures measure_by_complex(std::span<const Ball> balls, const DualComplex& complex, bool rounded_squares) {
+  return Measuring(balls, complex, rounded_squares).run();
 }
 
 }  // namespace medial_vk::test

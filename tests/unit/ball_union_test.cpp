@@ -58,7 +58,7 @@ std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least = 
 }
 
 double by_slices(const std::vector<Ball>& balls) {
-  std::vector<reference::Sphere> spheres;
+  std::vector<reference::UnionBall> spheres;
   for (const auto& [c, r] : balls) spheres.push_back({{c[0], c[1], c[2]}, r});
   return reference::union_volume_by_slices(spheres);
 }

@@ -6,7 +6,7 @@
 
 namespace medial_vk::reference {
 
-struct Sphere {
+struct UnionBall {
   Eigen::Vector3d centre;
   double radius;
 };
@@ -15,6 +15,6 @@ struct Sphere {
 /// the heights at which the slices change shape (poles, extremes of circles of two spheres, points of three) the area
 /// is smooth but for square roots at the ends, for which double exponential quadrature converges: relative error about
 /// 1e-14 per interval. Time: n^3 intervals of n^2 operations; for a dozen balls.
-double union_volume_by_slices(const std::vector<Sphere>& spheres);
+double union_volume_by_slices(const std::vector<UnionBall>& spheres);
 
 }  // namespace medial_vk::reference

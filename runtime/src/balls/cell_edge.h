@@ -27,7 +27,16 @@ struct CellEdge {
   double leave(double half_chord) const { return std::clamp(half_chord, from, to); }
 };
 
-/// Calls f(edge) for every edge that has a length.
+/// The ends say little of the direction of an edge that is hardly longer than their rounding, and a direction that is
+/// not in both planes can put the foot anywhere; normals say little if planes are nearly parallel. The longer vector
+/// decides.
+inline Point direction_of_edge(const Point& between_ends, const Point& between_normals) {
+  const double ends = dot(between_ends, between_ends), normals = dot(between_normals, between_normals);
+  if (ends >= normals) return ends > 0 ? (1 / std::sqrt(ends)) * between_ends : Point{};
+  return (1 / std::sqrt(normals)) * between_normals;
+}
+
+/// Calls f(edge) for every edge, for those that rounding leaves without a length, too: they say where their faces are.
 template <class Function>
 void for_each_edge(const PowerCell& cell, double radius, const Function& f) {
   const double unit = 1 / radius;
@@ -39,15 +48,13 @@ void for_each_edge(const PowerCell& cell, double radius, const Function& f) {
       edge.other = corners[c].neighbours[slot];
       if (edge.other < c) continue;
       const Point begin = unit * corners[edge.other].at, along = unit * corners[c].at - begin;
-      const double size = length(along);
-      if (!(size > 0)) continue;
       edge.planes = {corners[c].planes[(slot + 1) % 3], corners[c].planes[(slot + 2) % 3]};
-      edge.direction = (1 / size) * along;
-      edge.from = dot(edge.direction, begin);
-      edge.to = edge.from + size;
-      edge.foot = begin - edge.from * edge.direction;
       const Point& p = cell.planes()[edge.planes[0]].normal;
       const Point& q = cell.planes()[edge.planes[1]].normal;
+      edge.direction = direction_of_edge(along, cross(p, q));
+      edge.from = dot(edge.direction, begin);
+      edge.to = edge.from + std::max(0.0, dot(edge.direction, along));  // rounding may swap the ends
+      edge.foot = begin - edge.from * edge.direction;
       // Both from the same foot, so that near an edge through the centre they agree with each other.
       edge.height = {dot(p, edge.foot), dot(q, edge.foot)};
       edge.gap = {dot(cross(edge.direction, p), edge.foot), dot(cross(q, edge.direction), edge.foot)};

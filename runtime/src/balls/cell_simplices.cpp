@@ -10,6 +10,9 @@ namespace {
 // Closed balls that touch belong together: what comes this near to a sphere, in radii, lies on it. Far above the
 // rounding of a corner that is worth a simplex, and far below what anybody calls a gap.
 constexpr double kTouch = 0x1p-36;
+// A foot this near to an edge's line, in radii, counts as outside: if it is on the edge, the edge meets the ball, too,
+// and if it is on the line beyond the edge, the sign of the gap is rounding.
+constexpr double kOnEdge = 0x1p-40;
 
 template <std::size_t N>
 std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> simplex) {
@@ -20,13 +23,13 @@ std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> simplex) {
 }  // namespace
 
 /// An edge of the cell that meets the ball makes a triangle, and its two faces meet the ball, too. A face is also met
-/// where the centre's foot lies in it, on the inner side of all its edges.
+/// where the centre's foot lies in it, clearly on the inner side of all its edges.
 void SimplexCollector::collect_edges(const PowerCell& cell, const Ball& ball, DualComplex& complex,
                                      std::vector<EnvelopeVertex>& vertices) {
   const std::uint32_t i = cell.ball();
   for_each_edge(cell, ball.radius, [&](const CellEdge& edge) {
     for (std::size_t side = 0; side < 2; ++side) {
-      if (edge.gap[side] < 0) faces_[edge.planes[side]] |= kFootOutside;
+      if (edge.gap[side] < kOnEdge) faces_[edge.planes[side]] |= kFootOutside;
     }
     if (edge.half_chord_squared < -kTouch) return;
     const double half = std::sqrt(std::max(0.0, edge.half_chord_squared));
