@@ -8,8 +8,9 @@
 const float kEdgeRounding = 24.0 * kRounding;
 // Of an edge this short, terms of its length squared are below a rounding.
 const float kShortEdge = 6.1035156e-5;  // 2^-14
-// What an edge's face may grow by while the surface moves, per unit of displacement: more than sqrt(2 * displacement).
-const float kGrowth = 0.0078125;
+// What an arc may grow by at either end while the surface moves: more than sqrt(2 * displacement); and a face, per edge.
+const float kArcGrowth = 0.0078125;
+const float kFaceGrowth = 0.00024414062;
 
 // Sums with what each addition loses (Knuth): x is the sum, y what is lost.
 vec2 volume_sum;
@@ -82,7 +83,7 @@ void add_outside(float height, float g, float f2, float a, float b) {
   flat_area += abs(disk);
   arc_angles += arc;
   // A plane that only just misses the ball may in truth cut a cap off it.
-  if (abs(h - 1.0) < kGrowth) arc_angles += 6.2831853;
+  if (abs(h - 1.0) < kArcGrowth) arc_angles += 6.2831853;
 }
 
 // An edge so short that its direction says nothing: the integrands at its middle. `moment`: twice the area of the
@@ -120,11 +121,13 @@ void measure_edge(uint c, uint other, uint p, uint q) {
   vec3 direction = along / size;
   float from = dot(direction, begin), to = from + size;
   vec3 foot = begin - from * direction, middle = begin + 0.5 * along;
+  float f2 = dot(foot, foot), farthest = max(dot(begin, begin), dot(corner[c].xyz, corner[c].xyz));
+  bool near_sphere = f2 < 1.0 + 2.0 * kArcGrowth && farthest > 1.0 - 2.0 * kArcGrowth;
   for (uint side = 0u; side < 2u; ++side) {
     vec3 normal = plane[side == 0u ? p : q].xyz;
     float sense = side == 0u ? 1.0 : -1.0;
-    flat_area += kGrowth;
-    arc_angles += kGrowth;
+    flat_area += kFaceGrowth;
+    if (near_sphere) arc_angles += kArcGrowth;
     if (size > kShortEdge) {
       measure_side(normal, direction, foot, from, to, sense);
     } else {

@@ -87,8 +87,8 @@ std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least, d
 std::vector<Ball> grid(int nx, int ny, int nz, double radius) {
   std::vector<Ball> balls;
   for (int i = 0; i < nx * ny * nz; ++i) {
-    balls.push_back({{static_cast<double>(i % nx), static_cast<double>(i / nx % ny), static_cast<double>(i / nx / ny)},
-                     radius});
+    balls.push_back(
+        {{static_cast<double>(i % nx), static_cast<double>(i / nx % ny), static_cast<double>(i / nx / ny)}, radius});
   }
   return balls;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ball_types.h"
 #include "embedded_shaders.h"
 #include "support/spirv_structs.h"
 #if __has_include("thesis_types.h")
@@ -120,6 +121,23 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(DispatchConstants, queries_per_item), MEDIAL_VK_MEMBER(DispatchConstants, list_counter),
         MEDIAL_VK_MEMBER(DispatchConstants, first_entry), MEDIAL_VK_MEMBER(DispatchConstants, entry_limit),
         MEDIAL_VK_MEMBER(DispatchConstants, argument)}},
+      {"SplitBall",
+       sizeof(gpu::SplitBall),
+       {MEDIAL_VK_MEMBER(SplitBall, high), MEDIAL_VK_MEMBER(SplitBall, middle), MEDIAL_VK_MEMBER(SplitBall, low)}},
+      {"BallNode",
+       sizeof(gpu::BallNode),
+       {MEDIAL_VK_MEMBER(BallNode, middle_high), MEDIAL_VK_MEMBER(BallNode, middle_low),
+        MEDIAL_VK_MEMBER(BallNode, axis_0), MEDIAL_VK_MEMBER(BallNode, axis_1), MEDIAL_VK_MEMBER(BallNode, axis_2),
+        MEDIAL_VK_MEMBER(BallNode, slope)}},
+      {"MeasuredBall",
+       sizeof(gpu::MeasuredBall),
+       {MEDIAL_VK_MEMBER(MeasuredBall, volume), MEDIAL_VK_MEMBER(MeasuredBall, area),
+        MEDIAL_VK_MEMBER(MeasuredBall, volume_bound), MEDIAL_VK_MEMBER(MeasuredBall, area_bound)}},
+      {"BallConstants",
+       sizeof(gpu::BallConstants),
+       {MEDIAL_VK_MEMBER(BallConstants, ball_count), MEDIAL_VK_MEMBER(BallConstants, first_ball),
+        MEDIAL_VK_MEMBER(BallConstants, end_ball), MEDIAL_VK_MEMBER(BallConstants, first_leaf),
+        MEDIAL_VK_MEMBER(BallConstants, iterations)}},
 #ifdef MEDIAL_VK_HAS_THESIS_TYPES
       {"ThesisCell",
        sizeof(gpu::ThesisCell),

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t kWorkgroupSize = 64;
 constexpr std::uint32_t kBallsPerDispatch = 1u << 15;  // milliseconds on a GPU
-/// Of loops, in one invocation. lavapipe ends all loops silently after 65,535 iterations of the invocations of a
-/// subgroup together, and each iteration is one of somebody's.
+/// Of loops, in one invocation, or on lavapipe in those of a subgroup together: it ends all loops silently after 65,535
+/// iterations, counting one that any of them makes.
 constexpr std::uint32_t kIterations = 60'000;
 /// Of what the host measures, per cube or square of the radius: it must hold against other roundings in double.
 constexpr double kHostBound = 0x1p-36;
@@ -91,7 +91,8 @@ void DeviceMeasuring::record(Recorder& r, const std::array<BufferRange, 4>& buff
   gpu::BallConstants constants{};
   constants.ball_count = count;
   constants.first_leaf = tree_.node_count() / 2;
-  constants.iterations = kIterations / std::max(context_.subgroup.subgroupSize, 1u);
+  const bool together = context_.description.type == "cpu";
+  constants.iterations = together ? kIterations / std::max(context_.subgroup.subgroupSize, 1u) : kIterations;
   for (std::uint32_t first = 0; first < count; first = constants.end_ball) {
     constants.first_ball = first;
     constants.end_ball = first + std::min(kBallsPerDispatch, count - first);
