@@ -126,6 +126,7 @@ const PowerCell& CellBuilder::build(std::uint32_t i) {
   if (cell_.empty()) return cell_;
   read_corners();
   walk_tree();
+  cell_.sharpen();
   if (!cell_.empty()) remember_neighbours();
   return cell_;
 }

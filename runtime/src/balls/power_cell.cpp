@@ -15,6 +15,8 @@ constexpr double kRoom = 1 + 0x1p-20;
 // Corners that rounding may have moved by more, in radii, are found with more digits: where planes nearly have a line
 // in common, anything may happen along it, and volumes and simplices must not depend on which.
 constexpr double kSharp = 0x1p-40;
+// The same at once, while the cell is being cut: beyond this, more would be asked of the tree and decided exactly.
+constexpr double kRough = 0x1p-20;
 
 /// Where three planes meet, and how far rounding may have moved it. With unit normals, |p x q| <= 1, so every product
 /// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
@@ -97,11 +99,19 @@ PowerCell::Corner PowerCell::corner_on_edge(const Corner& cut, std::size_t slot,
   const auto [at, slack] = meet(planes_[corner.planes[0]], planes_[corner.planes[1]], planes_[corner.planes[2]]);
   corner.at = at;
   corner.slack = slack;
-  if (!(slack <= kSharp * balls_[ball_].radius)) {
-    const auto name = [&](std::size_t k) { return planes_[corner.planes[k]].ball; };
-    std::tie(corner.at, corner.slack) = exact_.meet(ball_, name(0), name(1), name(2));
-  }
+  if (!(slack <= kRough * balls_[ball_].radius)) place_exactly(corner);
   return corner;
+}
+
+void PowerCell::place_exactly(Corner& corner) const {
+  const auto name = [&](std::size_t k) { return planes_[corner.planes[k]].ball; };
+  std::tie(corner.at, corner.slack) = exact_.meet(ball_, name(0), name(1), name(2));
+}
+
+void PowerCell::sharpen() {
+  for (Corner& corner : corners_) {
+    if (corner.slack > kSharp * balls_[ball_].radius) place_exactly(corner);
+  }
 }
 
 void PowerCell::add_corners(std::uint32_t plane) {

@@ -28,6 +28,9 @@ class PowerCell {
   void start(std::uint32_t i);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before.
   void clip(std::uint32_t j);
+  /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut, so
+  /// this waits for it.
+  void sharpen();
   bool was_cut_by(std::uint32_t j) const;
   std::uint32_t ball() const { return ball_; }
   bool empty() const { return corners_.empty(); }
@@ -42,6 +45,7 @@ class PowerCell {
   void add_corners(std::uint32_t plane);
   void link_new_corners();
   void remove_cut_corners();
+  void place_exactly(Corner& corner) const;
   Corner corner_on_edge(const Corner& cut, std::size_t slot, std::uint32_t plane) const;
 
   std::span<const Ball> balls_;
