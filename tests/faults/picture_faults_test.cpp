@@ -28,7 +28,7 @@ class PictureFaults : public FaultTest {
     Result<picture::DevicePainter> painter = picture::DevicePainter::open(device_, options);
     if (!painter.ok()) return painter.error();
     const auto panels = picture::panels_of(PictureShow::kBoth, out.width);
-    const Status drawn = painter.value().draw(scene_, panels, {1, 0.4, 0.3}, out);
+    const Status drawn = painter.value().draw(scene_, panels, {.towards = {1, 0.4, 0.3}}, out);
     if (!drawn.ok()) return drawn.error();
     return std::string(out.rgb.begin(), out.rgb.end());
   }
