@@ -82,7 +82,7 @@ How points are grouped into sheets:
                         balls, 0 to 1, join a neighbour (default 0.3; 0: none)
       --absorb-fragments N  so do pieces of fewer than N points (default 0)
       --keep-volume V   keep only the most significant sheets, with at least V
-                        of the volume of the union of balls, above 0 to 1
+                        of the volume of the union of balls, between 0 and 1
       --keep-topology   remove none of them without which the union had another
                         number of components, tunnels or cavities
 
