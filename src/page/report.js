@@ -5,7 +5,8 @@ const kBytes = new Set(['memory_bytes']);
 const kHidden = new Set(['format', 'program', 'version', 'input', 'output', 'seconds', 'assumptions']);
 const kTitles = {
   parameters: 'Parameters', mesh: 'Mesh', grid: 'Grid', voxels: 'Voxels', levels: 'Levels', points: 'Points',
-  device: 'Device', certificate: 'Check',
+  device: 'Device', certificate: 'Check', union: 'Union of the balls', grouping: 'Grouping into sheets',
+  medial_mesh: 'Medial mesh', sheets: 'Sheets',
 };
 const kNames = {
   undecided_kinds: 'undecided: ', object_angle: 'object angle', api_version: 'Vulkan version',
@@ -13,7 +14,8 @@ const kNames = {
 };
 // What matters about a mesh even if it is 0; other counts are named only if something happened.
 const kAlways = new Set(['vertices', 'triangles', 'components', 'open_edges', 'undecided', 'rejected', 'found',
-  'written', 'proved_empty', 'radius', 'perturb', 'extra_levels', 'signed_volume']);
+  'written', 'proved_empty', 'radius', 'perturb', 'extra_levels', 'signed_volume', 'tunnels', 'cavities']);
+const kSheets = 30;  // In the table.
 
 function element(tag, text, ...children) {
   const made = document.createElement(tag);
@@ -91,14 +93,22 @@ function certificate(value) {
   return section('Check', element('p', verdict), table(value.conditions));
 }
 
+/** Those with the most points. */
+function sheets(all) {
+  const shown = all.slice(0, kSheets);
+  const more = all.length - shown.length;
+  return section(kTitles.sheets, table(shown), ...(more > 0 ? [element('p', `and ${plain(more)} more`)] : []));
+}
+
 /** Fills `target`. */
 export function showReport(target, report) {
   target.append(run(report));
-  for (const key of ['points', 'voxels', 'parameters', 'mesh', 'grid']) {
+  for (const key of ['points', 'union', 'medial_mesh', 'voxels', 'parameters', 'mesh', 'grid', 'grouping']) {
     if (report[key]) target.append(section(kTitles[key], rows(element('dl'), report[key])));
     const assumptions = report[key]?.assumptions ?? [];
     if (assumptions.length) target.lastChild.append(element('ul', null, ...assumptions.map((x) => element('li', x))));
   }
+  if (report.sheets?.length) target.append(sheets(report.sheets));
   if (report.levels?.length) target.append(section(kTitles.levels, table(report.levels)));
   target.append(certificate(report.certificate));
   target.append(report.device ? section(kTitles.device, rows(element('dl'), report.device))
