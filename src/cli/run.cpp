@@ -199,10 +199,11 @@ class ExtractionRun {
       progress_.update(stage, done);
       return !interrupted();
     };
-    if (Status status = measure_volumes(options_, on_progress, spheres_, record_, files_); !status) {
+    Status status = measure_volumes(options_, on_progress, spheres_, record_, files_);
+    progress_.clear();
+    if (!status) {
       return status.error().code == ErrorCode::kInterrupted ? kStopped : with_hint(status.error());
     }
-    progress_.clear();
     describe_points();
     record_.host_times.push_back({"volumes", stopwatch.lap()});
     return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace medial_vk {
@@ -59,7 +60,7 @@ class Removing {
  private:
   enum class State : std::uint8_t { kNotTried, kStays, kGone };
 
-  /// Whether a sheet may go is a matter of what is around it (by excision): one that had to stay is tried again, before
+  /// Whether a sheet may go depends for the most part on what is around it: one that had to stay is tried again, before
   /// all that are more significant, when cells of its balls have changed.
   Status remove_least_first() {
     for (std::size_t n = 0; n < order_.size() && removal_.sheets.size() + 1 < order_.size();) {
@@ -68,7 +69,7 @@ class Removing {
       if (!progress_(done())) return Error{ErrorCode::kInterrupted, "interrupted"};
       if (const Status status = try_to_remove(sheet); !status.ok()) return status;
       if (state_[sheet] == State::kStays) {
-        if (!keeps_topology_) return {};  // all that follow are more significant
+        if (!keeps_topology_) return {};  // the order is that of Section 6.3, whatever a later sheet would leave
         continue;
       }
       for (const std::uint32_t ball : rest_.changed()) {
@@ -85,17 +86,27 @@ class Removing {
     return static_cast<double>(removal_.sheets.size()) / static_cast<double>(std::max<std::size_t>(balls_.size(), 1));
   }
 
+  Result<bool> keeps_enough(double volume) const {
+    if (!(volume >= least_volume_)) return false;
+    if (!keeps_topology_) return true;
+    const Result<BettiNumbers> left = rest_.betti();
+    if (!left) return left.error();
+    return left.value() == topology_;
+  }
+
   Status try_to_remove(std::uint32_t sheet) {
     if (Status status = rest_.remove(balls_[sheet]); !status.ok()) return status;
     const double volume = rest_.volume();
-    if (volume < least_volume_ || (keeps_topology_ && rest_.betti() != topology_)) {
+    const Result<bool> keeps = keeps_enough(volume);
+    if (!keeps) return keeps.error();
+    if (!keeps.value()) {
       rest_.undo();
       state_[sheet] = State::kStays;
       return {};
     }
     state_[sheet] = State::kGone;
     removal_.sheets.push_back(sheet);
-    removal_.volume_left.push_back(volume / whole_);
+    removal_.volume_left.push_back(whole_ > 0 ? volume / whole_ : 1);
     return {};
   }
 
@@ -114,12 +125,19 @@ class Removing {
 }  // namespace
 
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads) {
+  for (const std::int32_t sheet : sheets.sheet_of) {
+    if (sheet < 0 || static_cast<std::size_t>(sheet) >= sheets.sheets) {
+      return Error{ErrorCode::kInternal, "a ball is in sheet " + std::to_string(sheet) + ", which there is not"};
+    }
+  }
   Result<BallUnion> measured = measure_ball_union(sheets.balls, {.threads = threads, .complex = true});
   if (!measured) return measured.error();
   BallUnion& whole = measured.value();
+  const Result<BettiNumbers> topology = betti_numbers(whole.complex);
+  if (!topology) return topology.error();
   Significance result{.volume = whole.volume,
                       .area = whole.area,
-                      .topology = betti_numbers(whole.complex),
+                      .topology = topology.value(),
                       .of_ball = std::move(whole.volumes),
                       .of_sheet = std::vector<double>(sheets.sheets),
                       .areas = std::move(whole.areas)};

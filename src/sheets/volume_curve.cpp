@@ -15,7 +15,7 @@ struct CurvePoint {
   double volume;
 };
 
-/// From one sheet fewer than the least that were left, up to all.
+/// From all sheets down to those that stay.
 std::vector<CurvePoint> points_of(const SheetRemoval& removal) {
   const std::size_t all = removal.sheets.size() + removal.kept.size();
   std::vector<CurvePoint> points = {{all, 1}};

@@ -7,7 +7,7 @@
 
 namespace medial_vk {
 
-/// Both orders; the second may be of no sheets.
+/// Both orders.
 struct VolumeCurves {
   SheetRemoval by_significance;
   SheetRemoval keeping_topology;

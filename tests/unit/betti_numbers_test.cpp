@@ -41,40 +41,40 @@ TEST(MakeComplete, AddsFacesSortsAndDropsDuplicates) {
   EXPECT_EQ(complex.vertices, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 9}));
   EXPECT_EQ(complex.edges.size(), 6u + 3u + 1u);
   EXPECT_TRUE(std::is_sorted(complex.edges.begin(), complex.edges.end()));
-  EXPECT_EQ(complex.triangles, (std::vector<std::array<std::uint32_t, 3>>{
-                                   {1, 2, 3}, {3, 4, 5}, {3, 4, 6}, {3, 5, 6}, {4, 5, 6}}));
+  EXPECT_EQ(complex.triangles,
+            (std::vector<std::array<std::uint32_t, 3>>{{1, 2, 3}, {3, 4, 5}, {3, 4, 6}, {3, 5, 6}, {4, 5, 6}}));
   EXPECT_EQ(complex.tetrahedra.size(), 1u);
   EXPECT_EQ(vertices[0].balls[0], 0u);
   EXPECT_EQ(vertices[1].at[0], 0);
 }
 
 TEST(BettiNumbersOf, NothingPointsAndLines) {
-  EXPECT_EQ(betti_numbers({}), (BettiNumbers{0, 0, 0}));
-  EXPECT_EQ(betti_numbers(complete({.vertices = {3, 5, 8}, .edges = {}, .triangles = {}, .tetrahedra = {}})),
+  EXPECT_EQ(betti_numbers({}).value(), (BettiNumbers{0, 0, 0}));
+  EXPECT_EQ(betti_numbers(complete({.vertices = {3, 5, 8}, .edges = {}, .triangles = {}, .tetrahedra = {}})).value(),
             (BettiNumbers{3, 0, 0}));
   const DualComplex circle = {.vertices = {7}, .edges = {{0, 1}, {1, 2}, {0, 2}}, .triangles = {}, .tetrahedra = {}};
-  EXPECT_EQ(betti_numbers(complete(circle)), (BettiNumbers{2, 1, 0}));
+  EXPECT_EQ(betti_numbers(complete(circle)).value(), (BettiNumbers{2, 1, 0}));
 }
 
 TEST(BettiNumbersOf, Spheres) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   add_sphere(triangles, {0, 1, 2, 3});
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{1, 0, 1}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 1}));
   add_sphere(triangles, {3, 4, 5, 6});  // they share a vertex
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{1, 0, 2}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 2}));
   add_sphere(triangles, {4, 5, 6, 7});  // and these a triangle, which makes two rooms
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{1, 0, 3}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 3}));
   add_sphere(triangles, {10, 11, 12, 13});
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{2, 0, 4}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{2, 0, 4}));
 }
 
 TEST(BettiNumbersOf, FullAndHalfFullSpheres) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   add_sphere(triangles, {3, 4, 5, 6});
   DualComplex complex = {.vertices = {}, .edges = {{0, 6}}, .triangles = triangles, .tetrahedra = {{0, 1, 2, 3}}};
-  EXPECT_EQ(betti_numbers(complete(complex)), (BettiNumbers{1, 1, 1}));
+  EXPECT_EQ(betti_numbers(complete(complex)).value(), (BettiNumbers{1, 1, 1}));
   complex.tetrahedra.push_back({3, 4, 5, 6});
-  EXPECT_EQ(betti_numbers(complete(complex)), (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(betti_numbers(complete(complex)).value(), (BettiNumbers{1, 1, 0}));
 }
 
 /// Seven vertices, every two of them joined (Csaszar's polyhedron).
@@ -84,9 +84,9 @@ TEST(BettiNumbersOf, ATorus) {
     triangles.push_back({i, (i + 1) % 7, (i + 3) % 7});
     triangles.push_back({i, (i + 2) % 7, (i + 3) % 7});
   }
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{1, 2, 1}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 2, 1}));
   triangles.pop_back();  // a hole: two circles are left
-  EXPECT_EQ(betti_numbers(of_triangles(triangles)), (BettiNumbers{1, 2, 0}));
+  EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 2, 0}));
 }
 
 /// The rank over Z/2, column by column.
@@ -141,7 +141,7 @@ TEST(BettiNumbersOf, PartsOfDualComplexes) {
     ASSERT_TRUE(result.ok());
     const DualComplex part = part_of(result.value().complex, random);
     const BettiNumbers expected = by_ranks(part);
-    EXPECT_EQ(betti_numbers(part), expected) << n;
+    EXPECT_EQ(betti_numbers(part).value(), expected) << n;
     cavities += expected.cavities;
     tunnels += expected.tunnels;
   }

@@ -25,14 +25,15 @@ class ShrinkingUnion {
   /// Per ball: of the ball in its power cell; 0 for balls that are out. Until the next call that is not const.
   std::span<const double> volumes() const;
   bool holds(std::uint32_t ball) const;
-  /// Of the union of the balls that are in. Time: linear in their number, whatever has changed.
-  BettiNumbers betti() const;
+  /// Of the union of the balls that are in. Time: n log n in their number, whatever has changed. Error: kOutOfMemory.
+  Result<BettiNumbers> betti() const;
 
-  /// Takes balls away; those that are out already stay out. Errors: kUsage (names a number that is none of a ball's),
+  /// Takes balls away; those that are out already stay out. Time: that of the cells that change, and for balls without
+  /// a share each of them against each that goes. Errors: kUsage (names a number that is none of a ball's),
   /// kOutOfMemory; then nothing has changed.
   Status remove(std::span<const std::uint32_t> balls);
-  /// Balls that are in and whose power cells the last remove() has changed, ascending; empty after undo(). Until the next
-  /// call that is not const.
+  /// Balls that are in and whose power cells the last remove() has changed, ascending; empty after undo(). Until the
+  /// next call that is not const.
   std::span<const std::uint32_t> changed() const;
   /// Puts back what the last remove() took. Does nothing if it was undone, or if there was none.
   void undo();

@@ -28,7 +28,7 @@ class BallTree {
   };
   static constexpr std::uint32_t kLeaf = 4;
 
-  /// Balls as in BallUnion::measure(): coordinates and radii up to 1.
+  /// Balls as scaled_balls() makes them: coordinates and radii up to 1.
   BallTree(std::span<const Ball> balls, unsigned threads);
 
   /// The balls, leaf by leaf: neighbours in space are mostly neighbours here.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "balls/simplex_lists.h"
+#include "host_memory.h"
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk {
@@ -98,12 +99,10 @@ std::uint64_t left_over(const std::vector<bool>& gone) {
   return static_cast<std::uint64_t>(std::count(gone.begin(), gone.end(), false));
 }
 
-}  // namespace
-
 // A complex of finitely many tetrahedra in space has a triangle that is in one of them only, so all of them collapse.
 // Of the triangles that are left, those that bound nothing are cycles around cavities: their number less their
 // boundary's rank. Tunnels follow from the Euler characteristic, which collapses do not change.
-BettiNumbers betti_numbers(const DualComplex& complex) {
+BettiNumbers count_homology(const DualComplex& complex) {
   const auto tetrahedra = faces_by_place(complex.tetrahedra, complex.triangles);
   const auto triangles = faces_by_place(complex.triangles, complex.edges);
   std::vector<bool> gone_triangles(complex.triangles.size()), gone_edges(complex.edges.size());
@@ -120,6 +119,13 @@ BettiNumbers betti_numbers(const DualComplex& complex) {
       size(complex.vertices) - size(complex.edges) + size(complex.triangles) - size(complex.tetrahedra);
   betti.tunnels = static_cast<std::uint64_t>(static_cast<std::int64_t>(betti.components + betti.cavities) - euler);
   return betti;
+}
+
+}  // namespace
+
+Result<BettiNumbers> betti_numbers(const DualComplex& complex) {
+  return catch_out_of_memory("the topology of a union of balls",
+                             [&]() -> Result<BettiNumbers> { return count_homology(complex); });
 }
 
 }  // namespace medial_vk

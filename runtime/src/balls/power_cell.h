@@ -28,8 +28,8 @@ class PowerCell {
   void start(std::uint32_t i);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before.
   void clip(std::uint32_t j);
-  /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut, so
-  /// this waits for it.
+  /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut,
+  /// so this waits for it.
   void sharpen();
   bool was_cut_by(std::uint32_t j) const;
   std::uint32_t ball() const { return ball_; }

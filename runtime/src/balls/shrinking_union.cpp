@@ -12,6 +12,7 @@
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
 #include "balls/unit_balls.h"
+#include "host_memory.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 
@@ -19,11 +20,13 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kBlock = 64;
+// Of a radius cubed: below it rounding may have found a ball in a cell that it misses, or the other way round.
+constexpr double kSliver = 0x1p-30;
 
 /// What the power cell of one ball says.
 struct Piece {
   double volume = 0;
-  bool is_hidden = false;                 // no cell at all
+  bool is_hidden = false;                 // none of the ball is in its cell, or nearly none
   std::vector<std::uint32_t> neighbours;  // balls that bound the cell
   DualComplex simplices;                  // those whose first ball this is
 };
@@ -55,7 +58,7 @@ class ShrinkingUnion::Impl {
   std::span<const std::uint32_t> changed() const { return changed_; }
   std::size_t size() const { return pieces_.size(); }
 
-  BettiNumbers betti() const {
+  Result<BettiNumbers> betti() const {
     DualComplex complex;
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
       if (!mask_.holds(i)) continue;
@@ -105,10 +108,11 @@ class ShrinkingUnion::Impl {
     pieces_[i] = std::move(piece);
     refresh_volume(i);
   }
-  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume / (scale_ * scale_ * scale_); }
+  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume / scale_ / scale_ / scale_; }
 
-  /// Balls whose cells grow when others go: two cells share a face or not, whichever of them is asked. A ball without a
-  /// cell may get one where it overlaps one that goes.
+  /// Balls whose share grows when others go. Where some of ball k is in its cell and more will be, the cell's face with
+  /// one that goes lies in both balls, as the cell that follows is convex: k is among that one's neighbours. A ball
+  /// that has no share may get one where it overlaps one that goes.
   std::vector<std::uint32_t> touched_by(const std::vector<std::uint32_t>& gone) const {
     std::vector<std::uint32_t> touched;
     for (const std::uint32_t i : gone) append(touched, pieces_[i].neighbours);
@@ -155,13 +159,15 @@ class ShrinkingUnion::Impl {
     const Ball& ball = balls_[i];
     if (ball.radius == 0) return;
     const PowerCell& cell = builder.build(i);
-    piece.is_hidden = cell.empty();
+    piece.is_hidden = true;
     if (cell.empty()) return;
     piece.volume = measure_ball_in_cell(cell, ball.radius).volume;
     const auto neighbours = builder.neighbours();
     piece.neighbours.assign(neighbours.begin() + 1, neighbours.end());
     std::vector<EnvelopeVertex> unused;
     collector.collect(cell, ball, piece.simplices, unused);
+    piece.is_hidden =
+        piece.simplices.vertices.empty() || piece.volume <= kSliver * ball.radius * ball.radius * ball.radius;
   }
 
   double scale_;
@@ -193,7 +199,9 @@ Result<ShrinkingUnion> ShrinkingUnion::build(std::span<const Ball> balls, unsign
 double ShrinkingUnion::volume() const { return impl_->volume(); }
 std::span<const double> ShrinkingUnion::volumes() const { return impl_->volumes(); }
 bool ShrinkingUnion::holds(std::uint32_t ball) const { return impl_->holds(ball); }
-BettiNumbers ShrinkingUnion::betti() const { return impl_->betti(); }
+Result<BettiNumbers> ShrinkingUnion::betti() const {
+  return catch_out_of_memory("the topology of a union of balls", [&] { return impl_->betti(); });
+}
 std::span<const std::uint32_t> ShrinkingUnion::changed() const { return impl_->changed(); }
 void ShrinkingUnion::undo() { impl_->undo(); }
 

@@ -24,7 +24,8 @@ double scale_of(std::span<const Ball> balls) {
   for (const auto& [centre, radius] : balls) {
     largest = std::max({largest, std::fabs(centre[0]), std::fabs(centre[1]), std::fabs(centre[2]), radius});
   }
-  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
+  // Within the range in which both the scale and its inverse are numbers.
+  return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest) - 1, -1020, 1020)) : 1;
 }
 
 namespace {
