@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "deforming_torus.h"
+#include "lent_device.h"
 #include "support/device.h"
 #include "vulkan_host.h"
 
@@ -78,16 +79,8 @@ TEST(HostAllocator, IsUsedForEverythingAndGetsItBack) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   CountingAllocator allocator;
   VulkanHost vulkan;
-  HostDevice host;
-  host.get_instance_proc_addr = vkGetInstanceProcAddr;
-  host.instance = vulkan.instance;
-  host.physical_device = vulkan.physical_device;
-  host.device = vulkan.device;
-  host.queue = vulkan.queue;
-  host.queue_family = vulkan.queue_family;
-  host.enabled_features = vulkan.features;
+  HostDevice host = lend(vulkan);
   host.allocation_callbacks = allocator.callbacks();
-  host.cache_folder = "/dev/null";
   ExtractionParameters parameters;
   parameters.resolution = 20;
   parameters.memory_budget = 256u << 20;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "deforming_torus.h"
+#include "lent_device.h"
 #include "support/device.h"
 #include "vulkan_host.h"
 
@@ -21,19 +22,6 @@ namespace medial_vk::test {
 namespace {
 
 using Voxel = std::array<std::uint32_t, 3>;
-
-HostDevice host_device(const VulkanHost& vulkan) {
-  HostDevice host;
-  host.get_instance_proc_addr = vkGetInstanceProcAddr;
-  host.instance = vulkan.instance;
-  host.physical_device = vulkan.physical_device;
-  host.device = vulkan.device;
-  host.queue = vulkan.queue;
-  host.queue_family = vulkan.queue_family;
-  host.enabled_features = vulkan.features;
-  host.cache_folder = "/dev/null";
-  return host;
-}
 
 ExtractionParameters parameters_for(std::uint32_t resolution) {
   ExtractionParameters p;
@@ -79,7 +67,7 @@ class RecordedJob : public testing::Test {
   }
 
   Context adopt() {
-    Result<Context> context = Context::adopt(host_device(*vulkan_));
+    Result<Context> context = Context::adopt(lend(*vulkan_));
     EXPECT_TRUE(context.ok()) << context.error().message;
     return std::move(context).value();
   }
@@ -327,14 +315,14 @@ TEST_F(RecordedJob, TheDeviceOutlivesItsContexts) {
 }
 
 TEST_F(RecordedJob, AHostThatWillNotDoIsToldWhy) {
-  HostDevice host = host_device(*vulkan_);
+  HostDevice host = lend(*vulkan_);
   EXPECT_TRUE(check_device(host).ok());
   host.queue_family = 99;
   EXPECT_NE(check_device(host).error().message.find("its queue family 99 does not compute"), std::string::npos);
-  host = host_device(*vulkan_);
+  host = lend(*vulkan_);
   host.api_version = VK_API_VERSION_1_1;
   EXPECT_NE(Context::adopt(host).error().message.find("older than Vulkan 1.2"), std::string::npos);
-  host = host_device(*vulkan_);
+  host = lend(*vulkan_);
   host.device = VK_NULL_HANDLE;
   EXPECT_EQ(Context::adopt(host).error().code, ErrorCode::kNoDevice);
   host = {};
