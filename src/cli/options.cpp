@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "cli/parse_number.h"
+#include "output/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -194,10 +194,7 @@ bool same_file(const std::string& a, const std::string& b) {
 
 /// Is `path` empty or standard output, or does it end in `wanted`, whatever its case?
 bool may_end_in(const std::string& path, const char* wanted) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return path.empty() || path == "-" || extension == wanted;
+  return path.empty() || path == "-" || file_extension(path) == wanted;
 }
 
 /// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.

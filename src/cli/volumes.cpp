@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
+#include "output/file_extension.h"
 #include "sheets/volume_curve.h"
 
 namespace medial_vk::cli {
@@ -26,12 +26,6 @@ std::string encode_ball_volumes(const Significance& significance, const std::vec
                    significance.areas[i], share);
   }
   return text;
-}
-
-bool ends_in_csv(const std::string& path) {
-  return path == "-" || (path.size() >= 4 && std::equal(path.end() - 4, path.end(), ".csv", [](char a, char b) {
-                           return (a | 0x20) == (b | 0x20);  // in either case
-                         }));
 }
 
 template <class T>
@@ -93,8 +87,8 @@ class VolumeStep {
     Result<SheetRemoval> keeping_topology = order(RemovalRule::kTopology, 0);
     if (!keeping_topology) return keeping_topology.error();
     const VolumeCurves curves = {std::move(by_significance).value(), std::move(keeping_topology).value()};
-    files_.push_back({options_.sheet_curve,
-                      ends_in_csv(options_.sheet_curve) ? encode_curve_csv(curves) : encode_curve_svg(curves)});
+    const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
+    files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
     return {};
   }
 
@@ -105,8 +99,9 @@ class VolumeStep {
     std::vector<bool> is_kept_sheet(sheets_.sheets, true);
     for (const std::uint32_t sheet : removal.value().sheets) is_kept_sheet[sheet] = false;
     std::vector<bool> keep(spheres_.size());
-    for (std::size_t i = 0; i < keep.size(); ++i)
+    for (std::size_t i = 0; i < keep.size(); ++i) {
       keep[i] = is_kept_sheet[static_cast<std::size_t>(sheets_.sheet_of[i])];
+    }
     keep_marked(keep, spheres_);
     keep_marked(keep, record_.sheets.of_point);
     keep_marked(keep, record_.sheets.marks);

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 
+#include "output/file_extension.h"
 #include "output/little_endian.h"
 #include "output/version.h"
 
@@ -64,9 +63,7 @@ MedialHeader make_header(const VoxelGrid& grid, const ExtractionParameters& para
 }
 
 Result<MedialFormat> medial_format_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = file_extension(path);
   const std::pair<const char*, MedialFormat> known[] = {{".ply", MedialFormat::kPly},
                                                         {".csv", MedialFormat::kCsv},
                                                         {".npz", MedialFormat::kNpz},

@@ -10,6 +10,7 @@
 
 #include "medial_vk/ball_union.h"
 #include "medial_vk/ball_union_device.h"
+#include "support/ball_families.h"
 #include "support/device_test.h"
 #include "support/extraction.h"
 #include "support/solids.h"
@@ -76,13 +77,7 @@ DeviceBallUnion BallUnionOnDevice::expect_within_bounds(const std::vector<Ball>&
   return device;
 }
 
-std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least, double most) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, 1), radius(least, most);
-  std::vector<Ball> balls(count);
-  for (Ball& ball : balls) ball = {{place(random), place(random), place(random)}, radius(random)};
-  return balls;
-}
+using test::random_balls;
 
 std::vector<Ball> grid(int nx, int ny, int nz, double radius) {
   std::vector<Ball> balls;

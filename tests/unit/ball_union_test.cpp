@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cpu_reference/ball_union.h"
+#include "support/ball_families.h"
 
 namespace medial_vk {
 namespace {
@@ -50,26 +51,13 @@ void expect_volume(const std::vector<Ball>& balls, double expected) {
 }
 
 std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least = 0.2, double most = 0.6) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, 1), radius(least, most);
-  std::vector<Ball> balls(count);
-  for (Ball& ball : balls) ball = {{place(random), place(random), place(random)}, radius(random)};
-  return balls;
+  return test::random_balls(count, seed, least, most);
 }
 
 double by_slices(const std::vector<Ball>& balls) {
   std::vector<reference::UnionBall> spheres;
   for (const auto& [c, r] : balls) spheres.push_back({{c[0], c[1], c[2]}, r});
   return reference::union_volume_by_slices(spheres);
-}
-
-std::vector<Ball> grid(int n, double radius) {
-  std::vector<Ball> balls;
-  for (int i = 0; i < n * n * n; ++i) {
-    balls.push_back(
-        {{static_cast<double>(i % n), static_cast<double>(i / n % n), static_cast<double>(i / n / n)}, radius});
-  }
-  return balls;
 }
 
 TEST(BallUnion, OfOneBall) {
@@ -134,7 +122,7 @@ TEST(BallUnion, OfGridsWhoseNumbersAreRounded) {
   std::uniform_real_distribution<double> share(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
     const double unit = 1 + 0.37 * share(random);
-    auto balls = grid(5, 0.75 * unit);
+    auto balls = test::lattice(5, 0.75 * unit);
     const Point shift = {share(random), share(random), share(random)};
     for (Ball& ball : balls) {
       for (std::size_t k = 0; k < 3; ++k) ball.centre[k] = unit * ball.centre[k] + shift[k];
@@ -173,14 +161,14 @@ TEST(BallUnion, OfDuplicatesCountsTheFirst) {
 TEST(BallUnion, OfAGridOfOverlappingBalls) {
   const int n = 6;
   const double radius = 0.6;
-  expect_volume(grid(n, radius),
+  expect_volume(test::lattice(n, radius),
                 n * n * n * ball_volume(radius) - 3 * n * n * (n - 1) * lens_volume(radius, radius, 1));
 }
 
 /// Spheres that fill their cells: every interior cell is a unit cube, whose eight corners are shared by eight balls.
 TEST(BallUnion, OfAGridThatFillsSpace) {
   const int n = 5;
-  const BallUnion found = measure(grid(n, 0.9));
+  const BallUnion found = measure(test::lattice(n, 0.9));
   const int middle = n * n * n / 2;
   EXPECT_NEAR(found.volumes[static_cast<std::size_t>(middle)], 1, kExact);
   EXPECT_NEAR(found.areas[static_cast<std::size_t>(middle)], 0, kExact);
@@ -191,8 +179,8 @@ TEST(BallUnion, OfAGridThatFillsSpace) {
 /// radius sqrt(1/2) and sqrt(3/4) squares are filled and cubes are hollow.
 TEST(BallUnion, FindsTunnelsAndCavitiesOfAGrid) {
   const std::uint64_t n = 5, points = n * n * n, edges = 3 * n * n * (n - 1);
-  EXPECT_EQ(betti(grid(n, 0.6)), (BettiNumbers{1, edges - points + 1, 0}));
-  EXPECT_EQ(betti(grid(n, 0.8)), (BettiNumbers{1, 0, (n - 1) * (n - 1) * (n - 1)}));
+  EXPECT_EQ(betti(test::lattice(n, 0.6)), (BettiNumbers{1, edges - points + 1, 0}));
+  EXPECT_EQ(betti(test::lattice(n, 0.8)), (BettiNumbers{1, 0, (n - 1) * (n - 1) * (n - 1)}));
 }
 
 std::vector<Ball> ring(int count, double size, double radius, const Point& at) {

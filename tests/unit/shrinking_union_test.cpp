@@ -10,18 +10,14 @@
 #include <random>
 #include <vector>
 
+#include "support/ball_families.h"
+
 namespace medial_vk {
 namespace {
 
 constexpr double kExact = 1e-12;  // relative
 
-std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least, double most) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, 1), radius(least, most);
-  std::vector<Ball> balls(count);
-  for (Ball& ball : balls) ball = {{place(random), place(random), place(random)}, radius(random)};
-  return balls;
-}
+using test::random_balls;
 
 ShrinkingUnion build(const std::vector<Ball>& balls) {
   auto result = ShrinkingUnion::build(balls, 2);

@@ -1,14 +1,13 @@
 #include "medial_vk/ball_union.h"
 
 #include <algorithm>
-#include <new>
-#include <string>
 
 #include "balls/ball_in_cell.h"
 #include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/simplex_lists.h"
 #include "balls/unit_balls.h"
+#include "host_memory.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
 
@@ -35,7 +34,10 @@ class Measuring {
     parallel_blocks(balls_.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
     result_.volume = careful_sum(result_.volumes);
     result_.area = careful_sum(result_.areas);
-    for (Pieces& pieces : pieces_) append(pieces);
+    for (const Pieces& pieces : pieces_) {
+      append(result_.complex, pieces.complex);
+      append(result_.vertices, pieces.vertices);
+    }
     if (options_.complex) make_complete(result_.complex, result_.vertices);
     return std::move(result_);
   }
@@ -59,18 +61,6 @@ class Measuring {
     }
   }
 
-  void append(Pieces& pieces) {
-    const auto join = [](auto& all, auto& more) {
-      all.insert(all.end(), more.begin(), more.end());
-      more = {};
-    };
-    join(result_.complex.vertices, pieces.complex.vertices);
-    join(result_.complex.edges, pieces.complex.edges);
-    join(result_.complex.triangles, pieces.complex.triangles);
-    join(result_.complex.tetrahedra, pieces.complex.tetrahedra);
-    join(result_.vertices, pieces.vertices);
-  }
-
   std::span<const Ball> balls_;
   BallUnionOptions options_;
   unsigned threads_;
@@ -92,15 +82,13 @@ void scale_back(BallUnion& result, double unit) {
 
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
-  try {
+  return catch_out_of_memory("measuring a union of balls", [&]() -> Result<BallUnion> {
     const double scale = scale_of(balls);
     const std::vector<Ball> unit_balls = scaled_balls(balls, scale);
     BallUnion result = Measuring(unit_balls, options).run();
     scale_back(result, 1 / scale);
     return result;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory: a union of " + std::to_string(balls.size()) + " balls"};
-  }
+  });
 }
 
 }  // namespace medial_vk

@@ -124,7 +124,7 @@ BettiNumbers count_homology(const DualComplex& complex) {
 }  // namespace
 
 Result<BettiNumbers> betti_numbers(const DualComplex& complex) {
-  return catch_out_of_memory("the topology of a union of balls",
+  return catch_out_of_memory("counting the holes of a union of balls",
                              [&]() -> Result<BettiNumbers> { return count_homology(complex); });
 }
 

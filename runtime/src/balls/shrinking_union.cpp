@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,11 +30,6 @@ struct Piece {
   DualComplex simplices;                  // those whose first ball this is
 };
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 }  // namespace
 
 class ShrinkingUnion::Impl {
@@ -62,10 +56,7 @@ class ShrinkingUnion::Impl {
     DualComplex complex;
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
       if (!mask_.holds(i)) continue;
-      append(complex.vertices, pieces_[i].simplices.vertices);
-      append(complex.edges, pieces_[i].simplices.edges);
-      append(complex.triangles, pieces_[i].simplices.triangles);
-      append(complex.tetrahedra, pieces_[i].simplices.tetrahedra);
+      append(complex, pieces_[i].simplices);
     }
     std::vector<EnvelopeVertex> none;
     make_complete(complex, none);
@@ -189,33 +180,29 @@ ShrinkingUnion::~ShrinkingUnion() = default;
 
 Result<ShrinkingUnion> ShrinkingUnion::build(std::span<const Ball> balls, unsigned threads) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
-  try {
+  return catch_out_of_memory("measuring a union of balls", [&]() -> Result<ShrinkingUnion> {
     return ShrinkingUnion(std::make_unique<Impl>(balls, threads));
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory: a union of " + std::to_string(balls.size()) + " balls"};
-  }
+  });
 }
 
 double ShrinkingUnion::volume() const { return impl_->volume(); }
 std::span<const double> ShrinkingUnion::volumes() const { return impl_->volumes(); }
 bool ShrinkingUnion::holds(std::uint32_t ball) const { return impl_->holds(ball); }
 Result<BettiNumbers> ShrinkingUnion::betti() const {
-  return catch_out_of_memory("the topology of a union of balls", [&] { return impl_->betti(); });
+  return catch_out_of_memory("counting the holes of a union of balls", [&] { return impl_->betti(); });
 }
 std::span<const std::uint32_t> ShrinkingUnion::changed() const { return impl_->changed(); }
 void ShrinkingUnion::undo() { impl_->undo(); }
 
 Status ShrinkingUnion::remove(std::span<const std::uint32_t> balls) {
-  for (const std::uint32_t i : balls) {
-    if (i < impl_->size()) continue;
-    return Error{ErrorCode::kUsage, "no ball " + std::to_string(i) + ": there are " + std::to_string(impl_->size())};
-  }
-  try {
+  return catch_out_of_memory("taking balls from a union", [&]() -> Status {
+    for (const std::uint32_t i : balls) {
+      if (i < impl_->size()) continue;
+      return Error{ErrorCode::kUsage, "no ball " + std::to_string(i) + ": there are " + std::to_string(impl_->size())};
+    }
     impl_->remove(balls);
     return {};
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory: a smaller union of balls"};
-  }
+  });
 }
 
 }  // namespace medial_vk

@@ -17,6 +17,18 @@ void sort_unique(std::vector<T>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+inline void append(DualComplex& all, const DualComplex& more) {
+  append(all.vertices, more.vertices);
+  append(all.edges, more.edges);
+  append(all.triangles, more.triangles);
+  append(all.tetrahedra, more.tetrahedra);
+}
+
 /// A simplex without its vertex k.
 template <std::size_t N>
 std::array<std::uint32_t, N - 1> face(const std::array<std::uint32_t, N>& simplex, std::size_t k) {

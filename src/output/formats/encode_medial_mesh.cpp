@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <iterator>
 
+#include "output/file_extension.h"
 #include "output/little_endian.h"
 
 namespace medial_vk {
@@ -86,10 +85,7 @@ std::string encode_medial_mesh_ma(std::span<const MedialSphere> spheres, const M
 std::string encode_medial_mesh(const std::string& path, const MedialHeader& header,
                                std::span<const MedialSphere> spheres, const Sheets& sheets, const MedialMesh& mesh,
                                bool ascii) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".ma") return encode_medial_mesh_ma(spheres, mesh);
+  if (file_extension(path) == ".ma") return encode_medial_mesh_ma(spheres, mesh);
   return encode_medial_mesh_ply(header, spheres, sheets, mesh, ascii);
 }
 
