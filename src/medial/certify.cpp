@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/parallel_for.h"
+#include "mesh/solid.h"
 
 namespace medial_vk {
 namespace {
@@ -38,7 +39,7 @@ class Certifier {
         grid_(grid),
         longest_(longest_side),
         epsilon_(parameters.epsilon * grid.voxel_size),
-        rounding_(distance_rounding(bvh, longest_side)) {}
+        rounding_(distance_rounding(bvh)) {}
 
   /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
   /// (contacts of three sheets that nearly tie) double can.
@@ -82,19 +83,6 @@ class Certifier {
   }
 
  private:
-  // The distance is the length of a difference of points that are themselves sums of at most three products: with
-  // u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side.
-  // The units of the mesh add one rounding of the coordinates, u times their magnitude, for whoever moves the origin.
-  static double distance_rounding(const Bvh& bvh, double longest) {
-    constexpr double u = 0x1p-53;
-    double magnitude = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const BvhBox& box = bvh.nodes().front().box;
-      magnitude = std::max({magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-    }
-    return 32 * u * longest + 4 * u * magnitude;
-  }
-
   struct End {
     Point point, toward;
     double distance;

@@ -1,0 +1,51 @@
+// A solid as a given number of balls.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "medial/extract.h"
+#include "medial_vk/queries.h"
+#include "mesh/solid.h"
+
+namespace medial_vk {
+
+/// What the balls are promised to do (docs/theory.md, "Tight spheres").
+enum class SphereContract {
+  kInside,    ///< No point of a ball lies outside the solid.
+  kCover,     ///< No point of the solid lies outside the balls.
+  kBalanced,  ///< Grown a little from inside, towards the boundary nearby (S. Stolpner, 2011, Section 8.2).
+};
+
+enum class SphereMethod {
+  kBest,    ///< Chosen and moved for the least volume that is left uncovered.
+  kSource,  ///< One ball per voxel, the largest voxels that give no more balls than wanted (Section 7.3.2).
+};
+
+/// Goals that are given together must all be met, with as few balls as the method finds.
+struct SphereRequest {
+  SphereMethod method = SphereMethod::kBest;
+  SphereContract contract = SphereContract::kInside;
+  std::size_t count = 0;         ///< At most so many; 0: as many as the other goals take, which must be given then.
+  double error = 0;              ///< Uncovered share of the solid's volume; 0: no such goal.
+  double max_gap = 0;            ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
+  std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionParameters; 0: by the count.
+  double object_angle = 0.6;
+  unsigned threads = 0;  ///< 0: all. The result does not depend on it.
+};
+
+struct SphereSet {
+  /// In mesh units. Every prefix is a good set of its own size: the levels (`--levels`).
+  std::vector<Ball> balls;
+};
+
+/// Stage and share of it done; return false to stop.
+using SphereProgress = StageProgress;
+
+/// Approximates the solid. `context` is needed by Backend::kVulkan only. Does not throw. Errors: those of
+/// extract_and_certify(); kUsage (no goal; a goal that the contract does not know); kInterrupted.
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest& request, Backend backend,
+                                         Context* context, const SphereProgress& progress = {});
+
+}  // namespace medial_vk
