@@ -6,8 +6,9 @@
 namespace medial_vk {
 
 struct BallInCell {
-  double volume = 0;  ///< Of the ball in the cell.
-  double area = 0;    ///< Of the sphere in the cell.
+  double volume = 0;              ///< Of the ball in the cell.
+  double area = 0;                ///< Of the sphere in the cell.
+  Point area_vector = {0, 0, 0};  ///< The same as a sum of outward normals, each weighted by its share of the area.
 };
 
 /// `radius` of the cell's ball.

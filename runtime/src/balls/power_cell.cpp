@@ -64,6 +64,20 @@ void PowerCell::start(std::uint32_t i) {
   }
 }
 
+void PowerCell::keep(Kept& kept) const {
+  kept.ball = ball_;
+  kept.walls = walls_;
+  kept.planes = planes_;
+  kept.corners = corners_;
+}
+
+void PowerCell::restore(const Kept& kept) {
+  ball_ = kept.ball;
+  walls_ = kept.walls;
+  planes_ = kept.planes;
+  corners_ = kept.corners;
+}
+
 bool PowerCell::cuts(const Corner& corner, const Bisector& plane, double height) const {
   const double doubt = corner.slack + plane.slack + 8 * DBL_EPSILON * (length(corner.at) + std::fabs(plane.offset));
   if (std::fabs(height) > doubt) return height > 0;
@@ -178,21 +192,23 @@ bool PowerCell::was_cut_by(std::uint32_t j) const {
   return std::any_of(planes_.begin(), planes_.end(), [&](const Bisector& plane) { return plane.ball == name; });
 }
 
-void PowerCell::clip(std::uint32_t j) {
+bool PowerCell::clip(std::uint32_t j) {
   const Bisector plane = bisector(balls_, ball_, j);
   if (plane.normal == Point{}) {
-    if (!exact_.keeps_concentric(ball_, j)) corners_.clear();
-    return;
+    if (exact_.keeps_concentric(ball_, j)) return false;
+    corners_.clear();
+    return true;
   }
-  if (!find_cut_corners(plane)) return;
+  if (!find_cut_corners(plane)) return false;
   if (cut_.size() == corners_.size()) {
     corners_.clear();
-    return;
+    return true;
   }
   planes_.push_back(plane);
   add_corners(static_cast<std::uint32_t>(planes_.size() - 1));
   link_new_corners();
   remove_cut_corners();
+  return true;
 }
 
 }  // namespace medial_vk

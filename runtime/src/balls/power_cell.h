@@ -24,10 +24,20 @@ class PowerCell {
 
   explicit PowerCell(std::span<const Ball> balls) : balls_(balls), exact_(balls, walls_) {}
 
+  /// What restore() needs to go on with a cell later.
+  struct Kept {
+    std::uint32_t ball = 0;
+    std::vector<Wall> walls;
+    std::vector<Bisector> planes;
+    std::vector<Corner> corners;
+  };
+  void keep(Kept& kept) const;
+  void restore(const Kept& kept);
+
   /// Starts again: a box that holds ball i with some room.
   void start(std::uint32_t i);
-  /// Cuts by the plane between the cell's ball and ball j, which has not cut it before.
-  void clip(std::uint32_t j);
+  /// Cuts by the plane between the cell's ball and ball j, which has not cut it before. False if nothing was cut off.
+  bool clip(std::uint32_t j);
   /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut,
   /// so this waits for it.
   void sharpen();

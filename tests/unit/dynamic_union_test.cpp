@@ -1,0 +1,157 @@
+// A union of balls that come, go and move, against the same balls measured at once.
+#include "medial_vk/dynamic_union.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+// Both sum up at most 40 volumes of at most 0.4, each with some hundred roundings.
+constexpr double kTolerance = 1e-11;
+
+double volume_at_once(const DynamicUnion& balls) {
+  std::vector<Ball> all;
+  for (std::uint32_t i = 0; i < balls.places(); ++i) {
+    if (balls.holds(i)) all.push_back(balls.ball(i));
+  }
+  return measure_ball_union(all).value().volume;
+}
+
+/// Random changes, most of them kept and some taken back.
+class Sequence {
+ public:
+  Sequence(unsigned seed, bool on_a_grid)
+      : random_(seed), on_a_grid_(on_a_grid), balls_(std::move(DynamicUnion::build(64, 2)).value()) {}
+
+  void step() {
+    const double before = balls_.volume();
+    const std::uint32_t kind = balls_.size() < 5 ? 0 : balls_.size() > 40 ? 1 : random_() % 4;
+    double expected = before;
+    if (kind == 0) {
+      const Ball ball = random_ball();
+      expected += balls_.gain(ball).value();
+      ASSERT_TRUE(balls_.add(ball).ok());
+      EXPECT_NEAR(balls_.volume(), expected, kTolerance);
+    } else if (kind == 1) {
+      const std::uint32_t place = random_place();
+      expected -= balls_.loss(place).value();
+      ASSERT_TRUE(balls_.remove(place).ok());
+      EXPECT_NEAR(balls_.volume(), expected, kTolerance);
+    } else {
+      const std::uint32_t place = random_place();
+      ASSERT_TRUE(balls_.move(place, kind == 2 ? nudged(balls_.ball(place)) : random_ball()).ok());
+    }
+    EXPECT_NEAR(balls_.volume(), volume_at_once(balls_), kTolerance);
+    if (random_() % 3 != 0) return;
+    balls_.undo();
+    EXPECT_EQ(balls_.volume(), before);
+    EXPECT_NEAR(balls_.volume(), volume_at_once(balls_), kTolerance);
+  }
+
+ private:
+  double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  Ball random_ball() {
+    Ball ball = {{uniform(), uniform(), uniform()}, 0.05 + 0.4 * uniform() * uniform()};
+    if (!on_a_grid_) return ball;
+    for (double& x : ball.centre) x = std::round(4 * x) / 4;
+    ball.radius = std::round(8 * ball.radius) / 8 + 0.125;
+    return ball;
+  }
+  Ball nudged(Ball ball) {
+    for (double& x : ball.centre) x += 0.05 * (uniform() - 0.5);
+    return ball;
+  }
+  std::uint32_t random_place() {
+    for (;;) {
+      const auto place = static_cast<std::uint32_t>(random_() % balls_.places());
+      if (balls_.holds(place)) return place;
+    }
+  }
+
+  std::mt19937 random_;
+  bool on_a_grid_;
+  DynamicUnion balls_;
+};
+
+TEST(DynamicUnion, IsTheUnionOfWhatIsThere) {
+  for (unsigned seed = 0; seed < 40 && !testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    // On a grid balls coincide, contain each other, and meet by fours and more.
+    Sequence sequence(seed, seed % 2 == 1);
+    for (int n = 0; n < 200 && !testing::Test::HasFailure(); ++n) sequence.step();
+  }
+}
+
+TEST(DynamicUnion, ExposureIsTheDerivativeOfTheVolume) {
+  DynamicUnion balls = std::move(DynamicUnion::build(8, 2)).value();
+  const std::vector<Ball> some = {
+      {{0, 0, 0}, 0.5}, {{0.4, 0.1, 0}, 0.4}, {{0.1, 0.5, 0.2}, 0.45}, {{0.2, 0.2, 0.5}, 0.3}};
+  for (const Ball& ball : some) ASSERT_TRUE(balls.add(ball).ok());
+  const double h = 1e-5;  // the second derivative is of order 1: central differences err by 1e-10, rounding by 1e-11
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Exposure exposure = balls.exposure(i);
+    const Ball ball = balls.ball(i);
+    const auto volume_with = [&](const Ball& other) {
+      EXPECT_TRUE(balls.move(i, other).ok());
+      const double volume = balls.volume();
+      balls.undo();
+      return volume;
+    };
+    for (std::size_t k = 0; k < 4; ++k) {
+      Ball more = ball, less = ball;
+      (k < 3 ? more.centre[k] : more.radius) += h;
+      (k < 3 ? less.centre[k] : less.radius) -= h;
+      const double slope = (volume_with(more) - volume_with(less)) / (2 * h);
+      EXPECT_NEAR(slope, k < 3 ? exposure.vector[k] : exposure.area, 1e-8) << "ball " << i << ", direction " << k;
+    }
+  }
+}
+
+TEST(DynamicUnion, VerticesLieOnThreeSpheres) {
+  DynamicUnion balls = std::move(DynamicUnion::build(8, 2)).value();
+  const std::vector<Ball> some = {{{0, 0, 0}, 0.5}, {{0.4, 0, 0}, 0.5}, {{0.2, 0.4, 0}, 0.5}};
+  for (const Ball& ball : some) ASSERT_TRUE(balls.add(ball).ok());
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::vector<Point> vertices = balls.vertices(i);
+    ASSERT_EQ(vertices.size(), 2u);
+    for (const Point& v : vertices) {
+      for (const Ball& ball : some) {
+        const double distance = std::hypot(v[0] - ball.centre[0], v[1] - ball.centre[1], v[2] - ball.centre[2]);
+        EXPECT_NEAR(distance, ball.radius, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(DynamicUnion, TakesOneBallAsItIs) {
+  DynamicUnion balls = std::move(DynamicUnion::build(1, 1e6)).value();
+  ASSERT_TRUE(balls.add({{3e5, 0, -2e5}, 2}).ok());
+  EXPECT_NEAR(balls.volume(), 4 * std::numbers::pi / 3 * 8, 1e-13);
+  EXPECT_NEAR(balls.exposure(0).area, 4 * std::numbers::pi * 4, 1e-13);
+  EXPECT_EQ(balls.gain({{3e5, 0, -2e5}, 1}).value(), 0);
+}
+
+TEST(DynamicUnion, NamesWhatItCannotTake) {
+  DynamicUnion balls = std::move(DynamicUnion::build(1, 1)).value();
+  EXPECT_EQ(DynamicUnion::build(1, 0).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(DynamicUnion::build(1, INFINITY).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(balls.remove(0).error().message, "no ball at place 0");
+  EXPECT_EQ(balls.move(7, {{0, 0, 0}, 1}).error().message, "no ball at place 7");
+  EXPECT_EQ(balls.loss(0).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(balls.add({{0, 2, 0}, 0.5}).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(balls.gain({{0, NAN, 0}, 0.5}).error().code, ErrorCode::kUsage);
+  ASSERT_TRUE(balls.add({{0, 0, 0}, 0.5}).ok());
+  EXPECT_EQ(balls.add({{0, 0, 0}, 0.5}).error().message, "the union is full: it was made for at most 1");
+  EXPECT_EQ(balls.size(), 1u);
+}
+
+}  // namespace
+}  // namespace medial_vk
