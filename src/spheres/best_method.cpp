@@ -1,0 +1,230 @@
+#include "spheres/best_method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "mesh/point_ops.h"
+#include "spheres/candidates.h"
+#include "spheres/gaps.h"
+#include "spheres/maximal_ball.h"
+#include "spheres/slide.h"
+
+namespace medial_vk {
+namespace {
+
+// More balls than this need finer medial points to choose from: as many voxels along the longest side.
+struct Level {
+  std::size_t from;
+  std::uint32_t resolution;
+};
+constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
+// Balls of smaller object angles fill the edges; below, their number grows and what they add does not.
+constexpr double kObjectAngle = 0.3;
+
+constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
+constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
+constexpr std::size_t kMostBalls = 20000;  // if no count is given
+
+/// Step lengths of sliding, in radii of the ball.
+constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05, kLongestStep = 0.5, kShortestStep = 1e-3;
+constexpr int kOwnSlides = 3, kSweeps = 6;
+constexpr double kEnough = 2e-3;  // of what the new ball added: a sweep that gains less is the last
+
+class Placing {
+ public:
+  Placing(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+          const SphereProgress& progress, DynamicUnion balls)
+      : solid_(solid),
+        request_(request),
+        backend_(backend),
+        context_(context),
+        progress_(progress),
+        balls_(std::move(balls)),
+        slider_(solid),
+        gaps_(solid, balls_) {}
+
+  Result<SphereSet> run() {
+    const std::size_t most = request_.count > 0 ? request_.count : kMostBalls;
+    while (balls_.size() < most && !goals_met()) {
+      if (Status status = find_candidates(); !status.ok()) return status.error();
+      Result<std::optional<Candidates::Choice>> choice = choose();
+      if (!choice) return choice.error();
+      if (!choice.value()) break;
+      if (Status status = place(*choice.value()); !status.ok()) return status.error();
+      if (progress_ && !progress_("spheres", share_done(most))) return Error{ErrorCode::kInterrupted, "stopped"};
+    }
+    if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
+    if (has_goals() && !goals_met()) return unmet();
+    return result();
+  }
+
+ private:
+  bool has_goals() const { return request_.error > 0 || request_.max_gap > 0; }
+  double uncovered() const { return 1 - volume_ / solid_.volume(); }
+
+  bool goals_met() {
+    if (!has_goals() || balls_.size() == 0) return false;
+    if (request_.error > 0 && !(uncovered() <= request_.error)) return false;
+    return request_.max_gap == 0 || gaps_.widest_on_boundary().size <= request_.max_gap;
+  }
+
+  double share_done(std::size_t most) const {
+    if (request_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
+    return request_.error > 0 ? std::min(1.0, request_.error / uncovered()) : 0;
+  }
+
+  Error unmet() const {
+    return {ErrorCode::kUsage,
+            fmt::format("{} balls leave {:.3g} of the volume uncovered; allow more balls, or a larger error or gap",
+                        balls_.size(), uncovered())};
+  }
+
+  /// The next medial points, if there are enough balls for them.
+  Status find_candidates() {
+    if (request_.resolution > 0) return levels_ > 0 ? Status() : extract(request_.resolution);
+    while (levels_ < kLevels.size() && kLevels[levels_].from <= balls_.size()) {
+      if (Status status = extract(kLevels[levels_].resolution); !status.ok()) return status;
+    }
+    return {};
+  }
+
+  Status extract(std::uint32_t resolution) {
+    ++levels_;
+    ExtractionParameters parameters;
+    parameters.resolution = resolution;
+    parameters.object_angle = kObjectAngle;
+    const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
+    Result<CertifiedExtraction> found =
+        extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);
+    if (!found) return found.error();
+    std::vector<Ball> balls;
+    for (const MedialSphere& s : found.value().extraction.spheres) balls.push_back({s.centre, s.radius});
+    candidates_.add(balls);
+    return {};
+  }
+
+  Result<std::optional<Candidates::Choice>> choose() {
+    const std::size_t n = balls_.size();
+    if (n >= kFirstGap && n % kGapPeriod == 0) {
+      const std::optional<Ball> ball = ball_in_widest_gap();
+      if (ball) {
+        const Result<double> gain = balls_.gain(*ball);
+        if (!gain) return gain.error();
+        if (gain.value() > 0) return std::optional<Candidates::Choice>({*ball, gain.value()});
+      }
+    }
+    return candidates_.take_best(balls_);
+  }
+
+  /// The largest ball through the deepest vertex of the envelope, or through the middle between the boundary's farthest
+  /// point and the ball that is nearest there.
+  std::optional<Ball> ball_in_widest_gap() {
+    const GapFinder::Gap outer = gaps_.widest_on_boundary(), inner = gaps_.deepest_vertex();
+    const Point inside = outer.size > inner.size ? outer.towards_balls : inner.at;
+    if (outer.size > inner.size && !solid_.contains(inside)) return std::nullopt;
+    const Ball ball = maximal_ball(solid_, inside);
+    return ball.radius > 0 ? std::optional(ball) : std::nullopt;
+  }
+
+  Status place(const Candidates::Choice& choice) {
+    const Result<std::uint32_t> place = balls_.add(choice.ball);
+    if (!place) return place.error();
+    volume_ = balls_.volume();
+    const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
+    note_change();
+    steps_.resize(balls_.places());
+    steps_[place.value()] = kFirstStep * choice.ball.radius;
+    for (int i = 0; i < kOwnSlides; ++i) {
+      if (Result<double> gain = slide(place.value()); !gain) return gain.error();
+    }
+    for (const std::uint32_t p : around) steps_[p] = std::max(steps_[p], kLeastFirstStep * balls_.ball(p).radius);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      double sum = 0;
+      for (const std::uint32_t p : around) {
+        Result<double> gain = slide(p);
+        if (!gain) return gain.error();
+        sum += gain.value();
+      }
+      if (sum <= kEnough * choice.gain) break;
+    }
+    return {};
+  }
+
+  /// One step, taken if the union grows, and by how much.
+  Result<double> slide(std::uint32_t place) {
+    double& step = steps_[place];
+    const Ball ball = balls_.ball(place);
+    if (step < kShortestStep * ball.radius) return 0.0;
+    const Point move = slider_.direction(ball, balls_.exposure(place), step);
+    if (move == Point{}) {
+      step /= 4;
+      return 0.0;
+    }
+    // Within the ball, so within the solid.
+    const Ball moved = maximal_ball(solid_, ball.centre + move);
+    if (!(moved.radius > 0)) {
+      step /= 2;
+      return 0.0;
+    }
+    if (Status status = balls_.move(place, moved); !status.ok()) return status.error();
+    const double gain = balls_.volume() - volume_;
+    if (!(gain > 0)) {
+      balls_.undo();
+      step /= 2;
+      return 0.0;
+    }
+    volume_ += gain;
+    note_change();
+    step = std::min(1.3 * step, kLongestStep * moved.radius);
+    return gain;
+  }
+
+  void note_change() {
+    for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
+  }
+
+  SphereSet result() const {
+    SphereSet set;
+    for (std::uint32_t place = 0; place < balls_.places(); ++place) set.balls.push_back(balls_.ball(place));
+    return set;
+  }
+
+  const Solid& solid_;
+  const SphereRequest& request_;
+  Backend backend_;
+  Context* context_;
+  const SphereProgress& progress_;
+  DynamicUnion balls_;
+  Candidates candidates_;
+  Slider slider_;
+  GapFinder gaps_;
+  std::size_t levels_ = 0;
+  double volume_ = 0;
+  std::vector<double> steps_;  // by place
+};
+
+/// Of any coordinate or radius of a ball in the box.
+double largest_number(const MeshReport& report) {
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    largest = std::max({largest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
+  }
+  return 2 * largest;
+}
+
+}  // namespace
+
+Result<SphereSet> best_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+                               const SphereProgress& progress) {
+  const std::size_t most = request.count > 0 ? request.count : kMostBalls;
+  Result<DynamicUnion> balls =
+      DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report));
+  if (!balls) return balls.error();
+  return Placing(solid, request, backend, context, progress, std::move(balls).value()).run();
+}
+
+}  // namespace medial_vk

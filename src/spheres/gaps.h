@@ -1,0 +1,45 @@
+// Where a union of balls inside a solid is farthest from the solid's boundary.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/dynamic_union.h"
+#include "mesh/solid.h"
+
+namespace medial_vk {
+
+/// Among samples of the boundary and the vertices of the union's envelope: for choosing balls, not for promises.
+class GapFinder {
+ public:
+  /// Keeps references to both.
+  GapFinder(const Solid& solid, const DynamicUnion& balls);
+
+  struct Gap {
+    Point at = {0, 0, 0};
+    double size = 0;
+    Point towards_balls = {0, 0, 0};  ///< Of one on the boundary: half way to the nearest ball.
+  };
+  /// After the union has changed at a place, or a ball came or went there.
+  void forget(std::uint32_t place);
+  /// The point of the boundary that is farthest from the balls.
+  Gap widest_on_boundary();
+  /// The vertex of the envelope that is farthest from the boundary.
+  Gap deepest_vertex();
+
+ private:
+  struct Sample {
+    Point at;
+    std::uint32_t place;  // of the ball that was nearest
+  };
+  double distance_to(const Point& p, std::uint32_t place) const;
+  double refresh(Sample& sample) const;
+
+  const Solid& solid_;
+  const DynamicUnion& balls_;
+  std::vector<Sample> samples_;
+  std::vector<Gap> deepest_;         // by place
+  std::vector<std::uint8_t> known_;  // by place
+};
+
+}  // namespace medial_vk
