@@ -16,13 +16,15 @@ Result<std::optional<Candidates::Choice>> Candidates::take_best(DynamicUnion& ba
   ++round_;
   while (!queue_.empty()) {
     const Entry best = queue_.top();
-    queue_.pop();
-    if (best.asked == round_) return std::optional<Choice>({balls_[best.candidate], best.gain});
+    if (best.asked == round_) {
+      if (best.gain == 0) break;  // all stay: balls may move away from them
+      queue_.pop();
+      return std::optional<Choice>({balls_[best.candidate], best.gain});
+    }
     const Result<double> gain = balls.gain(balls_[best.candidate]);
     if (!gain) return gain.error();
-    // One that adds nothing now is kept: balls may move away from it.
-    if (gain.value() > 0 || best.gain > 0) queue_.push({gain.value(), best.candidate, round_});
-    if (gain.value() == 0 && best.gain == 0) break;
+    queue_.pop();
+    queue_.push({gain.value(), best.candidate, round_});
   }
   return std::optional<Choice>();
 }

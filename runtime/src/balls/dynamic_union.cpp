@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -191,12 +192,13 @@ class DynamicUnion::Impl {
     for (const std::uint32_t j : cutting_) {
       if (j != i && j != without) order_.emplace_back(offset_of(balls_[i], balls_[j]), j);
     }
-    std::sort(order_.begin(), order_.end());
+    // Few of them are needed: a heap gives these in order, and leaves the others alone.
+    std::make_heap(order_.begin(), order_.end(), std::greater<>());
     cell_.start(i);
     double reach = reach_of(cell_.corners());
-    for (const auto& [offset, j] : order_) {
-      if (offset > reach || cell_.empty()) break;
-      if (cell_.clip(j)) reach = reach_of(cell_.corners());
+    for (auto end = order_.end(); end != order_.begin() && order_.front().first <= reach && !cell_.empty(); --end) {
+      std::pop_heap(order_.begin(), end, std::greater<>());
+      if (cell_.clip((end - 1)->second)) reach = reach_of(cell_.corners());
     }
     cell_.sharpen();
   }
