@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "mesh/text_scanner.h"
 
@@ -55,6 +57,38 @@ std::optional<fs::path> find_package(const std::string& name, const MeshPlaces& 
   return std::nullopt;
 }
 
+Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
+
+/// "name/meshes/a.stl" of package://name/meshes/a.stl.
+Result<fs::path> path_in_package(const std::string& inner, const MeshPlaces& places, const std::string& uri) {
+  const std::string name = inner.substr(0, inner.find('/'));
+  if (name.empty() || name == "." || name == "..") {
+    return invalid(fmt::format("{} names no package", medial_vk::quoted(uri)));
+  }
+  const std::optional<fs::path> folder = find_package(name, places);
+  if (folder) return *folder / (inner.size() > name.size() ? inner.substr(name.size() + 1) : "");
+  std::string shown = medial_vk::quoted(name);
+  shown = shown.substr(1, shown.size() - 2);
+  return invalid(
+      fmt::format("the package \"{0}\" is found nowhere; say where it is with --package {0}=FOLDER or "
+                  "ROS_PACKAGE_PATH",
+                  shown));
+}
+
+Result<fs::path> path_of(const std::string& uri, const MeshPlaces& places) {
+  for (const char* scheme : {"package://", "model://"}) {
+    if (uri.starts_with(scheme)) return path_in_package(uri.substr(uri.find("//") + 2), places, uri);
+  }
+  const bool is_file_uri = uri.starts_with("file://");
+  const fs::path path = is_file_uri ? uri.substr(7) : uri;
+  if (path.is_absolute()) return path;
+  // With a scheme there is nothing that a path could be relative to.
+  if (uri.find("://") != std::string::npos) {
+    return invalid(fmt::format("{} is neither package:// nor file:/// nor a path", medial_vk::quoted(uri)));
+  }
+  return fs::path(places.folder) / path;
+}
+
 }  // namespace
 
 Result<MeshPlaces> mesh_places(const std::string& urdf, const std::vector<std::string>& packages) {
@@ -74,36 +108,11 @@ Result<MeshPlaces> mesh_places(const std::string& urdf, const std::vector<std::s
 }
 
 Result<std::string> find_mesh(const std::string& uri, const MeshPlaces& places) {
-  if (uri.find('\0') != std::string::npos) return Error{ErrorCode::kInvalidMesh, "a file name has a zero byte"};
-  fs::path path;
-  if (uri.starts_with("package://") || uri.starts_with("model://")) {
-    const std::string inner = uri.substr(uri.find("//") + 2);
-    const std::string name = inner.substr(0, inner.find('/'));
-    if (name.empty() || name == "." || name == "..") {
-      return Error{ErrorCode::kInvalidMesh, fmt::format("{} names no package", medial_vk::quoted(uri))};
-    }
-    const std::optional<fs::path> folder = find_package(name, places);
-    if (!folder) {
-      return Error{
-          ErrorCode::kInvalidMesh,
-          fmt::format("the package {} is found nowhere; say where it is with "
-                      "--package {}=FOLDER or ROS_PACKAGE_PATH",
-                      medial_vk::quoted(name), medial_vk::quoted(name).substr(1, medial_vk::quoted(name).size() - 2))};
-    }
-    path = *folder / (inner.size() > name.size() ? inner.substr(name.size() + 1) : "");
-  } else if (uri.starts_with("file://")) {
-    path = uri.substr(7);
-  } else if (uri.find("://") != std::string::npos) {
-    return Error{ErrorCode::kInvalidMesh,
-                 fmt::format("{} is neither package:// nor file:// nor a path", medial_vk::quoted(uri))};
-  } else {
-    path = uri;
-  }
-  if (path.is_relative()) path = uri.find("://") == std::string::npos ? fs::path(places.folder) / path : path;
-  if (!is_file(path)) {
-    return Error{ErrorCode::kInvalidMesh, fmt::format("the mesh {} is not there", medial_vk::quoted(path.string()))};
-  }
-  return path.string();
+  if (uri.find('\0') != std::string::npos) return invalid("a file name has a zero byte");
+  Result<fs::path> path = path_of(uri, places);
+  if (!path) return path.error();
+  if (!is_file(path.value())) return invalid(fmt::format("the mesh {} is not there", medial_vk::quoted(uri)));
+  return path.value().string();
 }
 
 }  // namespace medial_vk

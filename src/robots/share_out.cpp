@@ -24,31 +24,38 @@ std::vector<double> gains_on_hull(const std::vector<double>& uncovered) {
   return gains;
 }
 
+/// Error falls at least like this power of the count on smooth solids.
+constexpr double kLeastPower = 0.6, kGreatestPower = 2;
+
+/// What the power law takes from an error when a ball is added to `balls`.
+double fall(double error, double balls, double power) { return error * (1 - std::pow(balls / (balls + 1), power)); }
+
 /// The part's answer to "what is the next ball worth?" for any count.
 class Need {
  public:
   explicit Need(const NeedCurve& curve) : is_ball_(curve.is_ball), gains_(gains_on_hull(curve.uncovered)) {
-    tried_ = static_cast<double>(curve.uncovered.size());
     if (curve.uncovered.empty()) return;
-    last_ = std::max(curve.uncovered.back(), 0.0);
-    const double middle = std::max(curve.uncovered[curve.uncovered.size() / 2], 0.0);
-    const double from = static_cast<double>(curve.uncovered.size() / 2 + 1);
-    // Error falls at least as count^-0.6 on smooth solids; a curve that is flat says that too few balls were tried.
-    if (last_ > 0 && tried_ > from + 1) power_ = std::log(middle / last_) / std::log(tried_ / from);
-    power_ = std::clamp(power_, 0.6, 2.0);
+    errors_.push_back(std::max(curve.uncovered.front(), 0.0));
+    for (const double gain : gains_) errors_.push_back(std::max(errors_.back() - gain, 0.0));
+    const std::size_t middle = (errors_.size() - 1) / 2;
+    if (errors_.back() <= 0 || middle + 2 > errors_.size()) return;
+    const double ratio = static_cast<double>(errors_.size()) / static_cast<double>(middle + 1);
+    power_ = std::clamp(std::log(errors_[middle] / errors_.back()) / std::log(ratio), kLeastPower, kGreatestPower);
   }
 
   double gain(std::size_t balls) const {
-    if (is_ball_) return -1;
-    if (balls - 1 < gains_.size()) return gains_[balls - 1];
-    const double now = std::max(static_cast<double>(balls), 1.0);
-    return last_ * (std::pow(tried_ / now, power_) - std::pow(tried_ / (now + 1), power_));
+    if (is_ball_ || errors_.empty()) return -1;
+    const double now = static_cast<double>(balls);
+    if (balls < errors_.size()) return std::max(gains_[balls - 1], fall(errors_[balls - 1], now, kLeastPower));
+    const double error = errors_.back() * std::pow(static_cast<double>(errors_.size()) / now, power_);
+    return fall(error, now, power_);
   }
 
  private:
   bool is_ball_;
   std::vector<double> gains_;
-  double tried_ = 1, last_ = 0, power_ = 0.6;
+  std::vector<double> errors_;  // on the hull, with 1, 2, 3 ... balls
+  double power_ = kLeastPower;
 };
 
 }  // namespace

@@ -16,9 +16,10 @@ struct NeedCurve {
 };
 
 /// `total` balls, at least one each: every next ball goes where it covers the most. Curves are taken for their lower
-/// convex hulls, so that a ball that pays off only together with the next counts with it; beyond its end a curve goes
-/// on as a power of the count, as steep as its last half was, or as count^-0.6 if that is steeper. Parts that are balls
-/// get one, so fewer may be given out. Ties go to the first part. `total` is not below the number of parts.
+/// convex hulls, so that a ball that pays off only together with the next counts with it. A curve is that of beginnings
+/// of one set; a set made for its count does better, so no ball counts for less than the fall of error as count^-0.6;
+/// beyond its end a curve goes on as a power of the count, as steep as its last half was. Parts that are balls get one,
+/// so fewer may be given out. Ties go to the first part. `total` is not below the number of parts.
 std::vector<std::size_t> share_out(std::span<const NeedCurve> curves, std::size_t total);
 
 }  // namespace medial_vk

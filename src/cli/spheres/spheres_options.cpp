@@ -55,7 +55,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.flag("--levels", options.levels);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
-  app.add_option("--package", options.packages)->type_name("name=folder")->expected(1)->take_all();
+  app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
   add.view("--view", given.view);
