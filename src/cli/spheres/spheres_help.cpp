@@ -6,8 +6,8 @@
 namespace medial_vk::cli {
 
 std::string spheres_help_text() {
-  return R"(medial-vk spheres stands N balls for a solid, or for every link of a robot: for
-collision checks, distances, shadows. Tight, and with a promise that is proved.
+  return R"(medial-vk spheres puts N balls in the place of a solid, or of every link of a
+robot: for collision checks, distances, shadows. Tight, and with a promise.
 
 Usage:
   medial-vk spheres [options] MESH          OBJ, PLY, STL or OFF; "-": standard
@@ -15,7 +15,7 @@ Usage:
   medial-vk spheres [options] ROBOT.urdf    with the meshes that it names
 
 Examples:
-  medial-vk spheres part.stl --count 64        writes part.spheres.csv: x,y,z,radius
+  medial-vk spheres part.stl --count 64     writes part.spheres.csv
   medial-vk spheres robot.urdf --count-per-link 32    writes robot.spheres.urdf
   medial-vk spheres robot.urdf --total 200 -o robot.yml     for cuRobo
   medial-vk spheres part.stl --error 0.05 --picture part.png    covers 95 %
@@ -29,39 +29,39 @@ How many spheres (goals that are given together must all be met):
       --error E         as many as leave no more than E of the volume uncovered,
                         between 0 and 1
       --max-gap G       as many as leave no point of the surface farther than G
-                        from the spheres, in units of the mesh; of a robot metres
+                        from the spheres, in units of the mesh (robot: metres)
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time
                         (csv, json, foam)
 
 What they promise:
-      --contract WHAT   inside: no sphere sticks out (default); cover: nothing of
-                        the solid is left out, for safety; balanced: between
+      --contract WHAT   inside: no sphere sticks out (default); cover: nothing
+                        of the solid is left out, for safety; balanced: between
       --method HOW      best: chosen and moved for the least volume uncovered
                         (default); source: one sphere per voxel, the largest
-                        voxels with no more than N (Stolpner 2011, Section 7.3.2)
+                        voxels with no more than N (Stolpner 2011, 7.3.2)
       --resolution N    voxels along the longest side for the spheres to choose
                         from, 1 to 4096 (default: by the count); with --method
                         source it stands for the count
-      --object-angle A  smallest object angle of medial spheres, radians, between
-                        0 and pi/2 (default 0.6)
+      --object-angle A  smallest object angle of medial spheres, radians,
+                        between 0 and pi/2 (default 0.6)
 
 Robots:
       --collision       the links' <collision> geometry (default)
       --visual          their <visual> geometry
-      --package NAME=FOLDER  where package://NAME is; may be given several times.
-                        Otherwise along ROS_PACKAGE_PATH and AMENT_PREFIX_PATH,
-                        and around the URDF
+      --package NAME=FOLDER  where package://NAME is; as often as needed. Others
+                        are looked for along ROS_PACKAGE_PATH and
+                        AMENT_PREFIX_PATH, and around the URDF
 
 Output:
-  -o, --output FILE     .csv, .json, .urdf (the robot with spheres for collision),
-                        .yml (cuRobo) or .xrdf; "-": standard output (default:
-                        INPUT's name with .spheres.csv, of a robot .spheres.urdf,
-                        with --levels .spheres.json, here)
+  -o, --output FILE     .csv, .json, .urdf (the robot with spheres for
+                        collision), .yml (cuRobo) or .xrdf; "-": standard output
+                        (default: the input's name with .spheres.csv, of a robot
+                        .spheres.urdf, with --levels .spheres.json, here)
       --format NAME     csv, json, foam, curobo, xrdf or urdf, whatever the file
                         is called
-      --picture FILE    a .png of the spheres; of a robot with all joints at zero
-      --view FROM       of the picture: front, back, left, right, top, bottom, iso
-                        or x,y,z, the direction towards the viewer
+      --picture FILE    a .png of the spheres; of a robot, all joints at zero
+      --view FROM       of the picture: front, back, left, right, top, bottom,
+                        iso or x,y,z, the direction towards the viewer
       --up AXIS         of the picture: x, y, z, -x, -y or -z (default y; robots
                         want z)
       --report FILE     everything about the run as JSON; "-": standard output
@@ -77,12 +77,12 @@ Other:
   -v, --verbose         a line for each link
   -h, --help            print this and exit
 
-Spheres are in the units of the mesh; of a robot in metres, in the frame of their
-link. Files appear whole or not at all.
+Spheres are in the units of the mesh; of a robot in metres, in the frame of
+their link. Files appear whole or not at all.
 
-Exit codes: 0 done, 1 internal error, 2 wrong usage or a goal that cannot be met,
-3 mesh or robot unreadable or invalid, 4 no usable Vulkan device, 5 out of memory,
-6 cannot write, 130 interrupted.
+Exit codes: 0 done, 1 internal error, 2 wrong usage or a goal that cannot be
+met, 3 mesh or robot unreadable or invalid, 4 no usable Vulkan device, 5 out of
+memory, 6 cannot write, 130 interrupted.
 )";
 }
 
