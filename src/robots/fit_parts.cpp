@@ -108,40 +108,34 @@ class Fitting {
     NeedCurve curve;
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
+    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
+    if (!solid) return named(part, solid.error());
     SphereRequest request = goals_.request;
     request.contract = SphereContract::kInside;  // the volume that is left then is what is needed
     // The method of the source may have no set of so few; one of a few more has the curve, too.
-    Result<std::vector<SphereSet>> sets = approximate(part, request, count, false);
+    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), request, count, false);
     for (int tries = 0; !sets && sets.error().code == ErrorCode::kUsage && tries < 6; ++tries) {
-      sets = approximate(part, request, count <<= 1, false);
+      sets = approximate(part, solid.value(), request, count <<= 1, false);
     }
     if (!sets) return named(part, sets.error());
     ++done_;
     const Result<std::vector<double>> volumes = prefix_volumes(sets.value().back().balls, request.threads);
     if (!volumes) return named(part, volumes.error());
     // An open mesh has no volume; then the greatest set stands for the solid.
-    const double solid = volume_of_mesh(part).value_or(volumes.value().empty() ? 0 : volumes.value().back());
-    for (const double volume : volumes.value()) curve.uncovered.push_back(solid - volume);
+    const double covered = volumes.value().empty() ? 0 : volumes.value().back();
+    const double whole = solid.value().has_volume() ? solid.value().volume() : covered;
+    for (const double volume : volumes.value()) curve.uncovered.push_back(whole - volume);
     return curve;
   }
 
-  static std::optional<double> volume_of_mesh(const Part& part) {
-    const MeshReport& report = part.mesh.report;
-    const bool clean = report.closed && report.faces_within == 0 && report.faces_without == 0 &&
-                       report.intersecting_faces == 0 && report.intersections_known;
-    if (!clean) return std::nullopt;
-    return report.signed_volume;
-  }
-
-  Result<std::vector<SphereSet>> approximate(const Part& part, SphereRequest request, std::size_t count, bool levels) {
+  Result<std::vector<SphereSet>> approximate(const Part& part, const Solid& solid, SphereRequest request,
+                                             std::size_t count, bool levels) {
     request.count = count;
-    const Result<Solid> solid = Solid::build(part.mesh, request.threads);
-    if (!solid) return solid.error();
     const SphereProgress on_progress = [&](const char*, double done) {
       return !progress_ || progress_(part, (static_cast<double>(done_) + done) / static_cast<double>(steps_));
     };
-    if (levels) return approximate_in_levels(solid.value(), request, backend_, context_, on_progress);
-    Result<SphereSet> set = approximate_by_spheres(solid.value(), request, backend_, context_, on_progress);
+    if (levels) return approximate_in_levels(solid, request, backend_, context_, on_progress);
+    Result<SphereSet> set = approximate_by_spheres(solid, request, backend_, context_, on_progress);
     if (!set) return set.error();
     return std::vector<SphereSet>{std::move(set).value()};
   }
@@ -149,7 +143,6 @@ class Fitting {
   Status fit_part(std::size_t number, std::size_t count) {
     const Part& part = parts_[number];
     PartFit& fit = fits_[number];
-    Stopwatch stopwatch;
     fit.wanted = count;
     if (part.ball) {
       // Exact for every contract; its centre is the shift of its pose, which is not rounded.
@@ -158,48 +151,56 @@ class Fitting {
       fit.solid_volume = fit.spheres_volume = volume_of(*part.ball);
       return {};
     }
-    Result<std::vector<SphereSet>> sets = approximate(part, goals_.request, count, goals_.levels);
+    Stopwatch stopwatch;
+    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
+    if (!solid) return named(part, solid.error());
+    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), goals_.request, count, goals_.levels);
     if (!sets) return named(part, sets.error());
     ++done_;
-    const int grow = goals_.request.contract == SphereContract::kInside  ? -1
-                     : goals_.request.contract == SphereContract::kCover ? 1
-                                                                         : 0;
-    for (const SphereSet& set : sets.value()) {
-      std::vector<Ball> placed;
-      for (const Ball& ball : set.balls) placed.push_back(place(part, ball, grow));
-      fit.levels.push_back(std::move(placed));
-    }
-    if (Status status = measure_reach(part, sets.value(), fit.reach); !status) return named(part, status.error());
-    fit.solid_volume = volume_of_mesh(part);
-    const Result<BallUnion> measured = measure_ball_union(sets.value().back().balls, {goals_.request.threads, false});
-    if (!measured) return named(part, measured.error());
-    fit.spheres_volume = measured.value().volume;
+    if (Status status = measure(solid.value(), sets.value(), fit); !status) return named(part, status.error());
+    place_levels(part, sets.value(), fit);
     fit.seconds = stopwatch.lap();
+    return {};
+  }
+
+  /// In the frame of the part, where what the contract says is proved.
+  Status measure(const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
+    const std::vector<Ball>& balls = sets.back().balls;
+    // Joins here: measure_spheres(solid, balls, ...), with proofs, into the fit.
+    if (solid.has_volume()) fit.solid_volume = solid.volume();
+    const Result<BallUnion> measured = measure_ball_union(balls, {goals_.request.threads, false});
+    if (!measured) return measured.error();
+    fit.spheres_volume = measured.value().volume;
+    for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
     return {};
   }
 
   /// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the
   /// centre is inside, their sum if it is not. Nothing is outside where the contract says so.
-  Status measure_reach(const Part& part, const std::vector<SphereSet>& sets, std::vector<ReachOut>& reach) const {
-    reach.assign(sets.size(), {});
-    if (goals_.request.contract == SphereContract::kInside) return {};
-    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
-    if (!solid) return solid.error();
-    for (std::size_t i = 0; i < sets.size(); ++i) {
-      CompensatedSum sum;
-      reach[i].best = sets[i].balls.empty() ? 0 : HUGE_VAL;
-      for (const Ball& ball : sets[i].balls) {
-        const double distance = solid.value().distance(ball.centre);
-        const double out = solid.value().contains(ball.centre)
-                               ? std::max(0.0, ball.radius - distance + solid.value().rounding())
-                               : ball.radius + distance + solid.value().rounding();
-        sum.add(out);
-        reach[i].best = std::min(reach[i].best, out);
-        reach[i].worst = std::max(reach[i].worst, out);
-      }
-      reach[i].mean = sum.value() / static_cast<double>(std::max<std::size_t>(sets[i].balls.size(), 1));
+  ReachOut reach_of(const Solid& solid, const SphereSet& set) const {
+    ReachOut reach;
+    if (goals_.request.contract == SphereContract::kInside || set.balls.empty()) return reach;
+    reach.best = HUGE_VAL;
+    CompensatedSum sum;
+    for (const Ball& ball : set.balls) {
+      const double distance = solid.distance(ball.centre) * (solid.contains(ball.centre) ? -1 : 1);
+      const double out = std::max(0.0, ball.radius + distance + solid.rounding());
+      sum.add(out);
+      reach.best = std::min(reach.best, out);
+      reach.worst = std::max(reach.worst, out);
     }
-    return {};
+    reach.mean = sum.value() / static_cast<double>(set.balls.size());
+    return reach;
+  }
+
+  void place_levels(const Part& part, const std::vector<SphereSet>& sets, PartFit& fit) const {
+    const SphereContract contract = goals_.request.contract;
+    const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
+    for (const SphereSet& set : sets) {
+      std::vector<Ball> placed;
+      for (const Ball& ball : set.balls) placed.push_back(place(part, ball, grow));
+      fit.levels.push_back(std::move(placed));
+    }
   }
 
   Error named(const Part& part, Error error) const {

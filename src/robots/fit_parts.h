@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "output/spheres/sphere_file.h"
 #include "robots/parts.h"
+#include "spheres/reach_out.h"
 #include "spheres/sphere_set.h"
 
 namespace medial_vk {

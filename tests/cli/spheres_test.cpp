@@ -1,11 +1,12 @@
 // `medial-vk spheres` from outside: exit codes, files, whole robots. Everything here runs without a Vulkan device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <chrono>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <thread>
 
 #include "support/mesh_files.h"
 #include "support/solids.h"
@@ -207,6 +208,17 @@ TEST_F(SpheresCommand, UnreadableRobotsAre3AndSayWhy) {
 
 TEST_F(SpheresCommand, CannotWriteIs6) {
   EXPECT_EQ(spheres({"part.obj", "--count", "9", "-o", "no/such/folder/a.csv"}).exit_code, 6);
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
+}
+
+TEST_F(SpheresCommand, AnInterruptedRunWritesNothing) {
+  test::Tool tool(call({"spheres", "part.obj", "--method", "source", "--backend", "cpu", "--resolution", "2000"}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(tool.running());
+  tool.send(SIGINT);
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_THAT(result.err, HasSubstr("medial-vk: interrupted; nothing was written\n"));
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
 }
 

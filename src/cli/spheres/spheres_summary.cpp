@@ -12,6 +12,13 @@ namespace {
 
 std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
+/// A name from a file for a terminal: no control characters.
+std::string printable(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  return name;
+}
+
 std::size_t count_links(const SpheresRecord& record) {
   std::set<std::string> links;
   for (const Part& part : record.parts) links.insert(part.link);
@@ -88,7 +95,9 @@ std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& 
   }
   for (const Part& part : record.parts) {
     for (const std::string& assumption : part.mesh.report.assumptions) {
-      text += line("note", options.is_robot ? fmt::format("{}, {}: {}", part.link, part.name, assumption) : assumption);
+      text += line("note", options.is_robot
+                               ? fmt::format("{}, {}: {}", printable(part.link), printable(part.name), assumption)
+                               : assumption);
     }
   }
   return text + line("device", where(options, record));
@@ -126,7 +135,7 @@ std::string spheres_details(const SpheresOptions& options, const SpheresRecord& 
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < record.parts.size(); ++i) {
     const PartFit& fit = record.fits[i];
-    rows.push_back({record.parts[i].link, record.parts[i].name, grouped(fit.levels.back().size()),
+    rows.push_back({printable(record.parts[i].link), printable(record.parts[i].name), grouped(fit.levels.back().size()),
                     percent(uncovered_share(fit, options.request.contract)), duration(fit.seconds)});
   }
   return format_table(columns, rows);

@@ -7,6 +7,7 @@
 
 #include "medial_vk/queries.h"
 #include "medial_vk/result.h"
+#include "spheres/reach_out.h"
 
 namespace medial_vk {
 
@@ -17,11 +18,6 @@ enum class SphereFormat {
   kCurobo,  ///< YAML for NVIDIA's cuRobo.
   kXrdf,    ///< YAML for Isaac and cuMotion.
   kUrdf,    ///< The robot with spheres for collision geometry.
-};
-
-/// How far balls reach out of their solid at most, over the balls of a set; all 0 where none does.
-struct ReachOut {
-  double mean = 0, best = 0, worst = 0;
 };
 
 /// Spheres of one geometry, in the frame of its link.
