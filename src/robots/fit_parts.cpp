@@ -111,7 +111,9 @@ class Fitting {
     const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
     if (!solid) return named(part, solid.error());
     SphereRequest request = goals_.request;
-    request.contract = SphereContract::kInside;  // the volume that is left then is what is needed
+    // The volume that is left inside is what is needed; other goals are for the sets that are kept.
+    request.contract = SphereContract::kInside;
+    request.error = request.max_gap = 0;
     // The method of the source may have no set of so few; one of a few more has the curve, too.
     Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), request, count, false);
     for (int tries = 0; !sets && sets.error().code == ErrorCode::kUsage && tries < 6; ++tries) {

@@ -203,6 +203,9 @@ def main():
         folder = pathlib.Path(name)
         subprocess.run([sys.executable, sys.argv[3], name], check=True)
         ARM = folder / "robot_arm/arm.urdf"
+        subprocess.run([sys.executable, sys.argv[3], str(folder / "again")], check=True)
+        for file in (folder / "robot_arm").rglob("*.*"):
+            assert file.read_bytes() == (folder / "again" / file.relative_to(folder)).read_bytes(), file
         case = sys.argv[1]
         if case == "inside":
             return test_inside(folder)
