@@ -69,8 +69,9 @@ class Fitting {
     if (!shares() || group.balls >= group.parts.size()) return {};
     const std::string who = goals_.total > 0 ? std::string("the robot")
                                              : fmt::format("the link {}", quoted(parts_[group.parts.front()].link));
-    return Error{ErrorCode::kUsage, fmt::format("{} has {} geometries, each of which needs a sphere; {} are too few",
-                                                who, group.parts.size(), group.balls)};
+    return Error{ErrorCode::kUsage,
+                 fmt::format("{} has {} geometries, each of which needs a sphere; {} too few", who, group.parts.size(),
+                             group.balls == 1 ? "1 is" : fmt::format("{} are", group.balls))};
   }
 
   Status fit(const Group& group) {
