@@ -11,6 +11,8 @@ that touch its surface in two places, at most one per voxel.
 
 Usage:
   medial-vk [options] MESH     MESH is OBJ, PLY, STL or OFF; "-": standard input
+  medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
+                               or of a robot's links: medial-vk spheres --help
 
 Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here

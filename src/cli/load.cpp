@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/interrupt.h"
+#include "cli/messages.h"
 #include "medial/stopwatch.h"
 #include "mesh/load_mesh.h"
 
@@ -51,17 +52,25 @@ Result<PreparedMesh> perturb(PreparedMesh prepared, const Options& options) {
 
 }  // namespace
 
-Result<PreparedMesh> load_mesh(const Options& options, std::vector<StageTime>& times) {
+Result<PreparedMesh> load_mesh(const std::string& path, std::vector<StageTime>& times) {
   const EndAtOnce guard;
-  if (interrupted()) return Error{ErrorCode::kInterrupted, "interrupted; nothing was written"};
+  if (interrupted()) return stopped();
   Stopwatch stopwatch;
-  Result<Mesh> mesh = read_mesh(options.mesh);
+  Result<Mesh> mesh = read_mesh(path);
   if (!mesh) return mesh.error();
   times.push_back({"read", stopwatch.lap()});
   Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value());
-  if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", options.mesh, prepared.error().message)};
+  if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", path, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
-  if (options.perturb == 0) return prepared;
+  return prepared;
+}
+
+Result<PreparedMesh> load_mesh(const Options& options, std::vector<StageTime>& times) {
+  Result<PreparedMesh> prepared = load_mesh(options.mesh, times);
+  if (!prepared || options.perturb == 0) return prepared;
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  Stopwatch stopwatch;
   prepared = perturb(std::move(prepared).value(), options);
   times.push_back({"perturb", stopwatch.lap()});
   return prepared;

@@ -3,82 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "cli/declarations.h"
+#include "cli/output_names.h"
 #include "cli/parse_number.h"
-#include "output/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-Error usage_error(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
-
-/// Declares options on a CLI11 application. Values arrive as text and are parsed here: CLI11 would take "1e3" or
-/// "12abc" for some numbers, and its messages do not name the range.
-class Declarations {
- public:
-  explicit Declarations(CLI::App& app) : app_(app) {}
-
-  void text(const char* name, const char* value, std::string& target) {
-    app_.add_option(name, target)->type_name(value);
-  }
-
-  void flag(const char* name, bool& target) { app_.add_flag(name, target); }
-
-  void action(const char* name, Action value, Action& target) {
-    app_.add_flag_callback(name, [value, &target] { target = value; });
-  }
-
-  void real(const char* name, const RealRange& range, const char* unit, double& target) {
-    parsed(
-        name, [=](const std::string& text) { return parse_real(text, range, unit); }, target);
-  }
-
-  template <class T>
-  void whole(const char* name, std::uint64_t least, std::uint64_t greatest, const char* unit, T& target) {
-    parsed(
-        name, [=](const std::string& text) { return parse_whole(text, least, greatest, unit); }, target);
-  }
-
-  void memory(const char* name, std::uint64_t& target) { parsed(name, parse_memory, target); }
-  void view(const char* name, ViewChoice& target) { parsed(name, parse_view, target); }
-  void up(const char* name, UpAxis& target) { parsed(name, parse_up, target); }
-  void size(const char* name, std::array<std::uint32_t, 2>& target) { parsed(name, parse_size, target); }
-
-  template <class T>
-  void choice(const char* name, std::vector<std::pair<std::string, T>> choices, T& target) {
-    const auto parse = [choices](const std::string& text) -> Result<T> {
-      std::string known;
-      for (const auto& [word, value] : choices) {
-        if (word == text) return value;
-        known += (known.empty() ? "" : " or ") + word;
-      }
-      return usage_error(fmt::format("'{}' is unknown; use {}", text, known));
-    };
-    parsed(name, parse, target);
-  }
-
- private:
-  template <class Parse, class T>
-  void parsed(const char* name, Parse parse, T& target) {
-    const auto set = [name, parse, &target](const std::string& text) {
-      const auto value = parse(text);
-      if (!value) throw CLI::ValidationError(name, value.error().message);
-      target = static_cast<T>(value.value());
-    };
-    app_.add_option_function<std::string>(name, set)->type_name("value");
-  }
-
-  CLI::App& app_;
-};
 
 void declare(CLI::App& app, Options& options) {
   ExtractionParameters& parameters = options.parameters;
@@ -137,87 +74,15 @@ void declare(CLI::App& app, Options& options) {
   add.action("-h,--help", Action::kHelp, options.action);
 }
 
-/// Insertions, deletions and replacements that turn one word into the other, or `limit` if they are not fewer.
-std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t limit) {
-  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    std::size_t least = row[0];
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-      least = std::min(least, row[j + 1]);
-    }
-    if (least >= limit) return limit;  // rows never get smaller
-  }
-  return std::min(row.back(), limit);
-}
-
-/// "; did you mean --resolution?" if there is an option close to the unknown one, else nothing.
-std::string suggestion(const CLI::App& app, const std::string& unknown) {
-  const std::string name = unknown.substr(0, unknown.find('='));
-  std::string best;
-  std::size_t best_distance = 4;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& known : option->get_lnames()) {
-      const std::string full = "--" + known;
-      const std::size_t distance = edit_distance(name, full, best_distance);
-      if (distance < best_distance) {
-        best_distance = distance;
-        best = known;
-      }
-    }
-  }
-  return best.empty() ? "" : fmt::format("; did you mean --{}?", best);
-}
-
-Status check_extras(const CLI::App& app) {
-  std::vector<std::string> extras = app.remaining();
-  std::erase(extras, "--");  // CLI11 counts the mark itself.
-  for (const std::string& extra : extras) {
-    if (extra.size() > 1 && extra[0] == '-') {
-      return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
-    }
-  }
-  if (!extras.empty()) return usage_error(fmt::format("unexpected '{}': one mesh at a time", extras[0]));
-  return {};
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
-}
-
-/// Is `path` empty or standard output, or does it end in `wanted`, whatever its case?
-bool may_end_in(const std::string& path, const char* wanted) {
-  return path.empty() || path == "-" || file_extension(path) == wanted;
-}
-
-/// No file may be named twice, nor may standard output, nor may a result replace the mesh it was made from.
 Status check_files_differ(const Options& options) {
-  const std::pair<const char*, const std::string*> outputs[] = {{"--output", &options.output},
-                                                                {"--report", &options.report},
-                                                                {"--picture", &options.picture},
-                                                                {"--html", &options.html},
-                                                                {"--medial-mesh", &options.medial_mesh},
-                                                                {"--sheet-curve", &options.sheet_curve},
-                                                                {"--ball-volumes", &options.ball_volumes}};
-  for (const auto& [name, file] : outputs) {
-    if (file->empty()) continue;
-    if (options.mesh != "-" && *file != "-" && same_file(*file, options.mesh)) {
-      return usage_error(fmt::format("{} would overwrite the mesh {}", name, options.mesh));
-    }
-    for (const auto& [other_name, other] : outputs) {
-      if (file == other || other->empty()) continue;
-      const bool same = *file == "-" || *other == "-" ? *file == *other : same_file(*file, *other);
-      if (same) return usage_error(fmt::format("{} and {} are the same file", name, other_name));
-    }
-  }
-  return {};
+  const NamedOutput outputs[] = {{"--output", &options.output},
+                                 {"--report", &options.report},
+                                 {"--picture", &options.picture},
+                                 {"--html", &options.html},
+                                 {"--medial-mesh", &options.medial_mesh},
+                                 {"--sheet-curve", &options.sheet_curve},
+                                 {"--ball-volumes", &options.ball_volumes}};
+  return check_outputs_differ(outputs, options.mesh);
 }
 
 /// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
@@ -301,19 +166,6 @@ Status check_combinations(const Options& options) {
   return {};
 }
 
-Status parse_into(CLI::App& app, std::vector<std::string> arguments, Options& options) {
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
-  try {
-    app.parse(std::move(arguments));
-  } catch (const CLI::Error& error) {
-    // A misspelt option is the likelier cause of whatever else is wrong.
-    if (Status extras = check_extras(app); !extras) return extras;
-    return usage_error(error.what());
-  }
-  if (Status extras = check_extras(app); !extras) return extras;
-  return check_combinations(options);
-}
-
 }  // namespace
 
 /// The application writes to `options`, so the two stay together and in place.
@@ -340,7 +192,8 @@ OptionParser::~OptionParser() = default;
 Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
   declared_->forget();
   Options& options = declared_->options;
-  if (Status status = parse_into(*declared_, arguments, options); !status) return status.error();
+  if (Status status = parse_arguments(*declared_, arguments, "one mesh at a time"); !status) return status.error();
+  if (Status status = check_combinations(options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();
   return options;

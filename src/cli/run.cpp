@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <future>
 #include <new>
 #include <optional>
 #include <utility>
 
+#include "cli/device_opening.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
+#include "cli/messages.h"
 #include "cli/numbers.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/spheres/run_spheres.h"
 #include "cli/summary.h"
 #include "cli/tables.h"
 #include "cli/volumes.h"
@@ -35,26 +36,6 @@
 namespace medial_vk::cli {
 namespace {
 
-const Error kStopped = {ErrorCode::kInterrupted, "interrupted; nothing was written"};
-
-const char* const kNoDeviceHint =
-    "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device "
-    "(Debian: apt install libvulkan1 mesa-vulkan-drivers), or use --backend cpu, which needs no Vulkan.";
-
-/// `wanted` is what --device named, or empty.
-Error with_hint(Error error, const std::string& wanted = {}) {
-  if (error.code != ErrorCode::kNoDevice) return error;
-  error.message += wanted.empty() ? kNoDeviceHint : "\nmedial-vk --list-devices shows what is here.";
-  return error;
-}
-
-Status print_result(const std::string& text) {
-  const OutputFile file = {"-", text};
-  return write_files({&file, 1});
-}
-
-void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
-
 Status list_devices() {
   const Result<std::vector<DeviceDescription>> devices = Context::list_devices();
   if (!devices) return with_hint(devices.error());
@@ -69,14 +50,14 @@ class ExtractionRun {
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
-    open_device();
+    if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the mesh is read
     if (Status status = load(); !status) return status;
     if (Status status = take_device(); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
     if (Status status = make_files(); !status) return status;
     progress_.clear();
-    if (interrupted()) return kStopped;
+    if (interrupted()) return stopped();
     if (Status status = write_files(files_); !status) return status;
     return conclude();
   }
@@ -113,20 +94,11 @@ class ExtractionRun {
     return {};
   }
 
-  /// On a thread of its own, while the mesh is read.
-  void open_device() {
-    if (options_.backend == Backend::kCpu) return;
-    ContextOptions wanted;
-    wanted.device = options_.device;
-    // Without a thread to be had: when it is asked for.
-    opening_ = std::async(std::launch::async | std::launch::deferred, [wanted] { return Context::create(wanted); });
-  }
-
   Status take_device() {
     if (options_.backend == Backend::kCpu) return {};
     Stopwatch stopwatch;
-    Result<Context> context = opening_.get();
-    if (!context) return with_hint(context.error(), options_.device);
+    Result<Context> context = opening_.take();
+    if (!context) return context.error();
     context_.emplace(std::move(context).value());
     record_.device = context_->device();
     record_.host_times.push_back({"device", stopwatch.lap()});
@@ -141,7 +113,7 @@ class ExtractionRun {
     Result<CertifiedExtraction> result = extract_and_certify(
         mesh_, options_.parameters, options_.backend, context_ ? &*context_ : nullptr, options_.threads, on_progress);
     progress_.clear();
-    if (!result) return result.error().code == ErrorCode::kInterrupted ? kStopped : with_hint(result.error());
+    if (!result) return result.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(result.error());
     spheres_ = std::move(result.value().extraction.spheres);
     record_.grid = result.value().extraction.grid;
     record_.counters = std::move(result.value().extraction.counters);
@@ -155,7 +127,7 @@ class ExtractionRun {
   /// In memory: until they are written a signal may end the program. These steps do not ask for one themselves.
   Status make_files() {
     const EndAtOnce guard;
-    if (interrupted()) return kStopped;
+    if (interrupted()) return stopped();
     simplify();
     group();
     if (Status status = weigh(); !status) return status;
@@ -202,7 +174,7 @@ class ExtractionRun {
     Status status = measure_volumes(options_, on_progress, spheres_, record_, files_);
     progress_.clear();
     if (!status) {
-      return status.error().code == ErrorCode::kInterrupted ? kStopped : with_hint(status.error());
+      return status.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(status.error());
     }
     describe_points();
     record_.host_times.push_back({"volumes", stopwatch.lap()});
@@ -303,7 +275,7 @@ class ExtractionRun {
   const Options& options_;
   Progress progress_;
   PreparedMesh mesh_;
-  std::future<Result<Context>> opening_;
+  DeviceOpening opening_;
   std::optional<Context> context_;
   std::vector<MedialSphere> spheres_;
   MedialHeader header_;
@@ -327,28 +299,24 @@ Status run_action(const Options& options) {
 }
 
 Status parse_and_run(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments[0] == "spheres") return run_spheres({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();
   return run_action(options.value());
-}
-
-int report_error(const Error& error) {
-  print_message(fmt::format("medial-vk: {}\n", error.message));
-  if (error.code == ErrorCode::kUsage) print_message("Try medial-vk --help.\n");
-  return static_cast<int>(error.code);
 }
 
 }  // namespace
 
 int run(const std::vector<std::string>& arguments) {
   install_interrupt_handlers();
+  const char* const command = !arguments.empty() && arguments[0] == "spheres" ? "medial-vk spheres" : "medial-vk";
   try {
     const Status status = parse_and_run(arguments);
-    return status ? 0 : report_error(status.error());
+    return status ? 0 : report_error(status.error(), command);
   } catch (const std::bad_alloc&) {
-    return report_error({ErrorCode::kOutOfMemory, "out of memory; try a lower --resolution"});
+    return report_error({ErrorCode::kOutOfMemory, "out of memory; try a lower --resolution"}, command);
   } catch (const std::exception& error) {
-    return report_error({ErrorCode::kInternal, fmt::format("internal error: {}", error.what())});
+    return report_error({ErrorCode::kInternal, fmt::format("internal error: {}", error.what())}, command);
   }
 }
 

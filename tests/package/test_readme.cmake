@@ -1,5 +1,6 @@
 # README.md shows the marked part of examples/embed.cpp, word for word, in its place: sentence, picture, command, what you
-# get, the program, results, limits. It and the manual page name the very options that --help lists.
+# get, the program, results, limits. It and the manual page name the very options that --help lists; so does the page of
+# `medial-vk spheres`.
 # Needs: SOURCE_DIR MEDIAL_VK
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE_DIR}/examples/embed.cpp example)
@@ -22,14 +23,17 @@ foreach(part "![" "## Two commands" "## What you get" "## Use it in a program" "
   set(last ${position})
 endforeach()
 
-execute_process(COMMAND ${MEDIAL_VK} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCH "\n## Options\n.*\n## Devices\n" table "${readme}")
 file(READ ${SOURCE_DIR}/docs/medial-vk.1 page)
 string(REPLACE "\\-" "-" page "${page}")
-string(REGEX MATCHALL "--[a-z][a-z-]+" in_help "${help}")
-list(REMOVE_DUPLICATES in_help)
+file(READ ${SOURCE_DIR}/docs/medial-vk-spheres.1 spheres_page)
+string(REPLACE "\\-" "-" spheres_page "${spheres_page}")
 
+# compare_options(DOCUMENT TEXT COMMAND ...): with what `medial-vk COMMAND ... --help` lists.
 function(compare_options document text)
+  execute_process(COMMAND ${MEDIAL_VK} ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "--[a-z][a-z-]+" in_help "${help}")
+  list(REMOVE_DUPLICATES in_help)
   string(REGEX MATCHALL "--[a-z][a-z-]+" named "${text}")
   list(REMOVE_DUPLICATES named)
   foreach(option IN LISTS in_help)
@@ -39,9 +43,10 @@ function(compare_options document text)
   endforeach()
   foreach(option IN LISTS named)
     if(NOT option IN_LIST in_help)
-      message(SEND_ERROR "${document} names ${option}, which medial-vk --help does not know")
+      message(SEND_ERROR "${document} names ${option}, which medial-vk ${ARGN} --help does not know")
     endif()
   endforeach()
 endfunction()
 compare_options(README.md "${table}")
 compare_options(docs/medial-vk.1 "${page}")
+compare_options(docs/medial-vk-spheres.1 "${spheres_page}" spheres)

@@ -1,0 +1,186 @@
+#include "cli/spheres/run_spheres.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "cli/device_opening.h"
+#include "cli/interrupt.h"
+#include "cli/load.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/spheres/spheres_options.h"
+#include "cli/spheres/spheres_picture.h"
+#include "cli/spheres/spheres_record.h"
+#include "medial/stopwatch.h"
+#include "output/atomic_file.h"
+#include "output/picture.h"
+#include "output/version.h"
+#include "robots/read_urdf.h"
+
+namespace medial_vk::cli {
+namespace {
+
+/// One run: the straight line from the mesh or robot to the files, and what its steps share.
+class SpheresRun {
+ public:
+  explicit SpheresRun(const SpheresOptions& options) : options_(options), progress_(!options.quiet) {}
+
+  Status run() {
+    if (Status status = check_outputs(); !status) return status;
+    if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the input is read
+    if (Status status = load(); !status) return status;
+    if (Status status = take_device(); !status) return status;
+    if (!options_.quiet) print_message(spheres_opening(options_, record_));
+    if (Status status = fit(); !status) return status;
+    if (Status status = make_files(); !status) return status;
+    progress_.clear();
+    if (interrupted()) return stopped();
+    if (Status status = write_files(files_); !status) return status;
+    if (!options_.quiet) print_message(spheres_summary(options_, record_, files_));
+    if (options_.verbose) print_message(spheres_details(options_, record_));
+    return {};
+  }
+
+ private:
+  /// Better now than after an hour of work.
+  Status check_outputs() const {
+    for (const std::string* path : {&options_.output, &options_.report, &options_.picture}) {
+      if (path->empty()) continue;
+      if (Status status = check_writable(*path); !status) return status;
+    }
+    return {};
+  }
+
+  Status load() {
+    progress_.update("read", 0);
+    Stopwatch stopwatch;
+    Status status = options_.is_robot ? load_robot() : load_one_mesh();
+    progress_.clear();
+    if (options_.is_robot) record_.times.push_back({"read", stopwatch.lap()});
+    return status;
+  }
+
+  Status load_one_mesh() {
+    Result<PreparedMesh> mesh = load_mesh(options_.input, record_.times);
+    if (!mesh) return mesh.error();
+    record_.robot = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    record_.parts.push_back(single_part(record_.robot, std::move(mesh).value()));
+    return {};
+  }
+
+  Status load_robot() {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Result<std::string> bytes = read_urdf_bytes(options_.input);
+    if (!bytes) return bytes.error();
+    urdf_ = std::move(bytes).value();
+    Result<Robot> robot = read_urdf(urdf_, options_.input);
+    if (!robot) return robot.error();
+    robot_ = std::move(robot).value();
+    record_.robot = robot_.name.empty() ? std::filesystem::path(options_.input).stem().string() : robot_.name;
+    const Result<MeshPlaces> places = mesh_places(options_.input, options_.packages);
+    if (!places) return places.error();
+    const bool cover = options_.request.contract == SphereContract::kCover;
+    Result<std::vector<Part>> parts =
+        load_parts(robot_, options_.visual, cover ? FacetSide::kCircumscribed : FacetSide::kInscribed, places.value(),
+                   options_.input);
+    if (!parts) return parts.error();
+    record_.parts = std::move(parts).value();
+    return {};
+  }
+
+  Status take_device() {
+    if (options_.backend == Backend::kCpu) return {};
+    Stopwatch stopwatch;
+    Result<Context> context = opening_.take();
+    if (!context) return context.error();
+    context_.emplace(std::move(context).value());
+    record_.device = context_->device();
+    record_.times.push_back({"device", stopwatch.lap()});
+    return {};
+  }
+
+  Status fit() {
+    Stopwatch stopwatch;
+    const FitGoals goals = {options_.request, options_.count_per_link, options_.total, options_.levels};
+    const FitProgress on_progress = [this](const Part&, double done) {
+      progress_.update("spheres", done);
+      return !interrupted();
+    };
+    Result<std::vector<PartFit>> fits =
+        fit_parts(record_.parts, goals, options_.backend, context_ ? &*context_ : nullptr, on_progress);
+    progress_.clear();
+    if (!fits) return fits.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(fits.error());
+    record_.fits = std::move(fits).value();
+    record_.times.push_back({"spheres", stopwatch.lap()});
+    return {};
+  }
+
+  /// In memory: until they are written a signal may end the program.
+  Status make_files() {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Result<std::string> bytes = encode_spheres(options_.format, sphere_file());
+    if (!bytes) return bytes.error();
+    files_.push_back({options_.output, std::move(bytes).value()});
+    if (Status status = draw(); !status) return status;
+    if (!options_.report.empty()) files_.push_back({options_.report, spheres_report(options_, record_)});
+    return {};
+  }
+
+  SphereFile sphere_file() const {
+    SphereFile file;
+    file.version = version();
+    file.contract = name_of(options_.request.contract);
+    file.method = name_of(options_.request.method);
+    file.is_robot = options_.is_robot;
+    file.robot = record_.robot;
+    file.with_levels = options_.levels;
+    file.branch = std::max(options_.request.count, options_.count_per_link);
+    file.urdf = urdf_;
+    for (std::size_t i = 0; i < record_.parts.size(); ++i) {
+      const PartFit& fit = record_.fits[i];
+      file.parts.push_back({record_.parts[i].link, record_.parts[i].name, fit.levels, fit.reach});
+    }
+    if (file.branch > 0) return file;
+    for (const PartSpheres& part : file.parts) file.branch = std::max(file.branch, part.levels.back().size());
+    return file;
+  }
+
+  Status draw() {
+    if (options_.picture.empty()) return {};
+    progress_.update("picture", 0);
+    Stopwatch stopwatch;
+    const std::vector<Pose> poses = options_.is_robot ? part_poses(robot_, record_.parts) : std::vector<Pose>(1);
+    Result<std::string> png =
+        spheres_picture(record_, poses, options_.view, record_.device ? &*record_.device : nullptr);
+    if (!png) return png.error();
+    files_.push_back({options_.picture, std::move(png).value()});
+    record_.times.push_back({"picture", stopwatch.lap()});
+    return {};
+  }
+
+  const SpheresOptions& options_;
+  Progress progress_;
+  DeviceOpening opening_;
+  std::optional<Context> context_;
+  std::string urdf_;
+  Robot robot_;
+  std::vector<OutputFile> files_;
+  SpheresRecord record_;
+};
+
+}  // namespace
+
+Status run_spheres(const std::vector<std::string>& arguments) {
+  const Result<SpheresOptions> options = parse_spheres_options(arguments);
+  if (!options) return options.error();
+  if (options.value().help) return print_result(spheres_help_text());
+  return SpheresRun(options.value()).run();
+}
+
+}  // namespace medial_vk::cli

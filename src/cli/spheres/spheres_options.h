@@ -1,0 +1,48 @@
+// The command line of `medial-vk spheres` as a struct. Names and exit codes are a contract with scripts
+// (docs/command-line.md).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cli/parse_picture.h"
+#include "medial_vk/result.h"
+#include "output/picture/options.h"
+#include "output/spheres/sphere_file.h"
+#include "spheres/sphere_set.h"
+
+namespace medial_vk::cli {
+
+struct SpheresOptions {
+  bool help = false;
+  std::string input;      ///< "-": a mesh on standard input.
+  bool is_robot = false;  ///< The input is a URDF.
+  std::string output;     ///< Never empty after parsing; "-": standard output.
+  SphereFormat format = SphereFormat::kCsv;
+
+  SphereRequest request;           ///< `threads` is that of the run.
+  std::size_t count_per_link = 0;  ///< 0: not given.
+  std::size_t total = 0;           ///< 0: not given.
+  bool levels = false;
+
+  bool visual = false;                ///< Of a robot: its visual geometry instead of that for collisions.
+  std::vector<std::string> packages;  ///< "name=folder".
+
+  std::string report;   ///< Empty: none; "-": standard output.
+  std::string picture;  ///< The same.
+  PictureView view;
+
+  Backend backend = Backend::kVulkan;
+  std::string device;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// `arguments` without the program's name and without "spheres". Errors: kUsage with a message that names the option.
+Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments);
+
+/// What `medial-vk spheres --help` prints.
+std::string spheres_help_text();
+
+}  // namespace medial_vk::cli

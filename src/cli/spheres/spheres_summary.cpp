@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cli/numbers.h"
+#include "cli/spheres/spheres_record.h"
+#include "cli/tables.h"
+
+namespace medial_vk::cli {
+namespace {
+
+std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
+
+/// A name from a file for a terminal: no control characters.
+std::string printable(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  return name;
+}
+
+std::size_t count_links(const SpheresRecord& record) {
+  std::set<std::string> links;
+  for (const Part& part : record.parts) links.insert(part.link);
+  return links.size();
+}
+
+std::string where(const SpheresOptions& options, const SpheresRecord& record) {
+  if (options.backend == Backend::kCpu) return "CPU reference, double precision";
+  if (!record.device) return "Vulkan";
+  return fmt::format("{} ({}), {}", record.device->name, record.device->type, record.device->driver);
+}
+
+std::string promise(SphereContract contract) {
+  switch (contract) {
+    case SphereContract::kInside:
+      return "inside: no sphere sticks out";
+    case SphereContract::kCover:
+      return "cover: nothing is left out";
+    case SphereContract::kBalanced:
+      break;
+  }
+  return "balanced";
+}
+
+std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "-"; }
+
+double seconds(const SpheresRecord& record) {
+  double total = 0;
+  for (const StageTime& time : record.times) total += time.seconds;
+  return total;
+}
+
+}  // namespace
+
+const char* name_of(SphereContract contract) {
+  constexpr const char* kNames[] = {"inside", "cover", "balanced"};
+  return kNames[static_cast<std::size_t>(contract)];
+}
+
+const char* name_of(SphereMethod method) { return method == SphereMethod::kBest ? "best" : "source"; }
+
+std::size_t count_spheres(const SpheresRecord& record) {
+  std::size_t count = 0;
+  for (const PartFit& fit : record.fits) count += fit.levels.back().size();
+  return count;
+}
+
+std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract) {
+  const bool known = contract == SphereContract::kInside && fit.solid_volume && fit.spheres_volume;
+  if (!known || !(*fit.solid_volume > 0)) return std::nullopt;
+  return 1 - *fit.spheres_volume / *fit.solid_volume;
+}
+
+std::optional<double> uncovered_share(const SpheresRecord& record, SphereContract contract) {
+  double solid = 0, spheres = 0;
+  for (const PartFit& fit : record.fits) {
+    if (!uncovered_share(fit, contract)) return std::nullopt;
+    solid += *fit.solid_volume;
+    spheres += *fit.spheres_volume;
+  }
+  return 1 - spheres / solid;
+}
+
+std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& record) {
+  std::uint64_t triangles = 0;
+  for (const Part& part : record.parts) triangles += part.mesh.report.triangles;
+  std::string text = options.input == "-" ? "standard input" : options.input;
+  if (options.is_robot) {
+    text += fmt::format(": {} with {}, {}\n", counted(count_links(record), "link", "links"),
+                        counted(record.parts.size(), "geometry", "geometries"),
+                        counted(triangles, "triangle", "triangles"));
+  } else {
+    text += fmt::format(": {}\n", counted(triangles, "triangle", "triangles"));
+  }
+  for (const Part& part : record.parts) {
+    for (const std::string& assumption : part.mesh.report.assumptions) {
+      text += line("note", options.is_robot
+                               ? fmt::format("{}, {}: {}", printable(part.link), printable(part.name), assumption)
+                               : assumption);
+    }
+  }
+  return text + line("device", where(options, record));
+}
+
+std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& record,
+                            std::span<const OutputFile> files) {
+  const SphereRequest& request = options.request;
+  std::string spheres = grouped(count_spheres(record));
+  if (options.levels) spheres += fmt::format(", in {} levels", record.fits.front().levels.size());
+  std::string text = line("spheres", spheres);
+  text += line("contract", promise(request.contract));
+  // Joins here: the measures of the set (Hausdorff distance, coverage, gaps ...).
+  if (const std::optional<double> error = uncovered_share(record, request.contract)) {
+    text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
+  }
+  const auto facets = std::ranges::max(record.parts, {}, &Part::facet_share).facet_share;
+  if (facets > 0) {
+    text += line("note",
+                 fmt::format("Round primitives are {} {:.2g} of their radius.",
+                             request.contract == SphereContract::kCover ? "wrapped in facets that stand off by up to"
+                                                                        : "filled with facets that fall short by up to",
+                             facets));
+  }
+  text += line("time", duration(seconds(record)));
+  for (const OutputFile& file : files) {
+    const std::string name = file.path == "-" ? "standard output" : file.path;
+    text += line("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
+  }
+  return text;
+}
+
+std::string spheres_details(const SpheresOptions& options, const SpheresRecord& record) {
+  const std::vector<Column> columns = {{"link"}, {"geometry"}, {"spheres", true}, {"uncovered", true}, {"time", true}};
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < record.parts.size(); ++i) {
+    const PartFit& fit = record.fits[i];
+    rows.push_back({printable(record.parts[i].link), printable(record.parts[i].name), grouped(fit.levels.back().size()),
+                    percent(uncovered_share(fit, options.request.contract)), duration(fit.seconds)});
+  }
+  return format_table(columns, rows);
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,118 @@
+#include "robots/find_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "mesh/text_scanner.h"
+
+namespace medial_vk {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_directory(path, error);
+}
+
+/// The parts of a path list, with `below` added to each.
+void add_paths(const char* variable, const char* below, std::vector<std::string>& paths) {
+  const char* value = std::getenv(variable);
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::string_view part = rest.substr(0, rest.find(':'));
+    if (!part.empty()) paths.push_back((fs::path(part) / below).string());
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  }
+}
+
+std::optional<fs::path> find_package(const std::string& name, const MeshPlaces& places) {
+  for (const auto& [known, folder] : places.packages) {
+    if (known == name) return folder;
+  }
+  const auto in = [&](const fs::path& folder) -> std::optional<fs::path> {
+    if (is_folder(folder / name)) return folder / name;
+    if (folder.filename() == name && is_folder(folder)) return folder;
+    return std::nullopt;
+  };
+  for (const std::string& folder : places.search) {
+    if (auto found = in(folder)) return found;
+  }
+  std::error_code error;
+  for (fs::path folder = fs::weakly_canonical(places.folder, error); !folder.empty(); folder = folder.parent_path()) {
+    if (auto found = in(folder)) return found;
+    if (folder == folder.parent_path()) break;
+  }
+  return std::nullopt;
+}
+
+Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
+
+/// "name/meshes/a.stl" of package://name/meshes/a.stl.
+Result<fs::path> path_in_package(const std::string& inner, const MeshPlaces& places, const std::string& uri) {
+  const std::string name = inner.substr(0, inner.find('/'));
+  if (name.empty() || name == "." || name == "..") {
+    return invalid(fmt::format("{} names no package", medial_vk::quoted(uri)));
+  }
+  const std::optional<fs::path> folder = find_package(name, places);
+  if (folder) return *folder / (inner.size() > name.size() ? inner.substr(name.size() + 1) : "");
+  std::string shown = medial_vk::quoted(name);
+  shown = shown.substr(1, shown.size() - 2);
+  return invalid(
+      fmt::format("the package \"{0}\" is found nowhere; say where it is with --package {0}=FOLDER or "
+                  "ROS_PACKAGE_PATH",
+                  shown));
+}
+
+Result<fs::path> path_of(const std::string& uri, const MeshPlaces& places) {
+  for (const char* scheme : {"package://", "model://"}) {
+    if (uri.starts_with(scheme)) return path_in_package(uri.substr(uri.find("//") + 2), places, uri);
+  }
+  const bool is_file_uri = uri.starts_with("file://");
+  const fs::path path = is_file_uri ? uri.substr(7) : uri;
+  if (path.is_absolute()) return path;
+  // With a scheme there is nothing that a path could be relative to.
+  if (uri.find("://") != std::string::npos) {
+    return invalid(fmt::format("{} is neither package:// nor file:/// nor a path", medial_vk::quoted(uri)));
+  }
+  return fs::path(places.folder) / path;
+}
+
+}  // namespace
+
+Result<MeshPlaces> mesh_places(const std::string& urdf, const std::vector<std::string>& packages) {
+  MeshPlaces places;
+  places.folder = fs::path(urdf).parent_path().string();
+  if (places.folder.empty()) places.folder = ".";
+  for (const std::string& package : packages) {
+    const std::size_t sign = package.find('=');
+    if (sign == 0 || sign == std::string::npos || sign + 1 == package.size()) {
+      return Error{ErrorCode::kUsage, fmt::format("--package: {} is not NAME=FOLDER", medial_vk::quoted(package))};
+    }
+    places.packages.emplace_back(package.substr(0, sign), package.substr(sign + 1));
+  }
+  add_paths("ROS_PACKAGE_PATH", "", places.search);
+  add_paths("AMENT_PREFIX_PATH", "share", places.search);
+  return places;
+}
+
+Result<std::string> find_mesh(const std::string& uri, const MeshPlaces& places) {
+  if (uri.find('\0') != std::string::npos) return invalid("a file name has a zero byte");
+  Result<fs::path> path = path_of(uri, places);
+  if (!path) return path.error();
+  if (!is_file(path.value())) return invalid(fmt::format("the mesh {} is not there", medial_vk::quoted(uri)));
+  return path.value().string();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,243 @@
+#include "robots/fit_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "medial/stopwatch.h"
+#include "medial_vk/ball_union.h"
+#include "mesh/point_ops.h"
+#include "mesh/text_scanner.h"
+#include "robots/share_out.h"
+#include "spheres/approximate.h"
+#include "spheres/prefixes.h"
+
+namespace medial_vk {
+namespace {
+
+double volume_of(const Ball& ball) { return 4.0 / 3 * std::numbers::pi * ball.radius * ball.radius * ball.radius; }
+
+/// Parts that share a number of balls: those of a link, or all.
+struct Group {
+  std::vector<std::size_t> parts;
+  std::size_t balls = 0;
+};
+
+class Fitting {
+ public:
+  Fitting(std::span<const Part> parts, const FitGoals& goals, Backend backend, Context* context,
+          const FitProgress& progress)
+      : parts_(parts), goals_(goals), backend_(backend), context_(context), progress_(progress), fits_(parts.size()) {}
+
+  Result<std::vector<PartFit>> run() {
+    const std::vector<Group> groups = make_groups();
+    for (const Group& group : groups) {
+      if (Status status = check(group); !status) return status.error();
+      for (const std::size_t part : group.parts) steps_ += parts_[part].ball ? 0 : group.parts.size() > 1 ? 2 : 1;
+    }
+    for (const Group& group : groups) {
+      if (Status status = fit(group); !status) return status.error();
+    }
+    align_levels();
+    return std::move(fits_);
+  }
+
+ private:
+  bool shares() const { return goals_.total > 0 || goals_.count_per_link > 0; }
+
+  /// In the order of their first parts.
+  std::vector<Group> make_groups() const {
+    std::vector<Group> groups;
+    std::map<std::string, std::size_t> of_link;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const std::string key = goals_.total > 0 ? std::string() : shares() ? parts_[i].link : std::to_string(i);
+      const auto [group, is_new] = of_link.emplace(key, groups.size());
+      if (is_new) {
+        groups.emplace_back();
+        groups.back().balls = goals_.total > 0 ? goals_.total : shares() ? goals_.count_per_link : goals_.request.count;
+      }
+      groups[group->second].parts.push_back(i);
+    }
+    return groups;
+  }
+
+  Status check(const Group& group) const {
+    if (!shares() || group.balls >= group.parts.size()) return {};
+    const std::string who = goals_.total > 0 ? std::string("the robot")
+                                             : fmt::format("the link {}", quoted(parts_[group.parts.front()].link));
+    return Error{ErrorCode::kUsage,
+                 fmt::format("{} has {} geometries, each of which needs a sphere; {} too few", who, group.parts.size(),
+                             group.balls == 1 ? "1 is" : fmt::format("{} are", group.balls))};
+  }
+
+  Status fit(const Group& group) {
+    if (!shares() || group.parts.size() == 1) {
+      for (const std::size_t part : group.parts) {
+        if (Status status = fit_part(part, group.balls); !status) return status;
+      }
+      return {};
+    }
+    Result<std::vector<std::size_t>> counts = counts_by_need(group);
+    if (!counts) return counts.error();
+    for (std::size_t i = 0; i < group.parts.size(); ++i) {
+      if (Status status = fit_part(group.parts[i], counts.value()[i]); !status) return status;
+    }
+    return {};
+  }
+
+  /// An equal share for each first: its beginnings are the curve of error against count.
+  Result<std::vector<std::size_t>> counts_by_need(const Group& group) {
+    const std::size_t balls = static_cast<std::size_t>(
+        std::ranges::count_if(group.parts, [&](std::size_t part) { return parts_[part].ball.has_value(); }));
+    const std::size_t others = group.parts.size() - balls;
+    const std::size_t equal = others == 0 ? 1 : std::max<std::size_t>(1, (group.balls - balls) / others);
+    std::vector<NeedCurve> curves;
+    for (const std::size_t part : group.parts) {
+      Result<NeedCurve> curve = curve_of(part, equal);
+      if (!curve) return curve.error();
+      curves.push_back(std::move(curve).value());
+    }
+    return share_out(curves, group.balls);
+  }
+
+  Result<NeedCurve> curve_of(std::size_t number, std::size_t count) {
+    const Part& part = parts_[number];
+    NeedCurve curve;
+    curve.is_ball = part.ball.has_value();
+    if (curve.is_ball) return curve;
+    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
+    if (!solid) return named(part, solid.error());
+    SphereRequest request = goals_.request;
+    // The volume that is left inside is what is needed; other goals are for the sets that are kept.
+    request.contract = SphereContract::kInside;
+    request.error = request.max_gap = 0;
+    // The method of the source may have no set of so few; one of a few more has the curve, too.
+    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), request, count, false);
+    for (int tries = 0; !sets && sets.error().code == ErrorCode::kUsage && tries < 6; ++tries) {
+      sets = approximate(part, solid.value(), request, count <<= 1, false);
+    }
+    if (!sets) return named(part, sets.error());
+    ++done_;
+    const Result<std::vector<double>> volumes = prefix_volumes(sets.value().back().balls, request.threads);
+    if (!volumes) return named(part, volumes.error());
+    // An open mesh has no volume; then the greatest set stands for the solid.
+    const double covered = volumes.value().empty() ? 0 : volumes.value().back();
+    const double whole = solid.value().has_volume() ? solid.value().volume() : covered;
+    for (const double volume : volumes.value()) curve.uncovered.push_back(whole - volume);
+    return curve;
+  }
+
+  Result<std::vector<SphereSet>> approximate(const Part& part, const Solid& solid, SphereRequest request,
+                                             std::size_t count, bool levels) {
+    request.count = count;
+    const SphereProgress on_progress = [&](const char*, double done) {
+      return !progress_ || progress_(part, (static_cast<double>(done_) + done) / static_cast<double>(steps_));
+    };
+    if (levels) return approximate_in_levels(solid, request, backend_, context_, on_progress);
+    Result<SphereSet> set = approximate_by_spheres(solid, request, backend_, context_, on_progress);
+    if (!set) return set.error();
+    return std::vector<SphereSet>{std::move(set).value()};
+  }
+
+  Status fit_part(std::size_t number, std::size_t count) {
+    const Part& part = parts_[number];
+    PartFit& fit = fits_[number];
+    fit.wanted = count;
+    if (part.ball) {
+      // Exact for every contract; its centre is the shift of its pose, which is not rounded.
+      fit.levels = {{Ball{part.pose.shift, part.ball->radius}}};
+      fit.reach = {{}};
+      fit.solid_volume = fit.spheres_volume = volume_of(*part.ball);
+      return {};
+    }
+    Stopwatch stopwatch;
+    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
+    if (!solid) return named(part, solid.error());
+    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), goals_.request, count, goals_.levels);
+    if (!sets) return named(part, sets.error());
+    ++done_;
+    if (Status status = measure(solid.value(), sets.value(), fit); !status) return named(part, status.error());
+    place_levels(part, sets.value(), fit);
+    fit.seconds = stopwatch.lap();
+    return {};
+  }
+
+  /// In the frame of the part, where what the contract says is proved.
+  Status measure(const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
+    const std::vector<Ball>& balls = sets.back().balls;
+    // Joins here: measure_spheres(solid, balls, ...), with proofs, into the fit.
+    if (solid.has_volume()) fit.solid_volume = solid.volume();
+    const Result<BallUnion> measured = measure_ball_union(balls, {goals_.request.threads, false});
+    if (!measured) return measured.error();
+    fit.spheres_volume = measured.value().volume;
+    for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
+    return {};
+  }
+
+  /// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the
+  /// centre is inside, their sum if it is not. Nothing is outside where the contract says so.
+  ReachOut reach_of(const Solid& solid, const SphereSet& set) const {
+    ReachOut reach;
+    if (goals_.request.contract == SphereContract::kInside || set.balls.empty()) return reach;
+    reach.best = HUGE_VAL;
+    CompensatedSum sum;
+    for (const Ball& ball : set.balls) {
+      const double distance = solid.distance(ball.centre) * (solid.contains(ball.centre) ? -1 : 1);
+      const double out = std::max(0.0, ball.radius + distance + solid.rounding());
+      sum.add(out);
+      reach.best = std::min(reach.best, out);
+      reach.worst = std::max(reach.worst, out);
+    }
+    reach.mean = sum.value() / static_cast<double>(set.balls.size());
+    return reach;
+  }
+
+  void place_levels(const Part& part, const std::vector<SphereSet>& sets, PartFit& fit) const {
+    const SphereContract contract = goals_.request.contract;
+    const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
+    for (const SphereSet& set : sets) {
+      std::vector<Ball> placed;
+      for (const Ball& ball : set.balls) placed.push_back(place(part, ball, grow));
+      fit.levels.push_back(std::move(placed));
+    }
+  }
+
+  Error named(const Part& part, Error error) const {
+    if (parts_.size() == 1 && part.link == part.name) return error;
+    if (error.code == ErrorCode::kInterrupted) return error;
+    error.message = fmt::format("link {}, {}: {}", quoted(part.link), quoted(part.name), error.message);
+    return error;
+  }
+
+  /// The coarsest of a part with few levels stands for the levels below it, too.
+  void align_levels() {
+    std::size_t most = 0;
+    for (const PartFit& fit : fits_) most = std::max(most, fit.levels.size());
+    for (PartFit& fit : fits_) {
+      const std::size_t missing = most - fit.levels.size();
+      fit.levels.insert(fit.levels.begin(), missing, std::vector<Ball>(fit.levels.front()));
+      fit.reach.insert(fit.reach.begin(), missing, ReachOut(fit.reach.front()));
+    }
+  }
+
+  std::span<const Part> parts_;
+  const FitGoals& goals_;
+  Backend backend_;
+  Context* context_;
+  const FitProgress& progress_;
+  std::vector<PartFit> fits_;
+  std::size_t steps_ = 0, done_ = 0;  // approximations
+};
+
+}  // namespace
+
+Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, Backend backend,
+                                       Context* context, const FitProgress& progress) {
+  return Fitting(parts, goals, backend, context, progress).run();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,44 @@
+// Spheres for all parts of a robot, or for one mesh.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "robots/parts.h"
+#include "spheres/reach_out.h"
+#include "spheres/sphere_set.h"
+
+namespace medial_vk {
+
+struct FitGoals {
+  SphereRequest request;           ///< For each part; its count is set from the next two if they are given.
+  std::size_t count_per_link = 0;  ///< Shared out among the parts of each link; 0: not given.
+  std::size_t total = 0;           ///< Shared out among all parts; 0: not given.
+  bool levels = false;             ///< Also sets of half, a quarter ... of the balls.
+};
+
+/// What one part came to.
+struct PartFit {
+  /// In the frame of the link, the smallest first; one unless levels were asked for. All parts have as many levels:
+  /// where one has no smaller set, its smallest stands there again.
+  std::vector<std::vector<Ball>> levels;
+  std::vector<ReachOut> reach;           ///< Per level: an upper bound of how far balls reach out of the part.
+  std::size_t wanted = 0;                ///< Balls that it was given; 0: as many as its other goals took.
+  std::optional<double> solid_volume;    ///< Of its mesh or ball, if the mesh encloses one cleanly.
+  std::optional<double> spheres_volume;  ///< Of the union of the last level.
+  double seconds = 0;
+};
+
+/// Called with the share done of all and the part that is worked at; return false to stop.
+using FitProgress = std::function<bool(const Part& part, double done)>;
+
+/// `contract` inside: no ball is outside its part, even by the rounding of its pose. A goal that is shared out is so by
+/// need (robots/share_out.h): error against count is measured on sets of an equal share first. Errors: those of
+/// approximate_by_spheres(), naming link and part; kUsage if a link has more parts than balls.
+Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, Backend backend,
+                                       Context* context, const FitProgress& progress = {});
+
+}  // namespace medial_vk

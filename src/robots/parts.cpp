@@ -1,0 +1,143 @@
+#include "robots/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "mesh/load_mesh.h"
+#include "mesh/text_scanner.h"
+#include "output/file_extension.h"
+#include "robots/read_collada.h"
+
+namespace medial_vk {
+namespace {
+
+/// What foam calls a mesh: its file without the scheme.
+std::string short_name(const std::string& uri) {
+  const std::size_t scheme = uri.starts_with("package://") ? 10 : 0;
+  return uri.substr(scheme);
+}
+
+/// A mirror turns triangles inside out; prepare_mesh() would turn them back, but only if they all agree.
+void scale_mesh(const Point& scale, Mesh& mesh) {
+  for (Point& p : mesh.vertices) {
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= scale[axis];
+  }
+  if (scale[0] * scale[1] * scale[2] > 0) return;
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+bool is_finite(const Mesh& mesh) {
+  return std::ranges::all_of(
+      mesh.vertices, [](const Point& p) { return std::ranges::all_of(p, [](double x) { return std::isfinite(x); }); });
+}
+
+class PartLoader {
+ public:
+  PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name)
+      : side_(side), places_(places), name_(name) {}
+
+  Status add(const Link& link, const std::vector<Geometry>& geometries) {
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      const Geometry& geometry = geometries[i];
+      Part part;
+      part.link = link.name;
+      part.pose = geometry.origin;
+      part.name = geometry.kind == GeometryKind::kMesh ? short_name(geometry.mesh) : fmt::format("primitive{}", i);
+      if (Status status = fill(geometry, part); !status) {
+        const Error& error = status.error();
+        const auto line = static_cast<std::uint64_t>(std::max(geometry.line, 0));
+        Error named = line_error(name_, line, fmt::format("link {}: {}", quoted(link.name), error.message));
+        named.code = error.code;
+        return named;
+      }
+      parts.push_back(std::move(part));
+    }
+    return {};
+  }
+
+  std::vector<Part> parts;
+
+ private:
+  Status fill(const Geometry& geometry, Part& part) {
+    if (geometry.kind == GeometryKind::kSphere) {
+      part.ball = Ball{{0, 0, 0}, geometry.size[0]};
+      return {};
+    }
+    Mesh mesh;
+    if (geometry.kind == GeometryKind::kMesh) {
+      Result<const Mesh*> file = mesh_file(geometry.mesh);
+      if (!file) return file.error();
+      mesh = *file.value();
+      scale_mesh(geometry.scale, mesh);
+      if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
+    } else {
+      mesh = make_primitive(geometry, side_);
+      part.facet_share = facet_share(geometry.kind);
+    }
+    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh));
+    if (!prepared) {
+      return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
+    }
+    part.mesh = std::move(prepared).value();
+    return {};
+  }
+
+  Result<const Mesh*> mesh_file(const std::string& uri) {
+    const Result<std::string> path = find_mesh(uri, places_);
+    if (!path) return path.error();
+    const auto known = files_.find(path.value());
+    if (known != files_.end()) return &known->second;
+    const bool is_collada = file_extension(path.value()) == ".dae";
+    Result<Mesh> mesh = is_collada ? read_collada(path.value()) : read_mesh(path.value());
+    if (!mesh) return mesh.error();
+    return &files_.emplace(path.value(), std::move(mesh).value()).first->second;
+  }
+
+  FacetSide side_;
+  const MeshPlaces& places_;
+  const std::string& name_;
+  std::map<std::string, Mesh> files_;
+};
+
+double reach_of(const Ball& ball) {
+  return std::max({std::fabs(ball.centre[0]), std::fabs(ball.centre[1]), std::fabs(ball.centre[2])});
+}
+
+}  // namespace
+
+Result<std::vector<Part>> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
+                                     const std::string& name) {
+  PartLoader loader(side, places, name);
+  for (const Link& link : robot.links) {
+    if (Status status = loader.add(link, visual ? link.visual : link.collision); !status) return status.error();
+  }
+  if (loader.parts.empty()) {
+    return file_error(name, fmt::format("no link has a <{}>; try {}", visual ? "visual" : "collision",
+                                        visual ? "--collision" : "--visual"));
+  }
+  return std::move(loader.parts);
+}
+
+Part single_part(std::string name, PreparedMesh mesh) {
+  Part part;
+  part.link = part.name = std::move(name);
+  part.mesh = std::move(mesh);
+  return part;
+}
+
+Ball place(const Part& part, const Ball& ball, int grow) {
+  const double rounding = placement_rounding(part.pose, reach_of(ball));
+  Ball placed = {part.pose * ball.centre, ball.radius};
+  if (rounding == 0 || grow == 0) return placed;
+  // The sum rounds, too.
+  placed.radius = std::nextafter(ball.radius + grow * rounding, grow > 0 ? std::numeric_limits<double>::infinity() : 0);
+  placed.radius = std::max(placed.radius, 0.0);
+  return placed;
+}
+
+}  // namespace medial_vk

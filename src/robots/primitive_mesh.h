@@ -1,0 +1,29 @@
+// Box, cylinder and capsule as triangle meshes that keep a contract: within the shape, or around it.
+#pragma once
+
+#include "mesh/mesh.h"
+#include "robots/robot.h"
+
+namespace medial_vk {
+
+/// Which side of a curved wall the facets are on.
+enum class FacetSide {
+  kInscribed,      ///< The mesh is inside the shape: for balls that must not stick out.
+  kCircumscribed,  ///< The shape is inside the mesh: for balls that must cover it.
+};
+
+/// Sides of the polygon that stands for a circle, and rings of facets of a hemisphere.
+inline constexpr std::uint32_t kCircleSides = 96;
+inline constexpr std::uint32_t kCapRings = 24;
+
+/// Greatest distance between mesh and shape as a share of the radius: 1 - cos(pi/96) = 5.4e-4 for a cylinder; for a
+/// capsule 1 - cos(pi/96) cos(pi/96) = 1.1e-3. Circumscribed ones are 1/(1 - share) - 1 outside. A box is exact.
+double facet_share(GeometryKind kind);
+
+/// A closed mesh of a box, cylinder or capsule in its own frame, within or around it even by rounding.
+Mesh make_primitive(const Geometry& geometry, FacetSide side);
+
+/// Of the shape itself, cubic metres; of a sphere, too. 0 for a mesh.
+double primitive_volume(const Geometry& geometry);
+
+}  // namespace medial_vk

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "spheres/approximate.h"
+#include "spheres/prefixes.h"
+#include "spheres/source_method.h"
+
+namespace medial_vk {
+namespace {
+
+Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
+
+/// Balls inside the solid, whatever the contract: the others begin with these.
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+                                 const SphereProgress& progress) {
+  switch (request.method) {
+    case SphereMethod::kSource:
+      return source_spheres(solid, request, backend, context, progress);
+    case SphereMethod::kBest:
+      break;
+  }
+  // Joins here: return best_spheres(solid, request, backend, context, progress);
+  return usage("the method best is not part of this build; use --method source");
+}
+
+/// The set as the contract wants it.
+Result<SphereSet> keep_contract(const Solid&, SphereSet inside, const SphereRequest& request, const SphereProgress&) {
+  switch (request.contract) {
+    case SphereContract::kInside:
+      return inside;
+    case SphereContract::kCover:
+      // Joins here: return cover_solid(solid, std::move(inside), request.threads, progress);
+    case SphereContract::kBalanced:
+      // Joins here: return balance(solid, std::move(inside), request.threads, progress);
+      break;
+  }
+  return usage("this build knows the contract inside only; use --contract inside");
+}
+
+Status check_request(const SphereRequest& request) {
+  const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
+  if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
+    return usage("an error is a share below 1, and a gap a length; neither is negative");
+  }
+  return {};
+}
+
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                         Backend backend, Context* context, const SphereProgress& progress) {
+  if (Status status = check_request(request); !status) return status.error();
+  Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
+  if (!inside) return inside.error();
+  const std::vector<Ball>& balls = inside.value().balls;
+  const std::vector<std::size_t> counts =
+      all_levels && !balls.empty() ? level_counts(balls.size()) : std::vector<std::size_t>{balls.size()};
+  std::vector<SphereSet> levels;
+  for (const std::size_t count : counts) {
+    const auto end = balls.begin() + static_cast<std::ptrdiff_t>(count);
+    Result<SphereSet> level = keep_contract(solid, {std::vector<Ball>(balls.begin(), end)}, request, progress);
+    if (!level) return level.error();
+    levels.push_back(std::move(level).value());
+  }
+  return levels;
+}
+
+/// No exception leaves here.
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                              Backend backend, Context* context, const SphereProgress& progress) {
+  try {
+    return levels_of(solid, request, all_levels, backend, context, progress);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
+  }
+}
+
+}  // namespace
+
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest& request, Backend backend,
+                                         Context* context, const SphereProgress& progress) {
+  Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, backend, context, progress);
+  if (!levels) return levels.error();
+  return std::move(levels.value().back());
+}
+
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereRequest& request, Backend backend,
+                                                     Context* context, const SphereProgress& progress) {
+  return guarded_levels(solid, request, true, backend, context, progress);
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,233 @@
+// `medial-vk spheres` from outside: exit codes, files, whole robots. Everything here runs without a Vulkan device.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "support/mesh_files.h"
+#include "support/solids.h"
+#include "tool_test.h"
+
+namespace medial_vk {
+namespace {
+
+using nlohmann::json;
+using test::read_file;
+using test::ToolResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kRobot = R"(<robot name="two">
+  <link name="a">
+    <collision><geometry><mesh filename="part.obj"/></geometry></collision>
+    <collision><origin xyz="0 0 3"/><geometry><sphere radius="0.5"/></geometry></collision>
+  </link>
+  <link name="b">
+    <visual><geometry><mesh filename="part.obj"/></geometry></visual>
+    <collision>
+      <origin xyz="1 0 0" rpy="0.1 0.2 0.3"/>
+      <geometry><mesh filename="package://here/part.obj" scale="0.5 0.5 0.5"/></geometry>
+    </collision>
+  </link>
+  <link name="c"/>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
+</robot>
+)";
+
+class SpheresCommand : public test::ToolTest {
+ protected:
+  SpheresCommand() {
+    Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);
+    test::rotate(mesh, {1, 2, 3}, 0.4);
+    test::write_file(path("part.obj"), test::to_obj(mesh));
+    test::write_file(path("two.urdf"), kRobot);
+  }
+
+  /// By the source's method on the CPU.
+  ToolResult spheres(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"spheres", "--method", "source", "--backend", "cpu"});
+    return run(std::move(arguments));
+  }
+
+  std::vector<std::string> robot_arguments(const std::string& goal, const std::string& number) const {
+    return {"two.urdf", "--package", "here=" + path(""), goal, number};
+  }
+};
+
+TEST_F(SpheresCommand, HelpGoesToStandardOutput) {
+  const ToolResult help = run({"spheres", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr("ROBOT.urdf"));
+  EXPECT_THAT(help.err, IsEmpty());
+  EXPECT_THAT(run({"--help"}).out, HasSubstr("medial-vk spheres"));
+}
+
+TEST_F(SpheresCommand, WritesATableOfAMesh) {
+  const ToolResult result = spheres({"part.obj", "--count", "50"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("no sphere sticks out"));
+  EXPECT_THAT(result.err, HasSubstr("part.spheres.csv"));
+  EXPECT_THAT(result.err, Not(HasSubstr("\r")));
+  const std::string table = read_file(path("part.spheres.csv"));
+  EXPECT_THAT(table, StartsWith("x,y,z,radius\n"));
+  const auto lines = std::ranges::count(table, '\n');
+  EXPECT_GT(lines, 10);
+  EXPECT_LE(lines, 51);
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "part.spheres.csv", "two.urdf"));
+}
+
+TEST_F(SpheresCommand, TheSameRunGivesTheSameBytes) {
+  ASSERT_EQ(spheres({"part.obj", "--count", "50", "-q", "-o", "a.json"}).exit_code, 0);
+  const ToolResult again = spheres({"part.obj", "--count", "50", "-q", "-o", "b.json", "--threads", "1"});
+  EXPECT_THAT(again.err, IsEmpty());
+  EXPECT_EQ(read_file(path("a.json")), read_file(path("b.json")));
+}
+
+TEST_F(SpheresCommand, LevelsAreBeginningsOfEachOther) {
+  ASSERT_EQ(spheres({"part.obj", "--count", "50", "--levels"}).exit_code, 0);
+  const json file = json::parse(read_file(path("part.spheres.json")));
+  ASSERT_GT(file["levels"].size(), 3u);
+  EXPECT_EQ(file["levels"].back()["spheres"], file["spheres"]);
+  for (const json& level : file["levels"]) {
+    EXPECT_EQ(level["num_spheres"], level["spheres"].size());
+    for (std::size_t i = 0; i < level["spheres"].size(); ++i) EXPECT_EQ(level["spheres"][i], file["spheres"][i]);
+  }
+}
+
+TEST_F(SpheresCommand, StreamsGoThrough) {
+  test::ToolCall call{
+      {"spheres", "-", "--method", "source", "--backend", "cpu", "--count", "20", "-o", "-", "--format", "json"},
+      path("")};
+  call.standard_input = read_file(path("part.obj"));
+  const ToolResult result = test::run_tool(call);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["mesh"], "stdin");
+}
+
+TEST_F(SpheresCommand, ARobotGetsSpheresForCollision) {
+  const ToolResult result = spheres(robot_arguments("--count-per-link", "20"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 links with 3 geometries"));
+  const std::string urdf = read_file(path("two.spheres.urdf"));
+  EXPECT_THAT(urdf, HasSubstr("<sphere radius=\"0.5\"/>"));
+  EXPECT_THAT(urdf, HasSubstr("<origin xyz=\"0 0 3\" rpy=\"0 0 0\"/>"));
+  EXPECT_THAT(urdf, HasSubstr("<joint name=\"j\" type=\"fixed\">"));
+  EXPECT_THAT(urdf, Not(HasSubstr("package://")));  // it was collision geometry
+  // What was written is a robot again, of balls only.
+  std::vector<std::string> again = {"two.spheres.urdf", "--total", "1000", "-o", "again.json"};
+  ASSERT_EQ(spheres(again).exit_code, 0);
+  const json links = json::parse(read_file(path("again.json")))["links"];
+  EXPECT_LE(links["a"].size(), 20u);
+  EXPECT_LE(links["b"].size(), 20u);
+  EXPECT_GT(links["b"].size(), 5u);
+  EXPECT_EQ(links["a"].back()["radius"], 0.5);
+}
+
+TEST_F(SpheresCommand, ATotalIsSharedOutByNeed) {
+  const ToolResult result =
+      run({"spheres", "two.urdf", "--package", "here=" + path(""), "--total", "60", "--method", "source", "--backend",
+           "cpu", "-q", "-o", "-", "--format", "json", "--report", "report.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json report = json::parse(read_file(path("report.json")));
+  std::vector<int> wanted;
+  for (const json& part : report["parts"]) wanted.push_back(part["wanted"]);
+  ASSERT_EQ(wanted.size(), 3u);
+  EXPECT_EQ(wanted[0] + wanted[1] + wanted[2], 60);
+  EXPECT_EQ(wanted[1], 1);          // a ball
+  EXPECT_GT(wanted[0], wanted[2]);  // the same shape at half the size
+  EXPECT_LE(report["num_spheres"], 60);
+  EXPECT_EQ(report["contract"], "inside");
+  EXPECT_GT(report["volume_error"], 0);
+}
+
+TEST_F(SpheresCommand, ReportAndPicture) {
+  std::vector<std::string> arguments = robot_arguments("--count-per-link", "10");
+  for (const char* word : {"--report", "r.json", "--picture", "p.png", "--up", "z", "-v", "--format", "foam"}) {
+    arguments.emplace_back(word);
+  }
+  const ToolResult result = spheres(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("here/part.obj"));
+  EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
+  const json foam = json::parse(read_file(path("two.spheres.foam.json")));
+  EXPECT_TRUE(foam.contains("a::part.obj"));
+  EXPECT_TRUE(foam.contains("a::primitive1"));
+  EXPECT_TRUE(foam["b::here/part.obj"]["10"].contains("1"));
+  EXPECT_EQ(json::parse(read_file(path("r.json")))["goals"]["count_per_link"], 10);
+}
+
+TEST_F(SpheresCommand, WrongUsageIs2) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"part.obj"},
+                                                    {"part.obj", "--count", "-1"},
+                                                    {"two.urdf", "--count", "5"},
+                                                    {"two.urdf", "--total", "5", "--package", "here"},
+                                                    {"part.obj", "--count", "5", "--max-gap", "0.1"},
+                                                    {"part.obj", "--count", "5", "--contract", "some"}}) {
+    const ToolResult result = spheres(arguments);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("medial-vk: "));
+    EXPECT_THAT(result.err, HasSubstr("Try medial-vk spheres --help."));
+  }
+  EXPECT_THAT(spheres(robot_arguments("--total", "2")).err, HasSubstr("the robot has 3 geometries"));
+  EXPECT_THAT(spheres(robot_arguments("--count-per-link", "1")).err, HasSubstr("link \"a\" has 2 geometries"));
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
+}
+
+TEST_F(SpheresCommand, UnreadableRobotsAre3AndSayWhy) {
+  const auto fails_with = [&](const std::string& robot, const std::string& message) {
+    test::write_file(path("bad.urdf"), robot);
+    const ToolResult result = spheres({"bad.urdf", "--total", "9"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  };
+  const auto with = [](const std::string& geometry) {
+    return "<robot name='r'><link name='a'><collision><geometry>" + geometry + "</geometry></collision></link></robot>";
+  };
+  fails_with("", "medial-vk: bad.urdf: the file is empty");
+  fails_with("no xml", "no well-formed XML");
+  fails_with("<robot><link/></robot>", "bad.urdf:1: a <link> has no name");
+  fails_with(with("<cone/>"), "the geometry \"cone\" is unknown");
+  fails_with(with("<mesh filename='none.stl'/>"), "none.stl\" is not there");
+  fails_with(with("<mesh filename='bad.urdf'/>"), "link \"a\": ");
+  fails_with(with("<mesh filename='part.obj' scale='nan nan nan'/>"), "scale of <mesh>");
+  fails_with(with("<mesh filename='package://gone/a.stl'/>"), "--package gone=FOLDER");
+  fails_with("<robot><link name='a'/></robot>", "no link has a <collision>; try --visual");
+  EXPECT_EQ(spheres({"missing.urdf", "--total", "9"}).exit_code, 3);
+  EXPECT_EQ(spheres({"missing.obj", "--count", "9"}).exit_code, 3);
+}
+
+TEST_F(SpheresCommand, CannotWriteIs6) {
+  EXPECT_EQ(spheres({"part.obj", "--count", "9", "-o", "no/such/folder/a.csv"}).exit_code, 6);
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
+}
+
+TEST_F(SpheresCommand, AnInterruptedRunWritesNothing) {
+  test::Tool tool(call({"spheres", "part.obj", "--method", "source", "--backend", "cpu", "--resolution", "2000"}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(tool.running());
+  tool.send(SIGINT);
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_THAT(result.err, HasSubstr("medial-vk: interrupted; nothing was written\n"));
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
+}
+
+TEST_F(SpheresCommand, VisualGeometryIsThereForTheAsking) {
+  ASSERT_EQ(spheres({"two.urdf", "--count-per-link", "20", "--visual", "-o", "v.json"}).exit_code, 0);
+  const json links = json::parse(read_file(path("v.json")))["links"];
+  EXPECT_EQ(links.size(), 1u);
+  EXPECT_TRUE(links.contains("b"));
+}
+
+}  // namespace
+}  // namespace medial_vk
