@@ -155,11 +155,14 @@ Json medial_mesh_json(const RunRecord& record) {
   if (!record.medial_mesh) return nullptr;
   const MedialTopology& topology = *record.medial_mesh;
   const Json solid_euler = record.euler_characteristic ? Json(*record.euler_characteristic) : Json(nullptr);
-  return {{"components", topology.components},
+  return {{"components", topology.betti.components},
+          {"tunnels", topology.betti.tunnels},
+          {"cavities", topology.betti.cavities},
           {"euler_characteristic", topology.euler_characteristic},
           {"boundary_edges", topology.boundary_edges},
           {"non_manifold_edges", topology.non_manifold_edges},
           {"bare_edges", topology.bare_edges},
+          {"hosted_points", topology.hosted_points},
           {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
 }
 

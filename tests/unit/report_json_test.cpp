@@ -111,13 +111,16 @@ TEST(ReportJson, SheetsAndMedialMesh) {
   EXPECT_EQ(report["grouping"]["sheet_angle"], 5.7);
   EXPECT_TRUE(report["medial_mesh"].is_null());
 
-  record.medial_mesh = MedialTopology{1, -1, 20, 3, 4};
+  record.medial_mesh = MedialTopology{{1, 2, 0}, -1, 20, 3, 4, 5};
   report = json::parse(report_json(record));
+  EXPECT_EQ(report["medial_mesh"]["tunnels"], 2);
   EXPECT_EQ(report["medial_mesh"]["euler_characteristic"], -1);
+  EXPECT_EQ(report["medial_mesh"]["hosted_points"], 5);
   EXPECT_TRUE(report["medial_mesh"]["solid"]["euler_characteristic"].is_null());
   record.euler_characteristic = 0;
   EXPECT_EQ(json::parse(report_json(record))["medial_mesh"]["solid"]["euler_characteristic"], 0);
-  EXPECT_THAT(cli::summary(record, {}), HasSubstr("Euler characteristic -1 (of the solid: 0)"));
+  EXPECT_THAT(cli::summary(record, {}),
+              HasSubstr("1 component, 2 tunnels, 0 cavities, Euler characteristic -1 (of the solid: 0)"));
 }
 
 TEST(ReportJson, UnionAndRemoval) {
