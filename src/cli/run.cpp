@@ -229,7 +229,7 @@ class ExtractionRun {
     header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
     Result<std::string> bytes = encode_points(
         {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
-        header_, spheres_);
+        header_, spheres_, record_.sheets.marks);
     if (!bytes) return bytes.error();
     points_file_ = files_.size();
     files_.push_back({options_.output, std::move(bytes).value()});
