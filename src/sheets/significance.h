@@ -45,13 +45,17 @@ enum class RemovalRule {
   kTopology,
 };
 
-/// Called before each sheet that is tried, with the share of the work done; false stops.
+/// Called before each sheet that is tried, with the share of the work done, as far as it can be told: what had to stay
+/// may have to be tried again. It never falls. False stops.
 using RemovalProgress = std::function<bool(double done)>;
 
-/// Removes sheets as long as the rest has at least `least_volume` of the whole volume; with 0, all that may go. At
-/// least one stays. Of equal significance, the sheet with the larger number goes first. Errors: those of
-/// ShrinkingUnion, kInterrupted.
+/// Removes sheets by the rule until the next would leave less than `least_volume` of the whole volume; with 0, all that
+/// may go. So what goes is a first part of what goes with 0. At least one stays. Of equal significance, the sheet with
+/// the larger number goes first. Errors: those of ShrinkingUnion, kInterrupted.
 Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
                                    double least_volume, unsigned threads, const RemovalProgress& progress);
+
+/// The first part of a removal that leaves at least `least_volume`: what remove_sheets() would have found for it.
+SheetRemoval stop_at_volume(SheetRemoval removal, const Significance& significance, double least_volume);
 
 }  // namespace medial_vk
