@@ -65,7 +65,10 @@ class VolumeStep {
  private:
   Status measure() {
     if (!progress_("volume", 0)) return Error{ErrorCode::kInterrupted, "interrupted"};
+    const VoxelGraph graph(spheres_);
+    sheets_.graph = &graph;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
+    sheets_.graph = nullptr;
     if (!measured) return measured.error();
     significance_ = std::move(measured).value();
     record_.ball_union = UnionRecord{significance_.volume, significance_.area, significance_.topology};

@@ -134,6 +134,26 @@ class Removing {
   double done_ = 0;
 };
 
+std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
+  std::vector<double> of_sheet(sheets.sheets);
+  const auto add = [&](std::uint32_t ball, double share) {
+    of_sheet[static_cast<std::size_t>(sheets.sheet_of[ball])] += share;
+  };
+  if (!sheets.graph) {
+    for (std::uint32_t ball = 0; ball < of_ball.size(); ++ball) add(ball, of_ball[ball]);
+    return of_sheet;
+  }
+  const VoxelGraph& graph = *sheets.graph;
+  // In voxel order, so that the sums do not depend on that of the balls.
+  for (std::uint32_t place = 0; place < graph.size(); ++place) {
+    const auto around = graph.neighbours(place);
+    const double share = of_ball[graph.index(place)] / static_cast<double>(around.size() + 1);
+    add(graph.index(place), share);
+    for (const std::uint32_t other : around) add(graph.index(other), share);
+  }
+  return of_sheet;
+}
+
 }  // namespace
 
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads) {
@@ -151,12 +171,12 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
                       .area = whole.area,
                       .topology = topology.value(),
                       .of_ball = std::move(whole.volumes),
-                      .of_sheet = std::vector<double>(sheets.sheets),
+                      .of_sheet = {},
                       .areas = std::move(whole.areas)};
   for (std::size_t i = 0; i < result.of_ball.size(); ++i) {
     if (result.volume > 0) result.of_ball[i] /= result.volume;
-    result.of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += result.of_ball[i];
   }
+  result.of_sheet = share_among_sheets(sheets, result.of_ball);
   return result;
 }
 

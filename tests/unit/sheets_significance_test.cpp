@@ -94,6 +94,26 @@ TEST(Significance, SumsToOne) {
   EXPECT_NEAR(std::accumulate(found.of_ball.begin(), found.of_ball.end(), 0.0), 1, 1e-13);
 }
 
+// Four balls of one size in a row, apart, in two sheets: those at the seam count for both.
+TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {
+  std::vector<MedialSphere> spheres(4);
+  Parts parts;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    spheres[i].voxel = {i + 1, 5, 5};
+    parts.balls.push_back({{static_cast<double>(i), 0, 0}, 0.4});
+  }
+  parts.sheet_of = {0, 0, 0, 1};
+  parts.sheets = 2;
+  const VoxelGraph graph(spheres);
+  SheetBalls sheets = parts.view();
+  sheets.graph = &graph;
+  const Significance found = measure_significance(sheets, 1).value();
+  EXPECT_NEAR(found.of_ball[2], 0.25, 1e-14);
+  // Of the third, two parts in three; of the fourth, one in two.
+  EXPECT_NEAR(found.of_sheet[0], 0.25 * (1 + 1 + 2.0 / 3 + 0.5), 1e-14);
+  EXPECT_NEAR(found.of_sheet[1], 0.25 * (1.0 / 3 + 0.5), 1e-14);
+}
+
 TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
   const Parts parts = dumbbell();
   const SheetRemoval removal = remove(parts, RemovalRule::kSignificance);
