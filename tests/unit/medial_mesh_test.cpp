@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <sstream>
 
@@ -157,6 +159,59 @@ TEST(MedialMesh, EveryPartIsThereOnceAndSidesOfTrianglesAreEdges) {
       EXPECT_TRUE(std::binary_search(m.mesh.edges.begin(), m.mesh.edges.end(), side));
     }
   }
+}
+
+TEST(MedialMesh, DoesNotDependOnTheOrderOfPoints) {
+  // On a lattice, so that ties are decided, too.
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    MedialSphere s;
+    s.voxel = {2 + i % 10, 3 + i / 10 % 10, 5 + i / 100};
+    s.centre = {s.voxel[0] + 0.5, s.voxel[1] + 0.5, s.voxel[2] + 0.5};
+    s.radius = 3;
+    s.spoke_a = {0, 0, 1};
+    s.spoke_b = {0, 0, -1};
+    spheres.push_back(s);
+  }
+  const MedialMesh mesh = meshed(spheres).mesh;
+  std::vector<std::uint32_t> order(spheres.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::mt19937 random(5);
+  std::shuffle(order.begin(), order.end(), random);
+  std::vector<MedialSphere> shuffled;
+  for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
+  std::vector<MeshTriangle> triangles = meshed(shuffled).mesh.triangles;
+  for (MeshTriangle& t : triangles) {
+    for (std::uint32_t& corner : t) corner = order[corner];
+    std::sort(t.begin(), t.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  EXPECT_EQ(triangles, mesh.triangles);
+  EXPECT_EQ(mesh.topology.betti, (BettiNumbers{1, 0, 0}));
+}
+
+// A point beside another, and a ball that others hide: each has one edge.
+TEST(MedialMesh, PointsWithoutAPlaceInTheComplexAreHosted) {
+  std::vector<MedialSphere> spheres = plane(
+      {0, 0, 1}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 6); }, 1);
+  const MedialTopology before = meshed(spheres).mesh.topology;
+  ASSERT_EQ(before.hosted_points, 0u);
+  MedialSphere small = spheres[40];
+  small.voxel[2] += 1;
+  small.centre[2] = 13.1;
+  small.radius = 0.5;
+  spheres.push_back(small);
+  const Meshed m = meshed(std::move(spheres));
+  EXPECT_EQ(m.mesh.topology.hosted_points, 1u);
+  EXPECT_EQ(m.mesh.topology.betti, before.betti);
+  const auto last = static_cast<std::uint32_t>(m.spheres.size() - 1);
+  EXPECT_EQ(std::ranges::count_if(m.mesh.edges, [&](const MeshEdge& e) { return e[0] == last || e[1] == last; }), 1);
+}
+
+TEST(MedialMesh, NoPointsAreNoMesh) {
+  const MedialMesh mesh = meshed({}).mesh;
+  EXPECT_TRUE(mesh.edges.empty() && mesh.triangles.empty());
+  EXPECT_EQ(mesh.topology.betti, BettiNumbers());
 }
 
 TEST(MedialMesh, FilesHoldEveryNumber) {
