@@ -78,8 +78,10 @@ How points are grouped into sheets:
       --sheet-angle A   neighbours whose normals differ by at most A degrees
                         are of one sheet, 0 to 90 (default 5.7)
       --sheet-crease A  so are neighbours whose spokes turn by no more than A
-                        degrees, as between facets of a round shape, 0 to 180
-                        (default 40; 0: only the angle decides, as published)
+                        degrees, as between facets of a round shape, and pieces
+                        if half of their border turns by no more than A + 25,
+                        0 to 180 (default 30; 0: only the angle decides, as
+                        published)
       --sheet-width W   pieces narrower than W times the diameter of their
                         balls, 0 to 1, join a neighbour (default 0.3; 0: none)
       --absorb-fragments N  so do pieces of fewer than N points (default 0)

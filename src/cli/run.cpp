@@ -135,7 +135,7 @@ class ExtractionRun {
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
     make_page();
-    connect();
+    if (Status status = connect(); !status) return status;
     encode_report();
     return {};
   }
@@ -181,24 +181,27 @@ class ExtractionRun {
     return {};
   }
 
-  void connect() {
-    if (options_.medial_mesh.empty()) return;
+  Status connect() {
+    if (options_.medial_mesh.empty()) return {};
     progress_.update("medial mesh", 0);
     Stopwatch stopwatch;
-    const MedialMesh mesh =
-        make_medial_mesh(spheres_, record_.sheets, options_.parameters.epsilon * record_.grid.voxel_size);
-    record_.medial_mesh = mesh.topology;
+    const double voxel = record_.grid.voxel_size;
+    const Result<MedialMesh> mesh =
+        make_medial_mesh(spheres_, record_.sheets, {voxel, options_.parameters.epsilon * voxel, options_.threads});
+    if (!mesh) return mesh.error();
+    record_.medial_mesh = mesh.value().topology;
     record_.euler_characteristic = euler_characteristic_of_solid(mesh_);
     files_.push_back({options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets,
-                                                               mesh, options_.ascii)});
+                                                               mesh.value(), options_.ascii)});
     record_.host_times.push_back({"medial mesh", stopwatch.lap()});
+    return {};
   }
 
   Status encode() {
     header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
     Result<std::string> bytes = encode_points(
         {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
-        header_, spheres_);
+        header_, spheres_, record_.sheets.marks);
     if (!bytes) return bytes.error();
     points_file_ = files_.size();
     files_.push_back({options_.output, std::move(bytes).value()});

@@ -52,6 +52,11 @@ std::string describe_sheets(const Sheets& sheets) {
   return text;
 }
 
+std::string describe(const BettiNumbers& betti) {
+  return fmt::format("{}, {}, {}", counted(betti.components, "component", "components"),
+                     counted(betti.tunnels, "tunnel", "tunnels"), counted(betti.cavities, "cavity", "cavities"));
+}
+
 std::string describe_union(const RunRecord& record) {
   const UnionRecord& whole = *record.ball_union;
   std::string text = fmt::format("{:.6g}", whole.volume);
@@ -59,9 +64,7 @@ std::string describe_union(const RunRecord& record) {
   if (record.mesh.closed && record.mesh.signed_volume > 0) {
     text += fmt::format(", {:.2f} % of the solid", 100 * whole.volume / record.mesh.signed_volume);
   }
-  return fmt::format("{}; {}, {}, {}", text, counted(whole.topology.components, "component", "components"),
-                     counted(whole.topology.tunnels, "tunnel", "tunnels"),
-                     counted(whole.topology.cavities, "cavity", "cavities"));
+  return fmt::format("{}; {}", text, describe(whole.topology));
 }
 
 std::string describe_removal(const SheetRemoval& removal) {
@@ -72,9 +75,8 @@ std::string describe_removal(const SheetRemoval& removal) {
 
 /// Both sides of the comparison, so that it is seen at once whether the topology was kept.
 std::string describe_medial_mesh(const RunRecord& record) {
-  std::string text =
-      fmt::format("{}, Euler characteristic {}", counted(record.medial_mesh->components, "component", "components"),
-                  record.medial_mesh->euler_characteristic);
+  std::string text = fmt::format("{}, Euler characteristic {}", describe(record.medial_mesh->betti),
+                                 record.medial_mesh->euler_characteristic);
   if (record.euler_characteristic) text += fmt::format(" (of the solid: {})", *record.euler_characteristic);
   return text;
 }

@@ -51,12 +51,11 @@ class VolumeStep {
 
   Status run() {
     if (Status status = measure(); !status.ok()) return status;
-    if (!options_.sheet_curve.empty()) {
-      if (Status status = make_curve(); !status.ok()) return status;
+    if (options_.keep_volume > 0 || !options_.sheet_curve.empty()) {
+      if (Status status = find_orders(); !status.ok()) return status;
     }
-    if (options_.keep_volume > 0) {
-      if (Status status = remove(); !status.ok()) return status;
-    }
+    if (!options_.sheet_curve.empty()) draw_curve();
+    if (options_.keep_volume > 0) keep_sheets();
     if (!options_.ball_volumes.empty()) {
       files_.push_back({options_.ball_volumes, encode_ball_volumes(significance_, spheres_)});
     }
@@ -66,7 +65,10 @@ class VolumeStep {
  private:
   Status measure() {
     if (!progress_("volume", 0)) return Error{ErrorCode::kInterrupted, "interrupted"};
+    const VoxelGraph graph(spheres_);
+    sheets_.graph = &graph;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
+    sheets_.graph = nullptr;
     if (!measured) return measured.error();
     significance_ = std::move(measured).value();
     record_.ball_union = UnionRecord{significance_.volume, significance_.area, significance_.topology};
@@ -77,27 +79,36 @@ class VolumeStep {
   }
 
   Result<SheetRemoval> order(RemovalRule rule, double least_volume) {
-    return remove_sheets(sheets_, significance_, rule, least_volume, options_.threads,
-                         [this](double done) { return progress_("sheets", done); });
+    return remove_sheets(sheets_, significance_, rule, least_volume, options_.threads, [this, rule](double done) {
+      return progress_(rule == RemovalRule::kTopology ? "topology" : "sheets", done);
+    });
   }
 
-  Status make_curve() {
-    Result<SheetRemoval> by_significance = order(RemovalRule::kSignificance, 0);
+  /// To their ends for the curve, which asks for both; else as far as --keep-volume goes.
+  Status find_orders() {
+    const bool to_the_end = !options_.sheet_curve.empty();
+    record_.orders_end_at = to_the_end ? 0 : options_.keep_volume;
+    Result<SheetRemoval> by_significance = order(RemovalRule::kSignificance, record_.orders_end_at);
     if (!by_significance) return by_significance.error();
-    Result<SheetRemoval> keeping_topology = order(RemovalRule::kTopology, 0);
+    record_.by_significance = std::move(by_significance).value();
+    if (!to_the_end && !options_.keep_topology) return {};
+    Result<SheetRemoval> keeping_topology = order(RemovalRule::kTopology, record_.orders_end_at);
     if (!keeping_topology) return keeping_topology.error();
-    const VolumeCurves curves = {std::move(by_significance).value(), std::move(keeping_topology).value()};
-    const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
-    files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
+    record_.keeping_topology = std::move(keeping_topology).value();
     return {};
   }
 
-  Status remove() {
-    Result<SheetRemoval> removal =
-        order(options_.keep_topology ? RemovalRule::kTopology : RemovalRule::kSignificance, options_.keep_volume);
-    if (!removal) return removal.error();
+  void draw_curve() {
+    const VolumeCurves curves = {*record_.by_significance, *record_.keeping_topology};
+    const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
+    files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
+  }
+
+  void keep_sheets() {
+    SheetRemoval removal = stop_at_volume(options_.keep_topology ? *record_.keeping_topology : *record_.by_significance,
+                                          significance_, options_.keep_volume);
     std::vector<bool> is_kept_sheet(sheets_.sheets, true);
-    for (const std::uint32_t sheet : removal.value().sheets) is_kept_sheet[sheet] = false;
+    for (const std::uint32_t sheet : removal.sheets) is_kept_sheet[sheet] = false;
     std::vector<bool> keep(spheres_.size());
     for (std::size_t i = 0; i < keep.size(); ++i) {
       keep[i] = is_kept_sheet[static_cast<std::size_t>(sheets_.sheet_of[i])];
@@ -107,10 +118,9 @@ class VolumeStep {
     keep_marked(keep, record_.sheets.marks);
     keep_marked(keep, significance_.of_ball);
     keep_marked(keep, significance_.areas);
-    record_.removal = std::move(removal).value();
+    record_.removal = std::move(removal);
     record_.keep_volume = options_.keep_volume;
     record_.keep_topology = options_.keep_topology;
-    return {};
   }
 
   const Options& options_;

@@ -1,6 +1,10 @@
 #include "output/report_json.h"
+
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <numeric>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -104,8 +108,19 @@ Json device_json(const std::optional<DeviceDescription>& device) {
           {"memory_bytes", device->memory_bytes}};
 }
 
+/// By sheet: 1 for the most significant. Of equals, the one with the smaller number comes first.
+std::vector<std::size_t> ranks_of(const std::vector<Sheet>& sheets) {
+  std::vector<std::size_t> order(sheets.size()), ranks(sheets.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](std::size_t id) { return sheets[id].significance.value_or(0); });
+  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = n + 1;
+  return ranks;
+}
+
 Json sheets_json(const Sheets& sheets) {
   Json json = Json::array();
+  const std::vector<std::size_t> ranks = ranks_of(sheets.sheets);
   for (std::size_t id = 0; id < sheets.sheets.size(); ++id) {
     const Sheet& sheet = sheets.sheets[id];
     json.push_back({{"id", id},
@@ -113,7 +128,8 @@ Json sheets_json(const Sheets& sheets) {
                     {"area", sheet.area},
                     {"mean_radius", sheet.mean_radius},
                     {"mean_object_angle", sheet.mean_object_angle},
-                    {"significance", sheet.significance ? Json(*sheet.significance) : Json(nullptr)}});
+                    {"significance", sheet.significance ? Json(*sheet.significance) : Json(nullptr)},
+                    {"rank", sheet.significance ? Json(ranks[id]) : Json(nullptr)}});
   }
   return json;
 }
@@ -138,6 +154,18 @@ Json removal_json(const RunRecord& record) {
           {"volume_left", removal.volume_left}};
 }
 
+Json order_json(const std::optional<SheetRemoval>& removal) {
+  if (!removal) return nullptr;
+  return {{"kept", removal->kept}, {"removed", removal->sheets}, {"volume_left", removal->volume_left}};
+}
+
+Json orders_json(const RunRecord& record) {
+  if (!record.by_significance && !record.keeping_topology) return nullptr;
+  return {{"least_volume", record.orders_end_at},
+          {"significance", order_json(record.by_significance)},
+          {"topology", order_json(record.keeping_topology)}};
+}
+
 Json grouping_json(const SheetParameters& parameters, const Sheets& sheets) {
   return {{"sheet_angle", parameters.angle},
           {"sheet_crease", parameters.crease},
@@ -155,11 +183,14 @@ Json medial_mesh_json(const RunRecord& record) {
   if (!record.medial_mesh) return nullptr;
   const MedialTopology& topology = *record.medial_mesh;
   const Json solid_euler = record.euler_characteristic ? Json(*record.euler_characteristic) : Json(nullptr);
-  return {{"components", topology.components},
+  return {{"components", topology.betti.components},
+          {"tunnels", topology.betti.tunnels},
+          {"cavities", topology.betti.cavities},
           {"euler_characteristic", topology.euler_characteristic},
           {"boundary_edges", topology.boundary_edges},
           {"non_manifold_edges", topology.non_manifold_edges},
           {"bare_edges", topology.bare_edges},
+          {"hosted_points", topology.hosted_points},
           {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
 }
 
@@ -222,6 +253,7 @@ std::string report_json(const RunRecord& record) {
       {"sheets", sheets_json(record.sheets)},
       {"union", union_json(record.ball_union)},
       {"removal", removal_json(record)},
+      {"orders", orders_json(record)},
       {"grouping", grouping_json(record.sheet_parameters, record.sheets)},
       {"medial_mesh", medial_mesh_json(record)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},

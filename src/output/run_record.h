@@ -55,8 +55,11 @@ struct RunRecord {
 
   SheetParameters sheet_parameters;
   Sheets sheets;
-  std::optional<UnionRecord> ball_union;  ///< Nothing: no output tells of volumes.
-  std::optional<SheetRemoval> removal;    ///< Of --keep-volume.
+  std::optional<UnionRecord> ball_union;         ///< Nothing: no output tells of volumes.
+  std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
+  std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
+  double orders_end_at = 0;                      ///< Share of the volume at which both were stopped.
+  std::optional<SheetRemoval> removal;           ///< Of --keep-volume: the first part of one of them.
   double keep_volume = 0;
   bool keep_topology = false;
   std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.

@@ -9,6 +9,18 @@
 
 namespace medial_vk {
 
+/// Are neighbours of one sheet? Two spokes that differ by 2 theta or more are those of a salient sheet, which may pass
+/// between the two points: then it does not help that their normals agree (docs/theory.md, "Sheets").
+class LinkTest {
+ public:
+  /// `more`: degrees by which spokes may turn beyond parameters.crease.
+  LinkTest(double object_angle, const SheetParameters& parameters, double more = 0);
+  bool operator()(const MedialSphere& p, const MedialSphere& q) const;
+
+ private:
+  double normals_, crease_, salient_;  // cosines
+};
+
 /// By place: a number of its piece, ascending from 0 in the order of their first voxels.
 std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetParameters& parameters);
 

@@ -1,14 +1,14 @@
-// Medial points joined to a surface: the neighbours that an edge or a triangle joins. docs/theory.md, "The medial
-// mesh".
+// Medial points joined to a surface with the topology of the union of their balls. docs/theory.md, "The medial mesh".
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball_union.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/result.h"
 #include "sheets/sheets.h"
 
 namespace medial_vk {
@@ -18,11 +18,12 @@ using MeshTriangle = std::array<std::uint32_t, 3>;  ///< The same.
 
 /// What a user compares with the solid: they are those of the solid if the mesh has kept its topology.
 struct MedialTopology {
-  std::uint64_t components = 0;
+  BettiNumbers betti;
   std::int64_t euler_characteristic = 0;  ///< Points - edges + triangles.
   std::uint64_t boundary_edges = 0;       ///< Of one triangle.
   std::uint64_t non_manifold_edges = 0;   ///< Of three or more: where sheets meet.
-  std::uint64_t bare_edges = 0;           ///< Of none: where the medial surface is a curve, or thinner than a voxel.
+  std::uint64_t bare_edges = 0;     ///< Of none, where the medial surface is a curve; without those of hosted_points.
+  std::uint64_t hosted_points = 0;  ///< Those that others stand for: each has one edge, to the one that does.
 };
 
 /// All vertices are the medial points, by their indices.
@@ -33,15 +34,19 @@ struct MedialMesh {
   MedialTopology topology;
 };
 
-/// Edges join points in voxels that touch, triangles three such points of one sheet or of two that meet there; a hole
-/// of a sheet that these leave gets edges between voxels that are two apart. `sheets` are those of the same spheres;
-/// `epsilon` is the length that points may be off: of those that are closer than twice that, one is joined to others,
-/// and the rest to it. The mesh does not depend on the order of the spheres.
-MedialMesh make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets, double epsilon);
+/// Lengths in the units of the spheres.
+struct MedialMeshParameters {
+  /// Balls are joined as if their radii r were sqrt(r^2 + growth^2): so small balls overlap that are a voxel apart.
+  /// Large balls hardly change. The side of a voxel.
+  double growth = 0;
+  double epsilon = 0;  ///< How far points may be off: of those closer than twice that, the first stands for the others.
+  unsigned threads = 0;  ///< 0: one per core. The mesh does not depend on it.
+};
 
-/// The part of a mesh whose edges and triangles (indices of points, ascending) are in a complex, such as the dual
-/// complex of the union of the balls. A triangle goes with its edges; an edge whose triangle goes may stay.
-MedialMesh restrict_medial_mesh(const MedialMesh& mesh, std::span<const MedialSphere> spheres, const Sheets& sheets,
-                                const std::function<bool(std::span<const std::uint32_t>)>& in_complex);
+/// What the dual complex of the union of the grown balls collapses to: the mesh has the homotopy type of that union.
+/// `sheets` are those of the same spheres. The mesh does not depend on the order of the spheres. Errors: those of
+/// measure_ball_union().
+Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
+                                    const MedialMeshParameters& parameters);
 
 }  // namespace medial_vk

@@ -1,8 +1,7 @@
 #include "sheets/mesh_topology_counts.h"
 
 #include <algorithm>
-
-#include "sheets/concurrent_sets.h"
+#include <numeric>
 
 namespace medial_vk {
 namespace {
@@ -25,20 +24,23 @@ std::vector<std::uint32_t> triangles_by_edge(const MedialMesh& mesh) {
   return counts;
 }
 
-std::uint64_t count_components(std::size_t points, const MedialMesh& mesh) {
-  ConcurrentSets sets(points);
-  for (const MeshEdge& e : mesh.edges) sets.join(e[0], e[1]);
-  std::uint64_t components = 0;
-  for (std::uint32_t i = 0; i < points; ++i) components += sets.root(i) == i ? 1 : 0;
-  return components;
+DualComplex complex_of(std::size_t points, const MedialMesh& mesh) {
+  DualComplex complex;
+  complex.vertices.resize(points);
+  std::iota(complex.vertices.begin(), complex.vertices.end(), 0u);
+  complex.edges = mesh.edges;
+  complex.triangles = mesh.triangles;
+  return complex;
 }
 
 }  // namespace
 
-void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh) {
+Status complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh) {
   sort_all(mesh);
   MedialTopology& topology = mesh.topology;
+  const std::uint64_t hosted = topology.hosted_points;
   topology = {};
+  topology.hosted_points = hosted;
   mesh.edge_marks.clear();
   const std::vector<std::uint32_t> counts = triangles_by_edge(mesh);
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -49,9 +51,14 @@ void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& 
     if (counts[i] == 1) ++topology.boundary_edges;
     if (counts[i] > 2) ++topology.non_manifold_edges;
   }
-  topology.components = count_components(points, mesh);
+  topology.bare_edges -= hosted;
   topology.euler_characteristic = static_cast<std::int64_t>(points) - static_cast<std::int64_t>(mesh.edges.size()) +
                                   static_cast<std::int64_t>(mesh.triangles.size());
+  // Counted from what there is, not taken from the complex that it was made of.
+  Result<BettiNumbers> betti = betti_numbers(complex_of(points, mesh));
+  if (!betti) return betti.error();
+  topology.betti = betti.value();
+  return {};
 }
 
 }  // namespace medial_vk

@@ -7,7 +7,8 @@
 
 namespace medial_vk {
 
-/// Sorts triangles and edges and fills in the rest of `mesh`. Precondition: the sides of the triangles are edges.
-void complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh);
+/// Sorts triangles and edges and fills in the rest of `mesh` but for its hosted points, of which it takes the number.
+/// Precondition: the sides of the triangles are edges. Error: kOutOfMemory.
+[[nodiscard]] Status complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh);
 
 }  // namespace medial_vk

@@ -9,6 +9,7 @@
 #include "mesh/point_ops.h"
 #include "sheets/absorb_pieces.h"
 #include "sheets/grow_pieces.h"
+#include "sheets/join_pieces.h"
 #include "sheets/tangent_frame.h"
 #include "sheets/voxel_graph.h"
 #include "sheets/voxel_section.h"
@@ -118,6 +119,7 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
                    const SheetParameters& parameters) {
   const VoxelGraph graph(spheres);
   std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
+  join_pieces(graph, extraction.object_angle, parameters, piece_of);
   const std::vector<double> areas = areas_in_voxels(graph, grid, extraction.epsilon);
   Sheets out;
   for (const std::uint32_t piece : piece_of) out.pieces = std::max(out.pieces, std::uint64_t{piece} + 1);

@@ -16,13 +16,15 @@ std::vector<std::vector<std::uint32_t>> balls_by_sheet(const SheetBalls& sheets)
   return balls;
 }
 
+bool goes_first(const std::vector<double>& of_sheet, std::uint32_t a, std::uint32_t b) {
+  return of_sheet[a] < of_sheet[b] || (of_sheet[a] == of_sheet[b] && a > b);
+}
+
 /// Ascending.
 std::vector<std::uint32_t> by_significance(const std::vector<double>& of_sheet) {
   std::vector<std::uint32_t> order(of_sheet.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return of_sheet[a] < of_sheet[b] || (of_sheet[a] == of_sheet[b] && a > b);
-  });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return goes_first(of_sheet, a, b); });
   return order;
 }
 
@@ -43,7 +45,7 @@ class Removing {
 
   Result<SheetRemoval> run() {
     // The last round finds nothing to remove.
-    for (std::size_t removed = order_.size(); removed != removal_.sheets.size();) {
+    for (std::size_t removed = order_.size(); removed != removal_.sheets.size() && !too_little_;) {
       removed = removal_.sheets.size();
       for (State& state : state_) {
         if (state == State::kStays) state = State::kNotTried;
@@ -68,10 +70,8 @@ class Removing {
       if (state_[sheet] != State::kNotTried) continue;
       if (!progress_(done())) return Error{ErrorCode::kInterrupted, "interrupted"};
       if (const Status status = try_to_remove(sheet); !status.ok()) return status;
-      if (state_[sheet] == State::kStays) {
-        if (!keeps_topology_) return {};  // the order is that of Section 6.3, whatever a later sheet would leave
-        continue;
-      }
+      if (too_little_) return {};
+      if (state_[sheet] == State::kStays) continue;
       for (const std::uint32_t ball : rest_.changed()) {
         State& state = state_[static_cast<std::size_t>(sheet_of_[ball])];
         if (state != State::kStays) continue;
@@ -82,12 +82,20 @@ class Removing {
     return {};
   }
 
-  double done() const {
-    return static_cast<double>(removal_.sheets.size()) / static_cast<double>(std::max<std::size_t>(balls_.size(), 1));
+  /// Of what has been tried and what is sure to be tried yet: sheets that have not been, and with the topology kept
+  /// once more in a last round all that stay.
+  double done() {
+    std::size_t ahead = 0;
+    for (const State state : state_) {
+      if (state == State::kNotTried) ++ahead;
+      if (state != State::kGone && keeps_topology_) ++ahead;
+    }
+    const auto tried = static_cast<double>(tries_++);
+    done_ = std::max(done_, tried / (tried + static_cast<double>(ahead)));
+    return done_;
   }
 
-  Result<bool> keeps_enough(double volume) const {
-    if (!(volume >= least_volume_)) return false;
+  Result<bool> may_go() const {
     if (!keeps_topology_) return true;
     const Result<BettiNumbers> left = rest_.betti();
     if (!left) return left.error();
@@ -97,9 +105,10 @@ class Removing {
   Status try_to_remove(std::uint32_t sheet) {
     if (Status status = rest_.remove(balls_[sheet]); !status.ok()) return status;
     const double volume = rest_.volume();
-    const Result<bool> keeps = keeps_enough(volume);
-    if (!keeps) return keeps.error();
-    if (!keeps.value()) {
+    const Result<bool> goes = may_go();
+    if (!goes) return goes.error();
+    too_little_ = goes.value() && !(volume >= least_volume_);
+    if (!goes.value() || too_little_) {
       rest_.undo();
       state_[sheet] = State::kStays;
       return {};
@@ -120,7 +129,30 @@ class Removing {
   std::vector<State> state_;
   BettiNumbers topology_;
   SheetRemoval removal_;
+  bool too_little_ = false;  // the next would leave less than the least volume
+  std::size_t tries_ = 0;
+  double done_ = 0;
 };
+
+std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
+  std::vector<double> of_sheet(sheets.sheets);
+  const auto add = [&](std::uint32_t ball, double share) {
+    of_sheet[static_cast<std::size_t>(sheets.sheet_of[ball])] += share;
+  };
+  if (!sheets.graph) {
+    for (std::uint32_t ball = 0; ball < of_ball.size(); ++ball) add(ball, of_ball[ball]);
+    return of_sheet;
+  }
+  const VoxelGraph& graph = *sheets.graph;
+  // In voxel order, so that the sums do not depend on that of the balls.
+  for (std::uint32_t place = 0; place < graph.size(); ++place) {
+    const auto around = graph.neighbours(place);
+    const double share = of_ball[graph.index(place)] / static_cast<double>(around.size() + 1);
+    add(graph.index(place), share);
+    for (const std::uint32_t other : around) add(graph.index(other), share);
+  }
+  return of_sheet;
+}
 
 }  // namespace
 
@@ -139,12 +171,12 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
                       .area = whole.area,
                       .topology = topology.value(),
                       .of_ball = std::move(whole.volumes),
-                      .of_sheet = std::vector<double>(sheets.sheets),
+                      .of_sheet = {},
                       .areas = std::move(whole.areas)};
   for (std::size_t i = 0; i < result.of_ball.size(); ++i) {
     if (result.volume > 0) result.of_ball[i] /= result.volume;
-    result.of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += result.of_ball[i];
   }
+  result.of_sheet = share_among_sheets(sheets, result.of_ball);
   return result;
 }
 
@@ -153,6 +185,18 @@ Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance&
   Result<ShrinkingUnion> whole = ShrinkingUnion::build(sheets.balls, threads);
   if (!whole) return whole.error();
   return Removing(sheets, significance, rule, least_volume, progress, std::move(whole).value()).run();
+}
+
+SheetRemoval stop_at_volume(SheetRemoval removal, const Significance& significance, double least_volume) {
+  const auto first = std::ranges::find_if(removal.volume_left, [&](double left) { return !(left >= least_volume); });
+  const auto count = static_cast<std::size_t>(first - removal.volume_left.begin());
+  removal.kept.insert(removal.kept.end(), removal.sheets.begin() + static_cast<std::ptrdiff_t>(count),
+                      removal.sheets.end());
+  removal.sheets.resize(count);
+  removal.volume_left.resize(count);
+  std::sort(removal.kept.begin(), removal.kept.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return goes_first(significance.of_sheet, b, a); });
+  return removal;
 }
 
 }  // namespace medial_vk

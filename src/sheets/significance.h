@@ -9,6 +9,7 @@
 
 #include "medial_vk/result.h"
 #include "medial_vk/shrinking_union.h"
+#include "sheets/voxel_graph.h"
 
 namespace medial_vk {
 
@@ -17,15 +18,19 @@ struct SheetBalls {
   std::span<const Ball> balls;
   std::span<const std::int32_t> sheet_of;
   std::size_t sheets = 0;
+  /// The same balls by the voxels they lie in, or nothing: then no ball is at a seam.
+  const VoxelGraph* graph = nullptr;
 };
 
 struct Significance {
-  double volume = 0;             ///< Of the union of the balls.
-  double area = 0;               ///< Of its surface.
-  BettiNumbers topology;         ///< Of the union.
-  std::vector<double> of_ball;   ///< lambda(b), equation 6.1; sums to 1.
-  std::vector<double> of_sheet;  ///< lambda(T), equation 6.2; the same.
-  std::vector<double> areas;     ///< Per ball: of its sphere on the surface of the union.
+  double volume = 0;            ///< Of the union of the balls.
+  double area = 0;              ///< Of its surface.
+  BettiNumbers topology;        ///< Of the union.
+  std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
+  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the number of
+  /// points of it in the voxel of the ball and the 26 around it.
+  std::vector<double> of_sheet;
+  std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
 };
 
 /// Errors: those of measure_ball_union().
@@ -45,13 +50,17 @@ enum class RemovalRule {
   kTopology,
 };
 
-/// Called before each sheet that is tried, with the share of the work done; false stops.
+/// Called before each sheet that is tried, with the share of the work done, as far as it can be told: what had to stay
+/// may have to be tried again. It never falls. False stops.
 using RemovalProgress = std::function<bool(double done)>;
 
-/// Removes sheets as long as the rest has at least `least_volume` of the whole volume; with 0, all that may go. At
-/// least one stays. Of equal significance, the sheet with the larger number goes first. Errors: those of
-/// ShrinkingUnion, kInterrupted.
+/// Removes sheets by the rule until the next would leave less than `least_volume` of the whole volume; with 0, all that
+/// may go. So what goes is a first part of what goes with 0. At least one stays. Of equal significance, the sheet with
+/// the larger number goes first. Errors: those of ShrinkingUnion, kInterrupted.
 Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
                                    double least_volume, unsigned threads, const RemovalProgress& progress);
+
+/// The first part of a removal that leaves at least `least_volume`: what remove_sheets() would have found for it.
+SheetRemoval stop_at_volume(SheetRemoval removal, const Significance& significance, double least_volume);
 
 }  // namespace medial_vk

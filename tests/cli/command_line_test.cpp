@@ -235,6 +235,11 @@ TEST_F(CommandLine, KeepsTheSheetsThatCount) {
   EXPECT_EQ(written, kept);
   EXPECT_EQ(report["points"]["written"], spheres.size());
   EXPECT_THAT(read_file(path("c.csv")), HasSubstr("\ntopology,"));
+  const auto& removed = removal["removed"];
+  const auto& order = report["orders"]["topology"]["removed"];
+  ASSERT_LE(removed.size(), order.size());
+  EXPECT_TRUE(std::equal(removed.begin(), removed.end(), order.begin()));
+  EXPECT_EQ(report["orders"]["significance"]["removed"].size() + 1, report["sheets"].size());
   EXPECT_THAT(result.err, HasSubstr("kept"));
 }
 

@@ -11,8 +11,11 @@
 #include "fault_test.h"
 #include "host_memory.h"
 #include "lent_device.h"
+#include "medial_vk/ball_union.h"
 #include "medial_vk/foam.h"
+#include "medial_vk/shrinking_union.h"
 #include "parallel_blocks.h"
+#include "support/ball_families.h"
 
 namespace medial_vk::test {
 namespace {
@@ -97,6 +100,65 @@ TEST_F(HostMemory, RunsOutInAFoam) {
     if (!foam.ok()) return foam.error();
     std::string out;
     for (const Ball& ball : foam.value().empty_balls()) append_bytes(out, ball);
+    return out;
+  });
+}
+
+std::string bytes_of(const BallUnion& measured, const BettiNumbers& betti) {
+  std::string out;
+  for (const double volume : measured.volumes) append_bytes(out, volume);
+  for (const double area : measured.areas) append_bytes(out, area);
+  for (const auto& tetrahedron : measured.complex.tetrahedra) append_bytes(out, tetrahedron);
+  append_bytes(out, betti);
+  return out;
+}
+
+// On one thread, the one whose allocations fail. Degenerate balls need exact arithmetic, which allocates, too.
+TEST_F(HostMemory, RunsOutInAUnionOfBalls) {
+  for (const std::vector<Ball>& balls :
+       {random_balls(40, 1, 0.1, 0.3), lattice(3, 0.9), through_a_point(20, 2, true)}) {
+    fail_every_allocation("a union of balls", [&]() -> Answer {
+      const auto measured = in_runtime([&] { return measure_ball_union(balls, {.threads = 1, .complex = true}); });
+      if (!measured.ok()) return measured.error();
+      const auto betti = in_runtime([&] { return betti_numbers(measured.value().complex); });
+      if (!betti.ok()) return betti.error();
+      return bytes_of(measured.value(), betti.value());
+    });
+  }
+}
+
+/// Removes balls. When that fails, nothing has changed, and it can be done again.
+Status remove_or_leave(ShrinkingUnion& rest, std::span<const std::uint32_t> balls) {
+  const std::vector<double> before(rest.volumes().begin(), rest.volumes().end());
+  const std::vector<std::uint32_t> changed(rest.changed().begin(), rest.changed().end());
+  const double volume = rest.volume();
+  const std::vector<bool> held = {rest.holds(balls.front()), rest.holds(balls.back())};
+  const Status status = in_runtime([&] { return rest.remove(balls); });
+  if (status.ok()) return status;
+  EXPECT_EQ(rest.volume(), volume);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), rest.volumes().begin(), rest.volumes().end()));
+  EXPECT_EQ((std::vector<bool>{rest.holds(balls.front()), rest.holds(balls.back())}), held);
+  EXPECT_TRUE(std::equal(changed.begin(), changed.end(), rest.changed().begin(), rest.changed().end()));
+  EXPECT_TRUE(rest.remove(balls).ok()) << "only one allocation fails";
+  rest.undo();
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), rest.volumes().begin(), rest.volumes().end()));
+  return status;
+}
+
+TEST_F(HostMemory, RunsOutInAShrinkingUnion) {
+  const std::vector<Ball> balls = random_balls(40, 3, 0.1, 0.3);
+  const std::uint32_t first[] = {1, 4, 9, 16, 25}, second[] = {2, 3, 5, 7, 11, 13};
+  fail_every_allocation("a shrinking union", [&]() -> Answer {
+    auto rest = in_runtime([&] { return ShrinkingUnion::build(balls, 1); });
+    if (!rest.ok()) return rest.error();
+    if (const Status status = remove_or_leave(rest.value(), first); !status.ok()) return status.error();
+    if (const Status status = remove_or_leave(rest.value(), second); !status.ok()) return status.error();
+    in_runtime([&] { rest.value().undo(); });
+    const auto betti = in_runtime([&] { return rest.value().betti(); });
+    if (!betti.ok()) return betti.error();
+    std::string out;
+    for (const double volume : rest.value().volumes()) append_bytes(out, volume);
+    append_bytes(out, betti.value());
     return out;
   });
 }

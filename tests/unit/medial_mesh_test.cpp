@@ -4,15 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <sstream>
 
 #include "output/formats/encode_medial_mesh.h"
-#include "sheets/holes.h"
 
 namespace medial_vk {
 namespace {
@@ -65,7 +66,7 @@ struct Meshed {
 Meshed meshed(std::vector<MedialSphere> spheres, const SheetParameters& parameters = {}) {
   Meshed out;
   out.sheets = find_sheets(spheres, {{0, 0, 0}, 1, {32, 32, 32}}, ExtractionParameters(), parameters);
-  out.mesh = make_medial_mesh(spheres, out.sheets, 0.01);
+  out.mesh = make_medial_mesh(spheres, out.sheets, {1, 0.01, 1}).value();
   out.spheres = std::move(spheres);
   return out;
 }
@@ -80,7 +81,7 @@ TEST(MedialMesh, AFlatSheetIsADisc) {
           normal, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 9); }, seed));
       SCOPED_TRACE(testing::PrintToString(normal));
       EXPECT_EQ(m.sheets.sheets.size(), 1u);
-      EXPECT_EQ(m.mesh.topology.components, 1u);
+      EXPECT_EQ(m.mesh.topology.betti.components, 1u);
       EXPECT_EQ(m.mesh.topology.euler_characteristic, 1);
       EXPECT_EQ(m.mesh.topology.non_manifold_edges, 0u);
       EXPECT_GT(m.mesh.topology.boundary_edges, 30u);
@@ -90,9 +91,12 @@ TEST(MedialMesh, AFlatSheetIsADisc) {
 }
 
 TEST(MedialMesh, AFlatRingHasAHole) {
-  const Meshed m = meshed(plane(
-      {0.3, 0.5, 0.8}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 4, 10); }, 1));
-  EXPECT_EQ(m.mesh.topology.components, 1u);
+  std::vector<MedialSphere> ring = plane(
+      {0.3, 0.5, 0.8}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 4, 10); }, 1);
+  for (MedialSphere& s : ring) s.radius = 2;  // those of 5 cover the hole
+  const Meshed m = meshed(std::move(ring));
+  EXPECT_EQ(m.mesh.topology.betti, (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(m.mesh.topology.betti.components, 1u);
   EXPECT_EQ(m.mesh.topology.euler_characteristic, 0);
   EXPECT_EQ(m.mesh.topology.non_manifold_edges, 0u);
 }
@@ -108,7 +112,7 @@ TEST(MedialMesh, AFinJoinsItsHost) {
   const Meshed m = meshed(std::move(spheres));
   EXPECT_EQ(m.sheets.sheets.size(), 2u);
   EXPECT_GT(m.sheets.seam_points, 20u);
-  EXPECT_EQ(m.mesh.topology.components, 1u);
+  EXPECT_EQ(m.mesh.topology.betti.components, 1u);
   EXPECT_GT(m.mesh.topology.non_manifold_edges, 10u) << "the seam";
   EXPECT_NEAR(static_cast<double>(m.mesh.topology.euler_characteristic), 1, 2);
   bool seam_edge = false;
@@ -121,7 +125,8 @@ TEST(MedialMesh, AFinJoinsItsHost) {
   EXPECT_TRUE(seam_edge);
 }
 
-// A row of points, as on the axis of a tube: a curve, closed or not.
+// A row of points, as on the axis of a tube: a curve, closed or not. Their balls, grown by a voxel, bridge a gap of one
+// voxel, but not of three.
 TEST(MedialMesh, CurvesStayCurves) {
   std::vector<MedialSphere> ring;
   for (std::uint32_t y = 4; y <= 16; ++y) {
@@ -130,7 +135,7 @@ TEST(MedialMesh, CurvesStayCurves) {
       MedialSphere s;
       s.voxel = {x, y, 5};
       s.centre = {x + 0.5, y + 0.5, 5.5};
-      s.radius = 5;
+      s.radius = 0.6;
       s.spoke_a = {0, 0, 1};
       s.spoke_b = {0, 0, -1};
       ring.push_back(s);
@@ -138,9 +143,9 @@ TEST(MedialMesh, CurvesStayCurves) {
   }
   EXPECT_EQ(meshed(ring).mesh.topology.euler_characteristic, 0);
   EXPECT_EQ(meshed(ring).mesh.topology.bare_edges + 8, ring.size()) << "the four corners are triangles";
-  ring.resize(ring.size() - 2);
+  ring.resize(ring.size() - 3);
   EXPECT_EQ(meshed(ring).mesh.topology.euler_characteristic, 1);
-  EXPECT_EQ(meshed(ring).mesh.topology.components, 1u);
+  EXPECT_EQ(meshed(ring).mesh.topology.betti.components, 1u);
 }
 
 TEST(MedialMesh, EveryPartIsThereOnceAndSidesOfTrianglesAreEdges) {
@@ -156,20 +161,57 @@ TEST(MedialMesh, EveryPartIsThereOnceAndSidesOfTrianglesAreEdges) {
   }
 }
 
-TEST(MedialMesh, RestrictedToAComplex) {
-  const Meshed m = meshed(plane(
-      {0, 0, 1}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 6); }, 1));
-  const auto all = [](std::span<const std::uint32_t>) { return true; };
-  EXPECT_EQ(restrict_medial_mesh(m.mesh, m.spheres, m.sheets, all).triangles, m.mesh.triangles);
-  const MeshEdge gone = m.mesh.edges[m.mesh.edges.size() / 2];
-  const auto without = [&](std::span<const std::uint32_t> s) {
-    return !(s.size() == 2 && s[0] == gone[0] && s[1] == gone[1]);
-  };
-  const MedialMesh less = restrict_medial_mesh(m.mesh, m.spheres, m.sheets, without);
-  EXPECT_EQ(less.edges.size() + 1, m.mesh.edges.size());
-  EXPECT_EQ(less.triangles.size() + 2, m.mesh.triangles.size());
-  const auto points = [](std::span<const std::uint32_t>) { return false; };
-  EXPECT_EQ(restrict_medial_mesh(m.mesh, m.spheres, m.sheets, points).topology.components, m.spheres.size());
+TEST(MedialMesh, DoesNotDependOnTheOrderOfPoints) {
+  // On a lattice, so that ties are decided, too.
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    MedialSphere s;
+    s.voxel = {2 + i % 10, 3 + i / 10 % 10, 5 + i / 100};
+    s.centre = {s.voxel[0] + 0.5, s.voxel[1] + 0.5, s.voxel[2] + 0.5};
+    s.radius = 3;
+    s.spoke_a = {0, 0, 1};
+    s.spoke_b = {0, 0, -1};
+    spheres.push_back(s);
+  }
+  const MedialMesh mesh = meshed(spheres).mesh;
+  std::vector<std::uint32_t> order(spheres.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::mt19937 random(5);
+  std::shuffle(order.begin(), order.end(), random);
+  std::vector<MedialSphere> shuffled;
+  for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
+  std::vector<MeshTriangle> triangles = meshed(shuffled).mesh.triangles;
+  for (MeshTriangle& t : triangles) {
+    for (std::uint32_t& corner : t) corner = order[corner];
+    std::sort(t.begin(), t.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  EXPECT_EQ(triangles, mesh.triangles);
+  EXPECT_EQ(mesh.topology.betti, (BettiNumbers{1, 0, 0}));
+}
+
+// A point beside another, and a ball that others hide: each has one edge.
+TEST(MedialMesh, PointsWithoutAPlaceInTheComplexAreHosted) {
+  std::vector<MedialSphere> spheres = plane(
+      {0, 0, 1}, {12.4, 12.3, 12.6}, [](const Point& p) { return within(p, 0, 6); }, 1);
+  const MedialTopology before = meshed(spheres).mesh.topology;
+  ASSERT_EQ(before.hosted_points, 0u);
+  MedialSphere small = spheres[40];
+  small.voxel[2] += 1;
+  small.centre[2] = 13.1;
+  small.radius = 0.5;
+  spheres.push_back(small);
+  const Meshed m = meshed(std::move(spheres));
+  EXPECT_EQ(m.mesh.topology.hosted_points, 1u);
+  EXPECT_EQ(m.mesh.topology.betti, before.betti);
+  const auto last = static_cast<std::uint32_t>(m.spheres.size() - 1);
+  EXPECT_EQ(std::ranges::count_if(m.mesh.edges, [&](const MeshEdge& e) { return e[0] == last || e[1] == last; }), 1);
+}
+
+TEST(MedialMesh, NoPointsAreNoMesh) {
+  const MedialMesh mesh = meshed({}).mesh;
+  EXPECT_TRUE(mesh.edges.empty() && mesh.triangles.empty());
+  EXPECT_EQ(mesh.topology.betti, BettiNumbers());
 }
 
 TEST(MedialMesh, FilesHoldEveryNumber) {
@@ -193,26 +235,6 @@ TEST(MedialMesh, FilesHoldEveryNumber) {
   EXPECT_THAT(text, testing::StartsWith("ply\nformat ascii 1.0\n"));
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text.substr(text.find("end_header\n") + 11), '\n')),
             points + edges + triangles);
-}
-
-// The four faces of a tetrahedron: the last one closes a bubble. Three triangles around an empty one: the fourth closes
-// a hole.
-TEST(Holes, TheLastFaceOfATetrahedronClosesABubble) {
-  Boundaries tetrahedron;
-  EXPECT_TRUE(tetrahedron.add({12, 23, 13}));
-  EXPECT_TRUE(tetrahedron.add({12, 24, 14}));
-  EXPECT_TRUE(tetrahedron.add({13, 34, 14}));
-  EXPECT_FALSE(tetrahedron.add({23, 34, 24}));
-  Boundaries hole;
-  EXPECT_TRUE(hole.add({12, 24, 14}));
-  EXPECT_TRUE(hole.add({23, 35, 25}));
-  EXPECT_TRUE(hole.add({13, 36, 16}));
-  const std::uint64_t around[] = {12, 23, 13}, outside[] = {24, 14, 13, 23};
-  EXPECT_FALSE(hole.is_boundary(around));
-  EXPECT_FALSE(hole.is_boundary(outside));
-  EXPECT_TRUE(hole.add({12, 23, 13}));
-  EXPECT_TRUE(hole.is_boundary(around));
-  EXPECT_TRUE(hole.is_boundary(outside));
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ using test::some_header;
 using test::some_spheres;
 using testing::HasSubstr;
 
+/// Of some_spheres(), of which there are three.
+const std::uint8_t kMarks[] = {kSeam, 0, kSeam | kRim};
+
 template <class T>
 T number(const std::string& bytes, std::size_t at) {
   std::uint64_t bits = 0;
@@ -54,12 +57,15 @@ std::map<std::string, Array> arrays_of(const std::string& npz) {
 
 TEST(OutputNpz, HoldsEveryNumber) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const auto arrays = arrays_of(encode_npz(some_header(), spheres).value());
-  ASSERT_EQ(arrays.size(), 14u);
+  const auto arrays = arrays_of(encode_npz(some_header(), spheres, kMarks).value());
+  ASSERT_EQ(arrays.size(), 16u);
   EXPECT_THAT(arrays.at("centre.npy").header, HasSubstr("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }"));
   EXPECT_THAT(arrays.at("radius.npy").header, HasSubstr("'<f8', 'fortran_order': False, 'shape': (3,), }"));
   EXPECT_THAT(arrays.at("voxel.npy").header, HasSubstr("'<u4', 'fortran_order': False, 'shape': (3, 3), }"));
   EXPECT_THAT(arrays.at("version.npy").header, HasSubstr("'<U5', 'fortran_order': False, 'shape': (), }"));
+  EXPECT_THAT(arrays.at("seam.npy").header, HasSubstr("'|b1', 'fortran_order': False, 'shape': (3,), }"));
+  EXPECT_EQ(arrays.at("seam.npy").numbers, std::string("\1\0\1", 3));
+  EXPECT_EQ(arrays.at("rim.npy").numbers, std::string("\0\0\1", 3));
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     EXPECT_EQ(number<double>(arrays.at("radius.npy").numbers, 8 * i), spheres[i].radius);
     EXPECT_EQ(number<float>(arrays.at("object_angle.npy").numbers, 4 * i), spheres[i].object_angle);
@@ -78,18 +84,19 @@ TEST(OutputNpz, HoldsEveryNumber) {
 }
 
 TEST(OutputNpz, SamePointsSameBytes) {
-  EXPECT_TRUE(encode_npz(some_header(), some_spheres()).value() == encode_npz(some_header(), some_spheres()).value());
+  EXPECT_TRUE(encode_npz(some_header(), some_spheres(), kMarks).value() ==
+              encode_npz(some_header(), some_spheres(), kMarks).value());
 }
 
 TEST(OutputNpz, NoPointsAreEmptyArrays) {
-  const auto arrays = arrays_of(encode_npz(some_header(), {}).value());
+  const auto arrays = arrays_of(encode_npz(some_header(), {}, {}).value());
   EXPECT_THAT(arrays.at("centre.npy").header, HasSubstr("'shape': (0, 3), }"));
   EXPECT_EQ(arrays.at("centre.npy").numbers, "");
 }
 
 TEST(OutputJson, HoldsEveryNumber) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const nlohmann::json json = nlohmann::json::parse(encode_json(some_header(), spheres));
+  const nlohmann::json json = nlohmann::json::parse(encode_json(some_header(), spheres, kMarks));
   EXPECT_EQ(json["format"], 1);
   EXPECT_EQ(json["version"], "1.2.3");
   EXPECT_EQ(json["grid_origin"].get<Point>(), some_header().grid_origin);
@@ -105,16 +112,18 @@ TEST(OutputJson, HoldsEveryNumber) {
     EXPECT_EQ(point["object_angle"].get<float>(), spheres[i].object_angle);
     EXPECT_EQ(point["flux"].get<float>(), spheres[i].flux);
     EXPECT_EQ(point["sheet"], spheres[i].sheet);
+    EXPECT_EQ(point["seam"], i != 1);
+    EXPECT_EQ(point["rim"], i == 2);
     EXPECT_EQ((point["voxel"].get<std::array<std::uint32_t, 3>>()), spheres[i].voxel);
   }
 }
 
 TEST(OutputJson, NumbersAreAsShortAsCanBe) {
-  EXPECT_THAT(encode_json(some_header(), some_spheres()), HasSubstr("\"spoke_a\":[0.6,-0.8,0]"));
+  EXPECT_THAT(encode_json(some_header(), some_spheres(), kMarks), HasSubstr("\"spoke_a\":[0.6,-0.8,0]"));
 }
 
 TEST(OutputJson, NoPointsAreAnEmptyArray) {
-  EXPECT_TRUE(nlohmann::json::parse(encode_json(some_header(), {}))["points"].empty());
+  EXPECT_TRUE(nlohmann::json::parse(encode_json(some_header(), {}, {}))["points"].empty());
 }
 
 }  // namespace

@@ -39,9 +39,10 @@ RunRecord some_record() {
 
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
-  for (const char* key : {"format", "program",  "version",     "input",   "output",          "parameters", "mesh",
-                          "grid",   "voxels",   "levels",      "queries", "narrowing_steps", "retries",    "points",
-                          "sheets", "grouping", "medial_mesh", "seconds", "device",          "certificate"}) {
+  for (const char* key :
+       {"format", "program", "version",  "input",       "output",          "parameters", "mesh",
+        "grid",   "voxels",  "levels",   "queries",     "narrowing_steps", "retries",    "points",
+        "sheets", "orders",  "grouping", "medial_mesh", "seconds",         "device",     "certificate"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
@@ -105,19 +106,24 @@ TEST(ReportJson, SheetsAndMedialMesh) {
   EXPECT_EQ(report["sheets"][0]["mean_radius"], 0.2);
   EXPECT_EQ(report["sheets"][0]["mean_object_angle"], 1.1);
   EXPECT_TRUE(report["sheets"][0]["significance"].is_null());
+  EXPECT_TRUE(report["sheets"][0]["rank"].is_null());
+  EXPECT_EQ(report["sheets"][1]["rank"], 1);
   EXPECT_EQ(report["sheets"][1]["significance"], 0.25);
   EXPECT_EQ(report["grouping"]["fragments"]["sheets"], 3);
   EXPECT_EQ(report["grouping"]["absorbed"]["points"], 17);
   EXPECT_EQ(report["grouping"]["sheet_angle"], 5.7);
   EXPECT_TRUE(report["medial_mesh"].is_null());
 
-  record.medial_mesh = MedialTopology{1, -1, 20, 3, 4};
+  record.medial_mesh = MedialTopology{{1, 2, 0}, -1, 20, 3, 4, 5};
   report = json::parse(report_json(record));
+  EXPECT_EQ(report["medial_mesh"]["tunnels"], 2);
   EXPECT_EQ(report["medial_mesh"]["euler_characteristic"], -1);
+  EXPECT_EQ(report["medial_mesh"]["hosted_points"], 5);
   EXPECT_TRUE(report["medial_mesh"]["solid"]["euler_characteristic"].is_null());
   record.euler_characteristic = 0;
   EXPECT_EQ(json::parse(report_json(record))["medial_mesh"]["solid"]["euler_characteristic"], 0);
-  EXPECT_THAT(cli::summary(record, {}), HasSubstr("Euler characteristic -1 (of the solid: 0)"));
+  EXPECT_THAT(cli::summary(record, {}),
+              HasSubstr("1 component, 2 tunnels, 0 cavities, Euler characteristic -1 (of the solid: 0)"));
 }
 
 TEST(ReportJson, UnionAndRemoval) {
@@ -138,6 +144,14 @@ TEST(ReportJson, UnionAndRemoval) {
   EXPECT_EQ(report["removal"]["kept"], json({1, 3}));
   EXPECT_EQ(report["removal"]["volume_left"], json({0.75, 0.5}));
   EXPECT_EQ(report["removal"]["keep_topology"], false);
+  EXPECT_TRUE(report["orders"].is_null());
+  record.by_significance = SheetRemoval{{2, 0, 3}, {0.75, 0.5, 0.25}, {1}};
+  record.orders_end_at = 0.2;
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["orders"]["least_volume"], 0.2);
+  EXPECT_EQ(report["orders"]["significance"],
+            json({{"kept", {1}}, {"removed", {2, 0, 3}}, {"volume_left", {0.75, 0.5, 0.25}}}));
+  EXPECT_TRUE(report["orders"]["topology"].is_null());
   const std::string text = cli::summary(record, {});
   EXPECT_THAT(text, HasSubstr("6, 75.00 % of the solid; 1 component, 2 tunnels, 3 cavities"));
   EXPECT_THAT(text, HasSubstr("2 of 4 sheets, 50.00 % of the volume"));

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include "sheets/volume_curve.h"
@@ -92,6 +94,26 @@ TEST(Significance, SumsToOne) {
   EXPECT_NEAR(std::accumulate(found.of_ball.begin(), found.of_ball.end(), 0.0), 1, 1e-13);
 }
 
+// Four balls of one size in a row, apart, in two sheets: those at the seam count for both.
+TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {
+  std::vector<MedialSphere> spheres(4);
+  Parts parts;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    spheres[i].voxel = {i + 1, 5, 5};
+    parts.balls.push_back({{static_cast<double>(i), 0, 0}, 0.4});
+  }
+  parts.sheet_of = {0, 0, 0, 1};
+  parts.sheets = 2;
+  const VoxelGraph graph(spheres);
+  SheetBalls sheets = parts.view();
+  sheets.graph = &graph;
+  const Significance found = measure_significance(sheets, 1).value();
+  EXPECT_NEAR(found.of_ball[2], 0.25, 1e-14);
+  // Of the third, two parts in three; of the fourth, one in two.
+  EXPECT_NEAR(found.of_sheet[0], 0.25 * (1 + 1 + 2.0 / 3 + 0.5), 1e-14);
+  EXPECT_NEAR(found.of_sheet[1], 0.25 * (1.0 / 3 + 0.5), 1e-14);
+}
+
 TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
   const Parts parts = dumbbell();
   const SheetRemoval removal = remove(parts, RemovalRule::kSignificance);
@@ -125,6 +147,46 @@ TEST(SheetRemoval, StopsBeforeTooLittleIsLeft) {
   EXPECT_THAT(some.kept, ElementsAre(0, 2));
   EXPECT_TRUE(remove(parts, RemovalRule::kSignificance, all.volume_left[0] + 1e-9).sheets.empty());
   EXPECT_TRUE(remove(parts, RemovalRule::kTopology, 1).sheets.empty());
+}
+
+// What is removed for some volume is a first part of what is removed for none, by either rule.
+TEST(SheetRemoval, StopsWhereTheWholeOrderPassesTheVolume) {
+  Parts parts = dumbbell();
+  parts.add(row({0, 1, 0}, {0, 0.1, 0}, 12, 0.12));
+  parts.add(row({4, -0.9, 0}, {0, -0.1, 0}, 10, 0.15));
+  const Significance significance = measure(parts);
+  for (const RemovalRule rule : {RemovalRule::kSignificance, RemovalRule::kTopology}) {
+    const SheetRemoval all = remove(parts, rule);
+    ASSERT_EQ(all.sheets.size(), 4u);
+    for (const double least : {0.0, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 1.0}) {
+      SCOPED_TRACE(least);
+      const SheetRemoval some = remove(parts, rule, least);
+      const SheetRemoval first = stop_at_volume(all, significance, least);
+      EXPECT_EQ(some.sheets, first.sheets);
+      EXPECT_EQ(some.volume_left, first.volume_left);
+      EXPECT_EQ(some.kept, first.kept);
+      EXPECT_EQ(some.sheets.size() + some.kept.size(), parts.sheets);
+    }
+  }
+}
+
+// Sheets that must stay are tried, too: each of them is progress.
+TEST(SheetRemoval, ProgressNeverFallsAndMovesWithEverySheet) {
+  const Parts parts = ring_with_spike();
+  for (const RemovalRule rule : {RemovalRule::kSignificance, RemovalRule::kTopology}) {
+    std::vector<double> shares;
+    const RemovalProgress note = [&](double done) {
+      shares.push_back(done);
+      return true;
+    };
+    ASSERT_TRUE(remove_sheets(parts.view(), measure(parts), rule, 0, 1, note).ok());
+    ASSERT_GE(shares.size(), 4u);
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GE(std::set<double>(shares.begin(), shares.end()).size() + 2, shares.size());
+    EXPECT_GT(shares.back(), 0.5);
+    EXPECT_LT(shares.back(), 1);
+  }
 }
 
 TEST(SheetRemoval, CanBeInterrupted) {

@@ -96,10 +96,33 @@ TEST(Sheets, TheAngleDecidesAndTheSignDoesNot) {
 TEST(Sheets, CreasesJoin) {
   const std::vector<MedialSphere> bent = together(square(6), square(6, 20, 7));
   SheetParameters parameters = as_published();
-  parameters.crease = 19;
-  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u);
+  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u) << "as published, normals alone decide";
   parameters.crease = 21;
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
+  // A border that turns by the same everywhere joins by kBorderTurn more.
+  const std::vector<MedialSphere> sharp = together(square(6), square(6, 40, 7));
+  parameters.crease = 14;
+  EXPECT_EQ(sizes(find(sharp, parameters)).size(), 2u);
+  parameters.crease = 16;
+  EXPECT_EQ(sizes(find(sharp, parameters)).size(), 1u);
+}
+
+// Beside a flat square a twisted one, row by row: no link is small enough to join them, and the border does if half of
+// it turns by no more than 10 + kBorderTurn.
+TEST(Sheets, HalfOfABorderDecides) {
+  SheetParameters parameters = as_published();
+  parameters.crease = 10;
+  const auto twisted = [](double first) {
+    std::vector<MedialSphere> out = square(6, 0, 7);
+    for (MedialSphere& s : out) {
+      const double turn = (first + 5 * s.voxel[1]) * std::numbers::pi / 180;
+      s.spoke_a = {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))};
+      s.spoke_b = {-s.spoke_a[0], 0, -s.spoke_a[2]};
+    }
+    return out;
+  };
+  EXPECT_EQ(sizes(find(together(square(6), twisted(10)), parameters)).size(), 1u) << "15 to 40 degrees";
+  EXPECT_EQ(sizes(find(together(square(6), twisted(24)), parameters)).size(), 2u) << "29 to 54 degrees";
 }
 
 // Normals that agree do not join two sheets if a salient one may pass between them: here two bisectors of a square

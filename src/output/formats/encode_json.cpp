@@ -28,15 +28,17 @@ std::string header_text(const MedialHeader& header) {
 
 // By hand: a tree of all points takes several times the memory of the file, and a library gives floats the digits of
 // doubles.
-std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres) {
+std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres,
+                        std::span<const std::uint8_t> marks) {
   std::string out = "{\n" + header_text(header) + "\"points\": [";
   const char* separator = "\n";
-  for (const MedialSphere& s : spheres) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const MedialSphere& s = spheres[i];
     fmt::format_to(std::back_inserter(out),
                    "{}{{\"centre\":{},\"radius\":{},\"spoke_a\":{},\"spoke_b\":{},\"object_angle\":{},\"flux\":{},"
-                   "\"sheet\":{},\"voxel\":{}}}",
+                   "\"sheet\":{},\"seam\":{},\"rim\":{},\"voxel\":{}}}",
                    separator, triple(s.centre), s.radius, triple(s.spoke_a), triple(s.spoke_b), s.object_angle, s.flux,
-                   s.sheet, triple(s.voxel));
+                   s.sheet, (marks[i] & kSeam) != 0, (marks[i] & kRim) != 0, triple(s.voxel));
     separator = ",\n";
   }
   return out + "\n]\n}\n";

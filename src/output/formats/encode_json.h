@@ -1,15 +1,18 @@
 // Medial points as JSON, for whatever reads nothing else.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
 #include "output/medial_file.h"
+#include "sheets/sheets.h"
 
 namespace medial_vk {
 
 /// An object with the header and an array "points", a line each; layout in docs/formats.md. Numbers have the fewest
-/// digits that read back exactly, floats as floats.
-std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres);
+/// digits that read back exactly, floats as floats. `marks`: PointMark by sphere.
+std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres,
+                        std::span<const std::uint8_t> marks);
 
 }  // namespace medial_vk

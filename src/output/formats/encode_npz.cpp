@@ -76,6 +76,13 @@ class Arrays {
     add(name, std::move(bytes));
   }
 
+  /// A truth value of every point: has it the mark?
+  void flags(const char* name, std::span<const std::uint8_t> marks, PointMark mark) {
+    std::string bytes = npy_header("|b1", fmt::format("({},)", marks.size()));
+    for (const std::uint8_t marked : marks) bytes += marked & mark ? '\1' : '\0';
+    add(name, std::move(bytes));
+  }
+
   const std::vector<ZipMember>& members() const { return members_; }
 
  private:
@@ -87,7 +94,8 @@ class Arrays {
 
 }  // namespace
 
-Result<std::string> encode_npz(const MedialHeader& header, std::span<const MedialSphere> spheres) {
+Result<std::string> encode_npz(const MedialHeader& header, std::span<const MedialSphere> spheres,
+                               std::span<const std::uint8_t> marks) {
   Arrays arrays(spheres);
   arrays.column("centre", &MedialSphere::centre);
   arrays.column("radius", &MedialSphere::radius);
@@ -96,6 +104,8 @@ Result<std::string> encode_npz(const MedialHeader& header, std::span<const Media
   arrays.column("object_angle", &MedialSphere::object_angle);
   arrays.column("flux", &MedialSphere::flux);
   arrays.column("sheet", &MedialSphere::sheet);
+  arrays.flags("seam", marks, kSeam);
+  arrays.flags("rim", marks, kRim);
   arrays.column("voxel", &MedialSphere::voxel);
   arrays.text("version", header.version);
   arrays.point("grid_origin", header.grid_origin);

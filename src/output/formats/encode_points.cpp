@@ -16,14 +16,14 @@ GlbLayout layout_of(const PointsEncoding& encoding) {
 }  // namespace
 
 Result<std::string> encode_points(const PointsEncoding& encoding, const MedialHeader& header,
-                                  std::span<const MedialSphere> spheres) {
+                                  std::span<const MedialSphere> spheres, std::span<const std::uint8_t> marks) {
   switch (encoding.format) {
     case MedialFormat::kCsv:
       return encode_csv(spheres);
     case MedialFormat::kNpz:
-      return encode_npz(header, spheres);
+      return encode_npz(header, spheres, marks);
     case MedialFormat::kJson:
-      return encode_json(header, spheres);
+      return encode_json(header, spheres, marks);
     case MedialFormat::kGlb:
       return encode_glb(header, spheres, layout_of(encoding), encoding.sphere_detail);
     case MedialFormat::kPly:

@@ -17,9 +17,9 @@ struct PointsEncoding {
   std::optional<std::uint32_t> sphere_detail;
 };
 
-/// Options that a format does not know are without effect. Errors: kCannotWrite for files that would be too large,
-/// kOutOfMemory.
+/// Options that a format does not know are without effect. `marks`: PointMark by sphere, for NPZ and JSON. Errors:
+/// kCannotWrite for files that would be too large, kOutOfMemory.
 Result<std::string> encode_points(const PointsEncoding& encoding, const MedialHeader& header,
-                                  std::span<const MedialSphere> spheres);
+                                  std::span<const MedialSphere> spheres, std::span<const std::uint8_t> marks);
 
 }  // namespace medial_vk

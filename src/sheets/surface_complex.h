@@ -1,0 +1,42 @@
+// A complex of triangles that loses triangles by collapses: what is left has the homotopy type of what there was.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+
+/// Edges and triangles are known by their places in the lists of a dual complex.
+class SurfaceComplex {
+ public:
+  /// Without tetrahedra, and without the triangles of `gone`. The complex must outlive it.
+  SurfaceComplex(const DualComplex& complex, std::vector<bool> gone);
+
+  bool has_edge(std::uint32_t edge) const { return !gone_edges_[edge]; }
+  bool has_triangle(std::uint32_t triangle) const { return !gone_triangles_[triangle]; }
+  const std::array<std::uint32_t, 3>& sides(std::uint32_t triangle) const { return sides_[triangle]; }
+  /// The number of triangles at an edge.
+  std::uint32_t count(std::uint32_t edge) const { return counts_[edge]; }
+  /// The first triangle at an edge, but for one. Precondition: there is one.
+  std::uint32_t triangle_at(std::uint32_t edge, std::uint32_t but_for = 0xffffffffu) const;
+  /// Edges of one triangle, ascending.
+  std::vector<std::uint32_t> free_edges() const;
+
+  /// Takes an edge away with its triangle. Precondition: it has one.
+  void collapse(std::uint32_t edge);
+
+ private:
+  std::vector<std::array<std::uint32_t, 3>> sides_;
+  std::vector<std::size_t> starts_;  // by edge, into triangles_at_
+  std::vector<std::uint32_t> triangles_at_;
+  std::vector<std::uint32_t> counts_;
+  std::vector<bool> gone_edges_, gone_triangles_;
+};
+
+}  // namespace medial_vk
