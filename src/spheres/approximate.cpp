@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "spheres/approximate.h"
+#include "spheres/best_method.h"
 #include "spheres/prefixes.h"
 #include "spheres/source_method.h"
 
@@ -22,8 +23,7 @@ Result<SphereSet> inside_spheres(const Solid& solid, const SphereRequest& reques
     case SphereMethod::kBest:
       break;
   }
-  // Joins here: return best_spheres(solid, request, backend, context, progress);
-  return usage("the method best is not part of this build; use --method source");
+  return best_spheres(solid, request, backend, context, progress);
 }
 
 /// The set as the contract wants it.

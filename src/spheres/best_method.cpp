@@ -11,6 +11,7 @@
 #include "spheres/candidates.h"
 #include "spheres/gaps.h"
 #include "spheres/maximal_ball.h"
+#include "spheres/prefixes.h"
 #include "spheres/slide.h"
 
 namespace medial_vk {
@@ -187,9 +188,10 @@ class Placing {
     for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
   }
 
-  SphereSet result() const {
+  Result<SphereSet> result() const {
     SphereSet set;
     for (std::uint32_t place = 0; place < balls_.places(); ++place) set.balls.push_back(balls_.ball(place));
+    if (Status status = order_by_share(set.balls, request_.threads); !status.ok()) return status.error();
     return set;
   }
 
