@@ -1,0 +1,409 @@
+#include "spheres/cover_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "mesh/point_ops.h"
+#include "spheres/ball_tree.h"
+#include "spheres/branch_and_bound.h"
+#include "spheres/smallest_ball.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr double kRoom = 1 + 1e-13;  // What is held stays so however the distance is computed.
+
+/// How far the ball reaches from a point in it along a direction.
+double height_over(const Ball& ball, const Point& from, const Point& direction) {
+  const Point w = from - ball.centre;
+  const double along = dot(w, direction);
+  return std::max(0.0, std::sqrt(std::max(0.0, along * along + ball.radius * ball.radius - dot(w, w))) - along);
+}
+
+}  // namespace
+
+CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, unsigned threads)
+    : pieces_(std::move(pieces)), balls_(std::move(balls)), ease_(ease), threads_(threads) {
+  const BallTree tree(balls_);
+  std::vector<std::uint32_t> owner(pieces_.size());
+  for_all(pieces_.size(), 64, threads_, [&](std::size_t piece) {
+    owner[piece] = tree.nearest(pieces_.middle(static_cast<std::uint32_t>(piece))).ball;
+  });
+  for (std::uint32_t piece = 0; piece < owner.size(); ++piece) {
+    Ball& ball = balls_[owner[piece]];
+    ball.radius = std::max(ball.radius, pieces_.needed(ball.centre, piece) * kRoom);
+  }
+  recount();
+}
+
+double CoverSearch::cost_of(std::uint32_t piece, double height) const {
+  const double spread = height / ease_;
+  return length(pieces_.area_normal(piece)) * height * (1 + spread + spread * spread / 3);
+}
+
+double CoverSearch::highest(std::uint32_t piece, std::uint32_t but) const {
+  double height = 0;
+  for (const Holder& holder : holders_[piece]) {
+    if (holder.ball != but) height = std::max(height, holder.height);
+  }
+  return height;
+}
+
+void CoverSearch::recount() {
+  touched_.assign(balls_.size(), {});
+  holders_.assign(pieces_.size(), {});
+  total_ = 0;
+  std::vector<Ball> balls(balls_.size());
+  balls.swap(balls_);
+  for (std::uint32_t i = 0; i < balls.size(); ++i) balls_[i] = {balls[i].centre, 0};
+  for (std::uint32_t i = 0; i < balls.size(); ++i) replace(i, balls[i]);
+}
+
+void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
+  for (const std::uint32_t piece : touched_[i]) {
+    std::vector<Holder>& holders = holders_[piece];
+    const double rest = highest(piece, i);
+    const auto at = std::find_if(holders.begin(), holders.end(), [i](const Holder& h) { return h.ball == i; });
+    if (at->height > rest) total_ += cost_of(piece, rest) - cost_of(piece, at->height);
+    holders.erase(at);
+  }
+  balls_[i] = ball;
+  touched_[i].clear();
+  if (ball.radius == 0) return;
+  pieces_.gather(ball, touched_[i]);
+  for (const std::uint32_t piece : touched_[i]) {
+    const Point& normal = pieces_.area_normal(piece);
+    const double area = length(normal);
+    const double height = area > 0 ? height_over(ball, pieces_.middle(piece), (1 / area) * normal) : 0;
+    const double rest = highest(piece, i);
+    if (height > rest) total_ += cost_of(piece, height) - cost_of(piece, rest);
+    holders_[piece].push_back({i, pieces_.needed(ball.centre, piece) <= ball.radius, height});
+  }
+}
+
+void CoverSearch::undo(const std::vector<Saved>& saved) {
+  for (auto at = saved.rbegin(); at != saved.rend(); ++at) replace(at->ball, at->before);
+}
+
+std::vector<std::uint32_t> CoverSearch::exclusive(std::uint32_t i) const {
+  std::vector<std::uint32_t> alone;
+  for (const std::uint32_t piece : touched_[i]) {
+    bool is_held = false, by_other = false;
+    for (const Holder& holder : holders_[piece]) (holder.ball == i ? is_held : by_other) |= holder.holds;
+    if (is_held && !by_other) alone.push_back(piece);
+  }
+  return alone;
+}
+
+double CoverSearch::needed(const Point& centre, const std::vector<std::uint32_t>& some) const {
+  double radius = 0;
+  for (const std::uint32_t piece : some) radius = std::max(radius, pieces_.needed(centre, piece));
+  return radius * kRoom;
+}
+
+Ball CoverSearch::around(const std::vector<std::uint32_t>& some) const {
+  std::vector<Point> points;
+  for (const std::uint32_t piece : some) {
+    points.insert(points.end(), pieces_.points(piece).begin(), pieces_.points(piece).end());
+  }
+  Ball ball = smallest_ball(points);
+  ball.radius *= kRoom;
+  return ball;
+}
+
+double CoverSearch::share(std::uint32_t i) const {
+  double sum = 0;
+  for (const std::uint32_t piece : touched_[i]) {
+    const double rest = highest(piece, i);
+    for (const Holder& holder : holders_[piece]) {
+      if (holder.ball == i && holder.height > rest) sum += cost_of(piece, holder.height) - cost_of(piece, rest);
+    }
+  }
+  return sum;
+}
+
+/// By steps that are halved when none of them helps, from the present centre and from that of the smallest ball.
+Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const {
+  std::vector<Point> points;
+  for (const std::uint32_t piece : some) {
+    points.insert(points.end(), pieces_.points(piece).begin(), pieces_.points(piece).end());
+  }
+  const Ball smallest = smallest_ball(points);
+  const auto radius_at = [&](const Point& centre) {
+    double squared = 0;
+    for (const Point& p : points) {
+      const Point d = p - centre;
+      squared = std::max(squared, dot(d, d));
+    }
+    return std::sqrt(squared) * kRoom;
+  };
+  const Point from = balls_[i].centre;
+  Ball best = {from, radius_at(from)};
+  // All that a step may touch.
+  std::vector<std::uint32_t> near;
+  const double reach = std::max(best.radius, smallest.radius + length(smallest.centre - from));
+  pieces_.gather({from, 1.6 * reach}, near);
+  struct Column {
+    Point middle, direction;
+    double area, rest;
+    std::uint32_t piece;
+  };
+  std::vector<Column> columns;
+  for (const std::uint32_t piece : near) {
+    const double area = length(pieces_.area_normal(piece));
+    if (area > 0) {
+      columns.push_back(
+          {pieces_.middle(piece), (1 / area) * pieces_.area_normal(piece), area, highest(piece, i), piece});
+    }
+  }
+  const auto cost = [&](const Ball& ball) {
+    double sum = 0;
+    const double most = ball.radius * ball.radius;
+    for (const Column& column : columns) {
+      const Point w = column.middle - ball.centre;
+      if (dot(w, w) > most) continue;
+      const double height = height_over(ball, column.middle, column.direction);
+      if (height > column.rest) sum += cost_of(column.piece, height) - cost_of(column.piece, column.rest);
+    }
+    return sum;
+  };
+  double least = cost(best);
+  const auto attempt = [&](const Point& centre) {
+    const Ball ball = {centre, radius_at(centre)};
+    if (length(centre - from) + ball.radius > 1.6 * reach) return false;
+    const double here = cost(ball);
+    if (!(here < least * (1 - 1e-4))) return false;
+    least = here;
+    best = ball;
+    return true;
+  };
+  attempt(smallest.centre);
+  attempt(0.5 * (smallest.centre + from));
+  double step = 0.15 * best.radius;
+  for (int halving = 0; halving < halvings; step /= 2, ++halving) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      const Point start = best.centre;
+      const Point to = smallest.centre - start;
+      if (length(to) > step) moved = attempt(start + (step / length(to)) * to);
+      for (std::size_t axis = 0; axis < 3 && !moved; ++axis) {
+        for (const double way : {step, -step}) {
+          Point centre = start;
+          centre[axis] += way;
+          if (attempt(centre)) {
+            moved = true;
+            break;
+          }
+        }
+      }
+    }
+  }
+  return best;
+}
+
+void CoverSearch::slide() {
+  constexpr int kHalvings = 5;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.push_back({-share(i), i});
+  std::sort(order.begin(), order.end());
+  for (const auto& [cost, i] : order) {
+    if (balls_[i].radius == 0) continue;
+    const std::vector<std::uint32_t> alone = exclusive(i);
+    const Ball before = balls_[i];
+    const double total = total_;
+    replace(i, alone.empty() ? Ball{before.centre, 0} : best_around(i, alone, kHalvings));
+    if (total_ > total) replace(i, before);
+  }
+}
+
+void CoverSearch::shrink() {
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    const std::vector<std::uint32_t> alone = exclusive(i);
+    replace(i, alone.empty() ? Ball{balls_[i].centre, 0} : around(alone));
+  }
+}
+
+std::vector<std::uint32_t> CoverSearch::neighbours(std::uint32_t i, std::size_t count) const {
+  std::vector<std::pair<double, std::uint32_t>> near;
+  for (std::uint32_t j = 0; j < balls_.size(); ++j) {
+    if (j == i || balls_[j].radius == 0) continue;
+    near.push_back({length(balls_[j].centre - balls_[i].centre) - balls_[j].radius, j});
+  }
+  count = std::min(count, near.size());
+  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+  std::vector<std::uint32_t> balls;
+  for (std::size_t k = 0; k < count; ++k) balls.push_back(near[k].second);
+  return balls;
+}
+
+bool CoverSearch::trade_one(std::uint32_t i) {
+  const std::vector<std::uint32_t> alone = exclusive(i);
+  const Ball whole = balls_[i];
+  std::uint32_t support = 0;
+  double most = -1;
+  for (const std::uint32_t piece : alone) {
+    const double here = pieces_.needed(whole.centre, piece);
+    if (here > most) {
+      most = here;
+      support = piece;
+    }
+  }
+  const double total = total_;
+  for (const double part : {0.03, 0.12, 0.3}) {
+    std::vector<std::uint32_t> given;
+    for (const std::uint32_t piece : alone) {
+      if (length(pieces_.middle(piece) - pieces_.middle(support)) <= part * whole.radius) given.push_back(piece);
+    }
+    if (given.size() == alone.size()) return false;
+    // Those that must grow least.
+    std::vector<std::pair<double, std::uint32_t>> takers;
+    const Point at = pieces_.middle(support);
+    for (std::uint32_t j = 0; j < balls_.size(); ++j) {
+      if (j == i || balls_[j].radius == 0) continue;
+      const double gap = length(balls_[j].centre - at) - balls_[j].radius;
+      if (gap < 0.3 * whole.radius) takers.push_back({gap, j});
+    }
+    const std::size_t count = std::min<std::size_t>(3, takers.size());
+    std::partial_sort(takers.begin(), takers.begin() + static_cast<std::ptrdiff_t>(count), takers.end());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t j = takers[k].second;
+      const std::vector<Saved> saved = {{j, balls_[j]}, {i, whole}};
+      replace(j, {balls_[j].centre, std::max(balls_[j].radius, needed(balls_[j].centre, given))});
+      const std::vector<std::uint32_t> rest = exclusive(i);
+      replace(i, rest.empty() ? Ball{whole.centre, 0} : Ball{whole.centre, needed(whole.centre, rest)});
+      if (total_ < total * (1 - 1e-6)) return true;
+      undo(saved);
+    }
+  }
+  return false;
+}
+
+std::size_t CoverSearch::trade() {
+  std::size_t traded = 0;
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    for (int again = 0; again < 4 && balls_[i].radius > 0 && trade_one(i); ++again) ++traded;
+  }
+  return traded;
+}
+
+/// `free` leaves what it holds to a neighbour and takes half of what `wide` holds.
+bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
+  constexpr int kHalvings = 3;
+  const double total = total_;
+  std::vector<Saved> saved = {{free, balls_[free]}, {wide, balls_[wide]}};
+  const std::vector<std::uint32_t> left = exclusive(free);
+  if (!left.empty()) {
+    std::uint32_t taker = free;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t j : neighbours(free, 6)) {
+      const double growth = needed(balls_[j].centre, left) - balls_[j].radius;
+      if (j != wide && growth < least) {
+        least = growth;
+        taker = j;
+      }
+    }
+    if (taker == free) return false;
+    saved.push_back({taker, balls_[taker]});
+    replace(taker, {balls_[taker].centre, std::max(balls_[taker].radius, needed(balls_[taker].centre, left))});
+  }
+  replace(free, {balls_[free].centre, 0});
+  // The half that is farther out from the place that sticks out most.
+  const std::vector<std::uint32_t> alone = exclusive(wide);
+  double most = -1;
+  Point tip{};
+  for (const std::uint32_t piece : alone) {
+    const double cost = highest(piece, free);
+    if (cost > most && length(pieces_.area_normal(piece)) > 0) {
+      most = cost;
+      tip = pieces_.middle(piece);
+    }
+  }
+  std::vector<double> distances;
+  for (const std::uint32_t piece : alone) distances.push_back(length(pieces_.middle(piece) - tip));
+  if (distances.size() >= 2) {
+    std::vector<double> sorted = distances;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    std::vector<std::uint32_t> half;
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      if (distances[k] < sorted[sorted.size() / 2]) half.push_back(alone[k]);
+    }
+    if (!half.empty()) {
+      balls_[free].centre = 0.5 * (balls_[wide].centre + around(half).centre);
+      replace(free, best_around(free, half, kHalvings));
+      const std::vector<std::uint32_t> rest = exclusive(wide);
+      replace(wide, rest.empty() ? Ball{balls_[wide].centre, 0} : best_around(wide, rest, kHalvings));
+      const std::vector<std::uint32_t> own = exclusive(free);
+      replace(free, own.empty() ? Ball{balls_[free].centre, 0} : best_around(free, own, kHalvings));
+      if (total_ < total * (1 - 1e-6)) return true;
+    }
+  }
+  undo(saved);
+  return false;
+}
+
+std::size_t CoverSearch::relocate() {
+  // The shares of the volume that a ball adds are what may be saved by another beside it; what a ball holds alone must
+  // be held by a neighbour, at a cost that is not known before it is tried: small ones first.
+  const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
+  std::vector<std::pair<double, std::uint32_t>> free, wide;
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    wide.push_back({-share(i), i});
+    const std::vector<std::uint32_t> alone = exclusive(i);
+    double growth = 0;
+    if (!alone.empty()) {
+      growth = std::numeric_limits<double>::infinity();
+      for (const std::uint32_t j : neighbours(i, 6)) {
+        const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, alone));
+        growth = std::min(growth, (radius - balls_[j].radius) * radius * radius);
+      }
+    }
+    free.push_back({growth, i});
+  }
+  std::sort(free.begin(), free.end());
+  std::sort(wide.begin(), wide.end());
+  std::size_t relocated = 0, next = 0;
+  for (std::size_t k = 0; k < std::min(tries, free.size()) && next < wide.size(); ++k) {
+    if (free[k].second == wide[next].second) continue;
+    if (move_to(free[k].second, wide[next].second)) ++relocated;
+    ++next;
+  }
+  return relocated;
+}
+
+void CoverSearch::refine() {
+  std::vector<bool> which(pieces_.size());
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    for (const std::uint32_t piece : exclusive(i)) {
+      if (pieces_.needed(balls_[i].centre, piece) > 0.98 * balls_[i].radius) which[piece] = true;
+    }
+  }
+  pieces_.refine(which);
+  recount();
+}
+
+void CoverSearch::restore(std::vector<Ball> balls) {
+  balls_ = std::move(balls);
+  recount();
+}
+
+void CoverSearch::add(std::span<const Point> points) {
+  pieces_.add(points);
+  const auto piece = static_cast<std::uint32_t>(pieces_.size() - 1);
+  std::uint32_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    const double growth = std::max(0.0, pieces_.needed(balls_[i].centre, piece) - balls_[i].radius);
+    if (balls_[i].radius > 0 && growth < least) {
+      least = growth;
+      best = i;
+    }
+  }
+  balls_[best].radius = std::max(balls_[best].radius, pieces_.needed(balls_[best].centre, piece) * kRoom);
+  recount();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,145 @@
+#include "spheres/dilation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "mesh/point_ops.h"
+#include "spheres/cover_search.h"
+
+namespace medial_vk {
+namespace {
+
+/// Thrown where progress says stop.
+struct Interrupted {};
+
+/// Of the boundary: enough that what a piece sticks out of a ball does not count.
+std::size_t pieces_for(std::size_t balls) { return std::clamp<std::size_t>(16'000 + 24 * balls, 16'000, 60'000); }
+
+class Cover {
+ public:
+  Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const SphereProgress& progress)
+      : solid_(solid),
+        threads_(threads),
+        progress_(progress),
+        search_(CoverPieces(solid, pieces_for(balls.size()), threads), std::move(balls), 0.1 * solid.diagonal(),
+                threads) {}
+
+  std::vector<Ball> run() {
+    keep();
+    improve(24, 0.9);
+    for (int round = 0; round < 2; ++round) {
+      search_.refine();
+      improve(4, 0.95);
+    }
+    return certified();
+  }
+
+ private:
+  void report(double done) const {
+    if (progress_ && !progress_("cover", done)) throw Interrupted{};
+  }
+
+  /// Of the union, exactly.
+  double volume() const {
+    const Result<BallUnion> measured = measure_ball_union(search_.balls(), {threads_, false});
+    if (!measured) throw std::bad_alloc();  // The balls are finite, so memory it is.
+    return measured.value().volume;
+  }
+
+  void keep() {
+    volume_ = volume();
+    best_ = search_.balls();
+  }
+
+  /// Steps until several gain less than a thousandth of the volume; the best set of balls is kept.
+  void improve(int rounds, double done) {
+    constexpr double kGain = 5e-4;
+    constexpr int kPatience = 3;
+    int idle = 0;
+    for (int round = 0; round < rounds && idle < kPatience; ++round) {
+      report(done * round / rounds);
+      search_.relocate();
+      search_.trade();
+      search_.slide();
+      const double now = volume();
+      idle = now < volume_ * (1 - kGain) ? 0 : idle + 1;
+      if (now < volume_) keep();
+    }
+    search_.restore(best_);
+  }
+
+  std::vector<Ball> enlarged(double by) const {
+    std::vector<Ball> balls;
+    for (const Ball& ball : search_.balls()) {
+      if (ball.radius > 0) balls.push_back({ball.centre, ball.radius + by});
+    }
+    return balls;
+  }
+
+  /// Vertices of the envelope in the solid border on cavities: a ball must hold those, too.
+  bool fill(const Envelope& envelope) {
+    std::vector<Point> inside;
+    for (const EnvelopeVertex& vertex : envelope.vertices()) {
+      if (solid_.contains(vertex.at)) inside.push_back(vertex.at);
+    }
+    for (const Point& p : inside) search_.add({&p, 1});
+    if (inside.empty()) return false;
+    search_.shrink();
+    return true;
+  }
+
+  /// The proof decides. What it finds open is filled; at last all balls grow until it finds nothing.
+  std::vector<Ball> certified() {
+    constexpr int kFillings = 12;
+    const double diagonal = solid_.diagonal();
+    double by = 1e-9 * diagonal;
+    for (int attempt = 0;; ++attempt) {
+      report(0.95 + 0.05 * std::min(1.0, attempt / 60.0));
+      std::vector<Ball> balls = enlarged(by);
+      const Result<Envelope> envelope = Envelope::build(balls, threads_);
+      if (!envelope) throw std::bad_alloc();
+      const Result<CoverProof> proof = prove_cover(solid_, envelope.value(), threads_);
+      if (!proof) throw std::bad_alloc();
+      if (proof.value().surface_proved() && proof.value().inside == 0) return balls;
+      if (proof.value().surface_proved() && attempt < kFillings && fill(envelope.value())) continue;
+      by *= 2;  // Once this is the diagonal every ball holds everything.
+    }
+  }
+
+  const Solid& solid_;
+  unsigned threads_;
+  const SphereProgress& progress_;
+  CoverSearch search_;
+  std::vector<Ball> best_;
+  double volume_ = 0;
+};
+
+Status check(const std::vector<Ball>& balls) {
+  if (balls.empty()) return Error{ErrorCode::kUsage, "no balls to cover the solid with"};
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    bool is_finite = std::isfinite(balls[i].radius) && balls[i].radius >= 0;
+    for (const double x : balls[i].centre) is_finite = is_finite && std::isfinite(x);
+    if (!is_finite) {
+      return Error{ErrorCode::kUsage, "ball " + std::to_string(i) + " has a centre or radius that is no number"};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned threads, const SphereProgress& progress) {
+  if (Status status = check(inside.balls); !status.ok()) return status.error();
+  try {
+    return SphereSet{Cover(solid, std::move(inside.balls), threads, progress).run()};
+  } catch (const Interrupted&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
+  }
+}
+
+}  // namespace medial_vk
