@@ -16,24 +16,6 @@ constexpr std::size_t kStack = 64;
 
 }  // namespace
 
-double distance_to_box(const BallTree::Node& node, const Point& p) {
-  double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double out = std::max({node.lower[axis] - p[axis], p[axis] - node.upper[axis], 0.0});
-    sum += out * out;
-  }
-  return std::sqrt(sum);
-}
-
-double farthest_in_box(const BallTree::Node& node, const Point& p) {
-  double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double out = std::max(std::fabs(p[axis] - node.lower[axis]), std::fabs(p[axis] - node.upper[axis]));
-    sum += out * out;
-  }
-  return std::sqrt(sum);
-}
-
 BallTree::BallTree(std::span<const Ball> balls) : balls_(balls.begin(), balls.end()), order_(balls.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(balls_.size());

@@ -1,6 +1,8 @@
 // Distances from points to a union of balls, by a tree over the balls.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -49,7 +51,22 @@ class BallTree {
 };
 
 /// Of the box that a node's centres lie in.
-double distance_to_box(const BallTree::Node& node, const Point& p);
-double farthest_in_box(const BallTree::Node& node, const Point& p);
+inline double distance_to_box(const BallTree::Node& node, const Point& p) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double out = std::max({node.lower[axis] - p[axis], p[axis] - node.upper[axis], 0.0});
+    sum += out * out;
+  }
+  return std::sqrt(sum);
+}
+
+inline double farthest_in_box(const BallTree::Node& node, const Point& p) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double out = std::max(std::fabs(p[axis] - node.lower[axis]), std::fabs(p[axis] - node.upper[axis]));
+    sum += out * out;
+  }
+  return std::sqrt(sum);
+}
 
 }  // namespace medial_vk

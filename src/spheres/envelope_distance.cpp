@@ -149,13 +149,30 @@ class Measure {
       const double sign = solid_.contains(cube.centre) ? -1 : 1;
       if (sign < 0 && distance > reach + slack_) return {};
       const Point reached = nearest.distance > 0 ? on_sphere(others[nearest.ball], cube.centre) : cube.centre;
-      const double value = solid_.contains(reached) ? 0 : solid_.distance(reached);
+      const double value = solid_.distance(reached);
+      if (value <= known || solid_.contains(reached)) return {kNone, sign * distance + reach};
       return {value, sign * distance + reach};
     };
-    return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, 0, limits_, evaluate, split_cube), slack_);
+    // The vertices of the envelope are where the greatest distances are as a rule; they belong to the balls.
+    const double lower =
+        greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
+    return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube),
+                   slack_ + 4 * envelope_.tolerance());
+  }
+
+  template <class Distance>
+  double greatest_at_vertices(Distance distance) const {
+    const std::vector<EnvelopeVertex>& vertices = envelope_.vertices();
+    std::vector<double> distances(vertices.size());
+    for_all(vertices.size(), 16, limits_.threads, [&](std::size_t i) { distances[i] = distance(vertices[i].at); });
+    double greatest = 0;
+    for (const double here : distances) greatest = std::max(greatest, here);
+    return greatest;
   }
 
   Bounds boundary_to_envelope(double lower) const {
+    lower = std::max(lower,
+                     greatest_at_vertices([&](const Point& p) { return envelope_.distance(solid_.closest(p).point); }));
     const auto evaluate = [&](const Piece& piece, double known) -> CellBounds {
       const Point middle = piece.middle();
       const double reach = piece.reach(middle);
@@ -172,13 +189,7 @@ class Measure {
   }
 
   Bounds envelope_to_boundary() const {
-    // The vertices are where the greatest distances are as a rule.
-    const std::vector<EnvelopeVertex>& vertices = envelope_.vertices();
-    std::vector<double> distances(vertices.size());
-    for_all(vertices.size(), 64, limits_.threads,
-            [&](std::size_t i) { distances[i] = solid_.distance(vertices[i].at); });
-    double lower = 0;
-    for (const double distance : distances) lower = std::max(lower, distance);
+    const double lower = greatest_at_vertices([&](const Point& p) { return solid_.distance(p); });
     const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
       const double reach = cube.reach();
       const NearestBall nearest = tree_.nearest(cube.centre);
