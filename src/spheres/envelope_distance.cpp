@@ -31,6 +31,12 @@ struct Cube {
   double half;  ///< Of its side.
 
   double reach() const { return half * 1.7320508075688775; }
+  /// The greatest distance of its points from p.
+  double farthest(const Point& p) const {
+    Point out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = std::fabs(p[k] - centre[k]) + half;
+    return length(out);
+  }
 };
 
 void split_cube(const Cube& cube, std::vector<Cube>& parts) {
@@ -144,14 +150,17 @@ class Measure {
       const double reach = cube.reach();
       const NearestBall nearest = tree.nearest(cube.centre);
       if (nearest.distance > reach + slack_) return {};
-      const double distance = solid_.distance(cube.centre);
-      if (distance + reach <= known + limits_.tolerance) return {kNone, distance + reach};
+      const BvhHit hit = solid_.closest(cube.centre);
+      const double distance = std::sqrt(hit.squared_distance);
+      // No point of the cube is farther from the boundary than from this point of it.
+      const double bound = cube.farthest(hit.point);
+      if (bound <= known + limits_.tolerance) return {kNone, bound};
       const double sign = solid_.contains(cube.centre) ? -1 : 1;
       if (sign < 0 && distance > reach + slack_) return {};
       const Point reached = nearest.distance > 0 ? on_sphere(others[nearest.ball], cube.centre) : cube.centre;
       const double value = solid_.distance(reached);
-      if (value <= known || solid_.contains(reached)) return {kNone, sign * distance + reach};
-      return {value, sign * distance + reach};
+      if (value <= known || solid_.contains(reached)) return {kNone, sign > 0 ? bound : reach - distance};
+      return {value, sign > 0 ? bound : reach - distance};
     };
     // The vertices of the envelope are where the greatest distances are as a rule; they belong to the balls.
     const double lower =
@@ -194,8 +203,9 @@ class Measure {
       const double reach = cube.reach();
       const NearestBall nearest = tree_.nearest(cube.centre);
       if (std::fabs(nearest.distance) > reach + slack_) return {};
-      const double distance = solid_.distance(cube.centre);
-      CellBounds cell = {kNone, distance + reach};
+      const BvhHit hit = solid_.closest(cube.centre);
+      const double distance = std::sqrt(hit.squared_distance);
+      CellBounds cell = {kNone, cube.farthest(hit.point)};
       if (distance + std::fabs(nearest.distance) <= known) return cell;
       const Ball& ball = tree_.balls()[nearest.ball];
       if (nearest.distance == -ball.radius) return cell;  // Its centre: no direction.
