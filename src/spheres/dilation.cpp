@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
+#include <numbers>
 #include <string>
 #include <utility>
 
 #include "mesh/point_ops.h"
 #include "spheres/cover_search.h"
+#include "spheres/smallest_ball.h"
+#include "spheres/surface_samples.h"
 
 namespace medial_vk {
 namespace {
@@ -27,12 +31,17 @@ class Cover {
         search_(CoverPieces(solid, pieces_for(balls.size()), threads), std::move(balls), 0.1 * solid.diagonal(),
                 threads) {}
 
-  std::vector<Ball> run() {
+  /// Of the union, as far as the search has come.
+  double search(double from, double until) {
     keep();
-    improve(24, 0.9);
+    improve(24, from, until);
+    return volume_;
+  }
+
+  std::vector<Ball> finish() {
     for (int round = 0; round < 2; ++round) {
       search_.refine();
-      improve(4, 0.95);
+      improve(4, 0.8 + 0.07 * round, 0.87 + 0.07 * round);
     }
     return certified();
   }
@@ -54,13 +63,13 @@ class Cover {
     best_ = search_.balls();
   }
 
-  /// Steps until several gain less than a thousandth of the volume; the best set of balls is kept.
-  void improve(int rounds, double done) {
-    constexpr double kGain = 5e-4;
-    constexpr int kPatience = 3;
+  /// Steps until two gain less than a thousandth of the volume; the best set of balls is kept.
+  void improve(int rounds, double from, double until) {
+    constexpr double kGain = 1e-3;
+    constexpr int kPatience = 2;
     int idle = 0;
     for (int round = 0; round < rounds && idle < kPatience; ++round) {
-      report(done * round / rounds);
+      report(from + (until - from) * round / rounds);
       search_.relocate();
       search_.trade();
       search_.slide();
@@ -87,7 +96,7 @@ class Cover {
     }
     for (const Point& p : inside) search_.add({&p, 1});
     if (inside.empty()) return false;
-    search_.shrink();
+    search_.slide();
     return true;
   }
 
@@ -129,12 +138,71 @@ Status check(const std::vector<Ball>& balls) {
   return {};
 }
 
+/// Points far from each other, then in the middles of what is nearest to them: a start that asks nothing of the balls
+/// inside.
+std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t count) {
+  constexpr int kRounds = 6;
+  std::vector<Point> centres = {points.front()};
+  std::vector<double> away(points.size(), std::numeric_limits<double>::infinity());
+  while (centres.size() < count) {
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      away[i] = std::min(away[i], length(points[i] - centres.back()));
+      if (away[i] > away[farthest]) farthest = i;
+    }
+    centres.push_back(points[farthest]);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Point> sum(centres.size());
+    std::vector<double> number(centres.size());
+    for (const Point& p : points) {
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < centres.size(); ++k) {
+        if (length(p - centres[k]) < length(p - centres[nearest])) nearest = k;
+      }
+      sum[nearest] = sum[nearest] + p;
+      ++number[nearest];
+    }
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+      if (number[k] > 0) centres[k] = (1 / number[k]) * sum[k];
+    }
+  }
+  std::vector<Ball> balls;
+  for (const Point& centre : centres) balls.push_back({centre, 0});
+  return balls;
+}
+
+/// With few balls where they start decides more than what it costs to start twice.
+std::vector<Ball> cover_from_starts(const Solid& solid, std::vector<Ball> inside, unsigned threads,
+                                    const SphereProgress& progress) {
+  constexpr std::size_t kFew = 64;
+  constexpr std::size_t kStartPoints = 4000;
+  const std::size_t count = inside.size();
+  Cover first(solid, std::move(inside), threads, progress);
+  const double volume = first.search(0, count <= kFew ? 0.4 : 0.8);
+  if (count > kFew) return first.finish();
+  Cover second(solid, spread_over(sample_surface(solid.mesh().mesh, kStartPoints), count), threads, progress);
+  return second.search(0.4, 0.8) < volume ? second.finish() : first.finish();
+}
+
+/// The smallest ball that holds all vertices, and a little more.
+Ball around_everything(const Solid& solid) {
+  Ball ball = smallest_ball(solid.mesh().mesh.vertices);
+  ball.radius += 1e-9 * solid.diagonal();
+  return ball;
+}
+
 }  // namespace
 
 Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned threads, const SphereProgress& progress) {
   if (Status status = check(inside.balls); !status.ok()) return status.error();
   try {
-    return SphereSet{Cover(solid, std::move(inside.balls), threads, progress).run()};
+    SphereSet cover = {cover_from_starts(solid, std::move(inside.balls), threads, progress)};
+    const Ball one = around_everything(solid);
+    const Result<BallUnion> measured = measure_ball_union(cover.balls, {threads, false});
+    if (!measured) return measured.error();
+    const bool is_smaller = 4 * std::numbers::pi / 3 * one.radius * one.radius * one.radius < measured.value().volume;
+    return is_smaller ? SphereSet{{one}} : cover;
   } catch (const Interrupted&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
