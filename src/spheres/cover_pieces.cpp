@@ -87,7 +87,10 @@ void CoverPieces::add(std::span<const Point> points) {
   x_.push_back(middle[0]);
   y_.push_back(middle[1]);
   z_.push_back(middle[2]);
-  area_normal_.push_back(points.size() == 3 ? 0.5 * cross(points[1] - points[0], points[2] - points[0]) : Point{});
+  const Point twice = points.size() == 3 ? cross(points[1] - points[0], points[2] - points[0]) : Point{};
+  const double size = length(twice);
+  area_.push_back(size / 2);
+  normal_.push_back(size > 0 ? (1 / size) * twice : Point{});
 }
 
 void CoverPieces::refine(const std::vector<bool>& which) {
@@ -95,8 +98,8 @@ void CoverPieces::refine(const std::vector<bool>& which) {
   const std::vector<std::uint32_t> first = std::move(first_);
   points_.clear();
   first_.assign(1, 0);
-  for (std::vector<double>* list : {&x_, &y_, &z_}) list->clear();
-  area_normal_.clear();
+  for (std::vector<double>* list : {&x_, &y_, &z_, &area_}) list->clear();
+  normal_.clear();
   for (std::size_t piece = 0; piece + 1 < first.size(); ++piece) {
     const std::span<const Point> p(points.data() + first[piece], first[piece + 1] - first[piece]);
     if (!which[piece] || p.size() != 3) {

@@ -21,8 +21,10 @@ class CoverPieces {
     return {points_.data() + first_[piece], first_[piece + 1] - first_[piece]};
   }
   Point middle(std::uint32_t piece) const { return {x_[piece], y_[piece], z_[piece]}; }
-  /// Of a triangle: its area times its outward normal; of others zero.
-  const Point& area_normal(std::uint32_t piece) const { return area_normal_[piece]; }
+  /// Of a triangle; of others zero.
+  double area(std::uint32_t piece) const { return area_[piece]; }
+  /// Of a triangle, of length 1 and outwards; of others, and of triangles without area, zero.
+  const Point& normal(std::uint32_t piece) const { return normal_[piece]; }
   /// The least radius around a centre that holds the piece.
   double needed(const Point& centre, std::uint32_t piece) const;
   /// Indices of all pieces whose middles are in the ball, ascending; a ball that holds a piece holds its middle.
@@ -40,7 +42,8 @@ class CoverPieces {
   std::vector<std::uint32_t> first_ = {0};
   // Middles by coordinates: most balls are told from most pieces by these.
   std::vector<double> x_, y_, z_;
-  std::vector<Point> area_normal_;
+  std::vector<double> area_;
+  std::vector<Point> normal_;
 };
 
 }  // namespace medial_vk

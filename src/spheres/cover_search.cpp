@@ -40,9 +40,12 @@ CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double eas
   recount();
 }
 
-double CoverSearch::cost_of(std::uint32_t piece, double height) const {
+double CoverSearch::cost_of(std::uint32_t piece, double height) const { return pieces_.area(piece) * column(height); }
+
+/// Of a column over a unit of area.
+double CoverSearch::column(double height) const {
   const double spread = height / ease_;
-  return length(pieces_.area_normal(piece)) * height * (1 + spread + spread * spread / 3);
+  return height * (1 + spread + spread * spread / 3);
 }
 
 double CoverSearch::highest(std::uint32_t piece, std::uint32_t but) const {
@@ -76,9 +79,7 @@ void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
   if (ball.radius == 0) return;
   pieces_.gather(ball, touched_[i]);
   for (const std::uint32_t piece : touched_[i]) {
-    const Point& normal = pieces_.area_normal(piece);
-    const double area = length(normal);
-    const double height = area > 0 ? height_over(ball, pieces_.middle(piece), (1 / area) * normal) : 0;
+    const double height = pieces_.area(piece) > 0 ? height_over(ball, pieces_.middle(piece), pieces_.normal(piece)) : 0;
     const double rest = highest(piece, i);
     if (height > rest) total_ += cost_of(piece, height) - cost_of(piece, rest);
     holders_[piece].push_back({i, pieces_.needed(ball.centre, piece) <= ball.radius, height});
@@ -149,33 +150,33 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
   pieces_.gather({from, 1.6 * reach}, near);
   struct Column {
     Point middle, direction;
-    double area, rest;
-    std::uint32_t piece;
+    double area, rest, paid;
   };
   std::vector<Column> columns;
   for (const std::uint32_t piece : near) {
-    const double area = length(pieces_.area_normal(piece));
-    if (area > 0) {
-      columns.push_back(
-          {pieces_.middle(piece), (1 / area) * pieces_.area_normal(piece), area, highest(piece, i), piece});
-    }
+    if (!(pieces_.area(piece) > 0)) continue;
+    const double rest = highest(piece, i);
+    columns.push_back({pieces_.middle(piece), pieces_.normal(piece), pieces_.area(piece), rest, column(rest)});
   }
-  const auto cost = [&](const Ball& ball) {
+  /// Stops where it is more than `enough`.
+  const auto cost = [&](const Ball& ball, double enough) {
     double sum = 0;
     const double most = ball.radius * ball.radius;
-    for (const Column& column : columns) {
-      const Point w = column.middle - ball.centre;
+    for (const Column& each : columns) {
+      const Point w = each.middle - ball.centre;
       if (dot(w, w) > most) continue;
-      const double height = height_over(ball, column.middle, column.direction);
-      if (height > column.rest) sum += cost_of(column.piece, height) - cost_of(column.piece, column.rest);
+      const double height = height_over(ball, each.middle, each.direction);
+      if (height <= each.rest) continue;
+      sum += each.area * (column(height) - each.paid);
+      if (sum > enough) break;
     }
     return sum;
   };
-  double least = cost(best);
+  double least = cost(best, std::numeric_limits<double>::infinity());
   const auto attempt = [&](const Point& centre) {
     const Ball ball = {centre, radius_at(centre)};
     if (length(centre - from) + ball.radius > 1.6 * reach) return false;
-    const double here = cost(ball);
+    const double here = cost(ball, least);
     if (!(here < least * (1 - 1e-4))) return false;
     least = here;
     best = ball;
@@ -210,20 +211,17 @@ void CoverSearch::slide() {
   std::vector<std::pair<double, std::uint32_t>> order;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) order.push_back({-share(i), i});
   std::sort(order.begin(), order.end());
+  slid_.resize(balls_.size());
   for (const auto& [cost, i] : order) {
     if (balls_[i].radius == 0) continue;
     const std::vector<std::uint32_t> alone = exclusive(i);
+    // Where nothing has changed since the last time, nothing would now.
+    if (slid_[i] == Slid{alone.size(), balls_[i].radius, share(i)}) continue;
     const Ball before = balls_[i];
     const double total = total_;
     replace(i, alone.empty() ? Ball{before.centre, 0} : best_around(i, alone, kHalvings));
     if (total_ > total) replace(i, before);
-  }
-}
-
-void CoverSearch::shrink() {
-  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
-    const std::vector<std::uint32_t> alone = exclusive(i);
-    replace(i, alone.empty() ? Ball{balls_[i].centre, 0} : around(alone));
+    slid_[i] = {alone.size(), balls_[i].radius, share(i)};
   }
 }
 
@@ -317,7 +315,7 @@ bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   Point tip{};
   for (const std::uint32_t piece : alone) {
     const double cost = highest(piece, free);
-    if (cost > most && length(pieces_.area_normal(piece)) > 0) {
+    if (cost > most && pieces_.area(piece) > 0) {
       most = cost;
       tip = pieces_.middle(piece);
     }

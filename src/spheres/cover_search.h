@@ -33,14 +33,18 @@ class CoverSearch {
   const std::vector<Ball>& balls() const { return balls_; }
   /// Back to balls that were there before; the pieces must be held by them.
   void restore(std::vector<Ball> balls);
-  /// Each ball becomes the smallest around the pieces that no other holds.
-  void shrink();
 
  private:
   struct Holder {
     std::uint32_t ball;
     bool holds;     ///< All of it, not only the middle.
     double height;  ///< Of the column.
+  };
+  /// What a ball was like when it had been moved.
+  struct Slid {
+    std::size_t alone = 0;
+    double radius = -1, share = 0;
+    bool operator==(const Slid&) const = default;
   };
   struct Saved {
     std::uint32_t ball;
@@ -52,6 +56,7 @@ class CoverSearch {
   void replace(std::uint32_t i, const Ball& ball);
   void undo(const std::vector<Saved>& saved);
   double cost_of(std::uint32_t piece, double height) const;
+  double column(double height) const;
   double highest(std::uint32_t piece, std::uint32_t but) const;
   /// Pieces that no other ball holds.
   std::vector<std::uint32_t> exclusive(std::uint32_t i) const;
@@ -70,6 +75,7 @@ class CoverSearch {
   unsigned threads_;
   std::vector<std::vector<std::uint32_t>> touched_;  // by ball: pieces whose middles it holds
   std::vector<std::vector<Holder>> holders_;         // by piece
+  std::vector<Slid> slid_;
   double total_ = 0;
 };
 
