@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "mesh/point_ops.h"
 #include "spheres/branch_and_bound.h"
@@ -13,6 +14,7 @@ namespace {
 /// Cells along the longest side of the box: at most 27,000 of them.
 constexpr int kCells = 30;
 constexpr int kTriangleDepth = 24;
+constexpr std::uint32_t kBlock = 48;
 
 }  // namespace
 
@@ -28,6 +30,7 @@ CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, unsigned thread
     add_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], longest, 0);
   }
   add_cells(solid, threads);
+  arrange();
 }
 
 void CoverPieces::add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth) {
@@ -84,9 +87,7 @@ void CoverPieces::add(std::span<const Point> points) {
   for (const Point& p : points) middle = middle + (1 / static_cast<double>(points.size())) * p;
   points_.insert(points_.end(), points.begin(), points.end());
   first_.push_back(static_cast<std::uint32_t>(points_.size()));
-  x_.push_back(middle[0]);
-  y_.push_back(middle[1]);
-  z_.push_back(middle[2]);
+  middle_.push_back(middle);
   const Point twice = points.size() == 3 ? cross(points[1] - points[0], points[2] - points[0]) : Point{};
   const double size = length(twice);
   area_.push_back(size / 2);
@@ -98,7 +99,8 @@ void CoverPieces::refine(const std::vector<bool>& which) {
   const std::vector<std::uint32_t> first = std::move(first_);
   points_.clear();
   first_.assign(1, 0);
-  for (std::vector<double>* list : {&x_, &y_, &z_, &area_}) list->clear();
+  middle_.clear();
+  area_.clear();
   normal_.clear();
   for (std::size_t piece = 0; piece + 1 < first.size(); ++piece) {
     const std::span<const Point> p(points.data() + first[piece], first[piece + 1] - first[piece]);
@@ -111,6 +113,40 @@ void CoverPieces::refine(const std::vector<bool>& which) {
                                              std::array<Point, 3>{ca, bc, p[2]}, std::array<Point, 3>{ab, bc, ca}}) {
       add(part);
     }
+  }
+  arrange();
+}
+
+void CoverPieces::arrange() {
+  order_.resize(size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  blocks_.clear();
+  // Halves of halves, by the middle along the longest side of the box.
+  std::vector<Block> open = {{{}, {}, 0, static_cast<std::uint32_t>(size())}};
+  while (!open.empty()) {
+    Block block = open.back();
+    open.pop_back();
+    if (block.count == 0) continue;
+    const auto begin = order_.begin() + block.first, end = begin + block.count;
+    block.lower = block.upper = middle_[*begin];
+    for (auto at = begin; at != end; ++at) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        block.lower[k] = std::min(block.lower[k], middle_[*at][k]);
+        block.upper[k] = std::max(block.upper[k], middle_[*at][k]);
+      }
+    }
+    if (block.count <= kBlock) {
+      blocks_.push_back(block);
+      continue;
+    }
+    const Point side = block.upper - block.lower;
+    const auto axis = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
+    const std::uint32_t half = block.count / 2;
+    std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
+      return middle_[a][axis] != middle_[b][axis] ? middle_[a][axis] < middle_[b][axis] : a < b;
+    });
+    open.push_back({{}, {}, block.first, half});
+    open.push_back({{}, {}, block.first + half, block.count - half});
   }
 }
 
@@ -126,11 +162,20 @@ double CoverPieces::needed(const Point& centre, std::uint32_t piece) const {
 void CoverPieces::gather(const Ball& ball, std::vector<std::uint32_t>& found) const {
   found.clear();
   const double most = ball.radius * ball.radius;
-  const auto count = static_cast<std::uint32_t>(size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double dx = x_[i] - ball.centre[0], dy = y_[i] - ball.centre[1], dz = z_[i] - ball.centre[2];
-    if (dx * dx + dy * dy + dz * dz <= most) found.push_back(i);
+  const auto take = [&](std::uint32_t piece) {
+    const Point d = middle_[piece] - ball.centre;
+    if (dot(d, d) <= most) found.push_back(piece);
+  };
+  for (const Block& block : blocks_) {
+    double away = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double out = std::max({block.lower[k] - ball.centre[k], ball.centre[k] - block.upper[k], 0.0});
+      away += out * out;
+    }
+    if (away > most) continue;
+    for (std::uint32_t k = block.first; k < block.first + block.count; ++k) take(order_[k]);
   }
+  for (auto piece = static_cast<std::uint32_t>(order_.size()); piece < size(); ++piece) take(piece);
 }
 
 }  // namespace medial_vk

@@ -363,11 +363,15 @@ std::size_t CoverSearch::relocate() {
   }
   std::sort(free.begin(), free.end());
   std::sort(wide.begin(), wide.end());
-  std::size_t relocated = 0, next = 0;
-  for (std::size_t k = 0; k < std::min(tries, free.size()) && next < wide.size(); ++k) {
-    if (free[k].second == wide[next].second) continue;
-    if (move_to(free[k].second, wide[next].second)) ++relocated;
+  std::size_t relocated = 0, at = 0, next = 0;
+  for (std::size_t k = 0; k < 2 * tries && at < free.size() && next < wide.size(); ++k) {
+    const std::uint32_t from = free[at].second;
+    const bool is_idle = free[at].first == 0;
+    const bool moved = from != wide[next].second && move_to(from, wide[next].second);
+    relocated += moved;
     ++next;
+    // An idle ball costs nothing: it is offered to one after the other.
+    if (moved || !is_idle) ++at;
   }
   return relocated;
 }
