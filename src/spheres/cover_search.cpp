@@ -288,56 +288,73 @@ std::size_t CoverSearch::trade() {
   return traded;
 }
 
-/// `free` leaves what it holds to a neighbour and takes half of what `wide` holds.
-bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
-  constexpr int kHalvings = 3;
-  const double total = total_;
-  std::vector<Saved> saved = {{free, balls_[free]}, {wide, balls_[wide]}};
-  const std::vector<std::uint32_t> left = exclusive(free);
+/// What only ball i holds goes to the neighbour that must grow least for it, which is not `but`.
+bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved) {
+  const std::vector<std::uint32_t> left = exclusive(i);
   if (!left.empty()) {
-    std::uint32_t taker = free;
+    std::uint32_t taker = i;
     double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t j : neighbours(free, 6)) {
+    for (const std::uint32_t j : neighbours(i, 6)) {
       const double growth = needed(balls_[j].centre, left) - balls_[j].radius;
-      if (j != wide && growth < least) {
+      if (j != but && growth < least) {
         least = growth;
         taker = j;
       }
     }
-    if (taker == free) return false;
+    if (taker == i) return false;
     saved.push_back({taker, balls_[taker]});
     replace(taker, {balls_[taker].centre, std::max(balls_[taker].radius, needed(balls_[taker].centre, left))});
   }
-  replace(free, {balls_[free].centre, 0});
-  // The half that is farther out from the place that sticks out most.
-  const std::vector<std::uint32_t> alone = exclusive(wide);
-  double most = -1;
-  Point tip{};
-  for (const std::uint32_t piece : alone) {
-    const double cost = highest(piece, free);
-    if (cost > most && pieces_.area(piece) > 0) {
-      most = cost;
-      tip = pieces_.middle(piece);
+  saved.push_back({i, balls_[i]});
+  replace(i, {balls_[i].centre, 0});
+  return true;
+}
+
+/// Of the pieces that only `wide` holds, ball i, which holds nothing, takes the share that is nearest to the `tip`.
+void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share) {
+  constexpr int kHalvings = 3;
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  for (const std::uint32_t piece : exclusive(wide)) sorted.push_back({length(pieces_.middle(piece) - tip), piece});
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> part;
+  const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  for (std::size_t k = 0; k < std::min(count, sorted.size()); ++k) part.push_back(sorted[k].second);
+  if (part.empty()) return;
+  balls_[i].centre = 0.5 * (balls_[wide].centre + around(part).centre);
+  replace(i, best_around(i, part, kHalvings));
+  for (const std::uint32_t each : {wide, i}) {
+    const std::vector<std::uint32_t> own = exclusive(each);
+    replace(each, own.empty() ? Ball{balls_[each].centre, 0} : best_around(each, own, kHalvings));
+  }
+}
+
+/// The places where a ball sticks out most, and where it reaches farthest for a piece that only it holds.
+std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
+  std::array<Point, 2> tips{};
+  std::array<double, 2> most = {-1, -1};
+  for (const std::uint32_t piece : exclusive(i)) {
+    const std::array<double, 2> here = {pieces_.area(piece) > 0 ? highest(piece, 0xffffffffu) : -1,
+                                        pieces_.needed(balls_[i].centre, piece)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (here[k] <= most[k]) continue;
+      most[k] = here[k];
+      tips[k] = pieces_.middle(piece);
     }
   }
-  std::vector<double> distances;
-  for (const std::uint32_t piece : alone) distances.push_back(length(pieces_.middle(piece) - tip));
-  if (distances.size() >= 2) {
-    std::vector<double> sorted = distances;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    std::vector<std::uint32_t> half;
-    for (std::size_t k = 0; k < alone.size(); ++k) {
-      if (distances[k] < sorted[sorted.size() / 2]) half.push_back(alone[k]);
-    }
-    if (!half.empty()) {
-      balls_[free].centre = 0.5 * (balls_[wide].centre + around(half).centre);
-      replace(free, best_around(free, half, kHalvings));
-      const std::vector<std::uint32_t> rest = exclusive(wide);
-      replace(wide, rest.empty() ? Ball{balls_[wide].centre, 0} : best_around(wide, rest, kHalvings));
-      const std::vector<std::uint32_t> own = exclusive(free);
-      replace(free, own.empty() ? Ball{balls_[free].centre, 0} : best_around(free, own, kHalvings));
-      if (total_ < total * (1 - 1e-6)) return true;
-    }
+  return tips;
+}
+
+bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
+  const double total = total_;
+  std::vector<Saved> saved = {{wide, balls_[wide]}};
+  if (!leave(free, wide, saved)) return false;
+  const Ball whole = balls_[wide], none = balls_[free];
+  const std::array<Point, 2> at = tips(wide);
+  for (const auto& [k, share] : {std::pair<std::size_t, double>{0, 0.5}, {1, 0.2}}) {
+    take_share(free, wide, at[k], share);
+    if (total_ < total * (1 - 1e-6)) return true;
+    replace(wide, whole);
+    replace(free, none);
   }
   undo(saved);
   return false;

@@ -1,6 +1,7 @@
 // Balls that hold given pieces, and the search for such balls that stick out little.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -67,6 +68,10 @@ class CoverSearch {
   Ball best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const;
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
   bool trade_one(std::uint32_t i);
+  bool leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved);
+  void take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share);
+  std::array<Point, 2> tips(std::uint32_t i) const;
+  /// Ball `free` leaves what it holds to others and takes a part of what `wide` holds, if that pays.
   bool move_to(std::uint32_t free, std::uint32_t wide);
 
   CoverPieces pieces_;
