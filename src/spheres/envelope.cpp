@@ -18,6 +18,18 @@ double magnitude_of(std::span<const Ball> balls) {
   return magnitude;
 }
 
+/// A unit vector at right angles to one.
+Point across_any(const Point& axis) {
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (std::fabs(axis[k]) < std::fabs(axis[least])) least = k;
+  }
+  Point across{};
+  across[least] = 1;
+  across = across - axis[least] * axis;
+  return (1 / length(across)) * across;
+}
+
 }  // namespace
 
 std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, std::array<Point, 2>& points) {
@@ -82,8 +94,9 @@ void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Poi
   const Point to = p - middle;
   const Point across = to - dot(to, axis) * axis;
   const double out = length(across);
-  if (out == 0) return;  // All points of the circle are as near: its ends, if it has any, are vertices.
-  const Point near = middle + (std::sqrt(squared) / out) * across;
+  // On the axis all points of the circle are as near, its ends too, if it has any: any of them will do.
+  const Point away = out > 0 ? (1 / out) * across : across_any(axis);
+  const Point near = middle + std::sqrt(squared) * away;
   const double distance = length(p - near);
   if (distance < best && is_exposed(near)) best = distance;
 }

@@ -236,6 +236,7 @@ Bounds EnvelopeDistances::between_surfaces() const { return greater(boundary_to_
 
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options) {
+  if (envelope.tree().balls().empty()) return Error{ErrorCode::kUsage, "no balls to measure the distance of"};
   try {
     return Measure(solid, envelope, options).all();
   } catch (const std::bad_alloc&) {

@@ -61,6 +61,8 @@ TEST(EnvelopeDistance, FromInsideTheUnionToEveryKindOfFeature) {
   const Envelope two = envelope_of({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}, {{9, 0, 0}, 1}});
   EXPECT_NEAR(two.distance({-1.5, 0, 0}), 0.1, 1e-9);                    // a sphere
   EXPECT_NEAR(two.distance({0.1, 0.2, 0}), std::hypot(0.1, 0.6), 1e-9);  // the circle
+  EXPECT_NEAR(two.distance({0.1, 0, 0}), std::hypot(0.1, 0.8), 1e-9);    // as near to all of the circle
+  EXPECT_NEAR(two.distance({-0.6, 0, 0}), 1, 1e-9);                      // a centre
   EXPECT_NEAR(two.distance({0, 3, 0}), std::hypot(0.6, 3) - 1, 1e-12);
   EXPECT_LT(two.signed_distance({-1.5, 0, 0}), 0);
   // Three that meet in two points at height h.
@@ -152,6 +154,11 @@ TEST(EnvelopeDistance, TooFewCellsLeaveTheBoundsApart) {
   const EnvelopeDistances fine = measure_distances(*solid.solid, envelope).value();
   EXPECT_GE(coarse.envelope_to_boundary.upper, fine.envelope_to_boundary.lower);
   EXPECT_LE(coarse.envelope_to_boundary.lower, fine.envelope_to_boundary.upper);
+}
+
+TEST(EnvelopeDistance, NoBallsAreAnError) {
+  const Case solid(make_turned_torus());
+  EXPECT_EQ(measure_distances(*solid.solid, envelope_of({})).error().code, ErrorCode::kUsage);
 }
 
 TEST(SmallestBall, OfKnownPoints) {
