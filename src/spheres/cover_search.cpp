@@ -49,16 +49,40 @@ double CoverSearch::column(double height) const {
 }
 
 double CoverSearch::highest(std::uint32_t piece, std::uint32_t but) const {
-  double height = 0;
-  for (const Holder& holder : holders_[piece]) {
-    if (holder.ball != but) height = std::max(height, holder.height);
+  const Highest& two = highest_[piece];
+  return two[0].ball == but ? two[1].height : two[0].height;
+}
+
+void CoverSearch::add_holder(std::uint32_t piece, const Holder& holder) {
+  holders_[piece].push_back(holder);
+  Highest& two = highest_[piece];
+  if (holder.height > two[0].height) {
+    two = {holder, two[0]};
+  } else if (holder.height > two[1].height) {
+    two[1] = holder;
   }
+}
+
+/// Its height.
+double CoverSearch::remove_holder(std::uint32_t piece, std::uint32_t ball) {
+  std::vector<Holder>& holders = holders_[piece];
+  const auto at = std::find_if(holders.begin(), holders.end(), [ball](const Holder& h) { return h.ball == ball; });
+  const double height = at->height;
+  *at = holders.back();
+  holders.pop_back();
+  Highest& two = highest_[piece];
+  if (two[0].ball != ball && two[1].ball != ball) return height;
+  two = {};
+  std::vector<Holder> all;
+  all.swap(holders);
+  for (const Holder& holder : all) add_holder(piece, holder);
   return height;
 }
 
 void CoverSearch::recount() {
   touched_.assign(balls_.size(), {});
   holders_.assign(pieces_.size(), {});
+  highest_.assign(pieces_.size(), {});
   total_ = 0;
   std::vector<Ball> balls(balls_.size());
   balls.swap(balls_);
@@ -68,11 +92,8 @@ void CoverSearch::recount() {
 
 void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
   for (const std::uint32_t piece : touched_[i]) {
-    std::vector<Holder>& holders = holders_[piece];
-    const double rest = highest(piece, i);
-    const auto at = std::find_if(holders.begin(), holders.end(), [i](const Holder& h) { return h.ball == i; });
-    if (at->height > rest) total_ += cost_of(piece, rest) - cost_of(piece, at->height);
-    holders.erase(at);
+    const double height = remove_holder(piece, i), rest = highest(piece, i);
+    if (height > rest) total_ += cost_of(piece, rest) - cost_of(piece, height);
   }
   balls_[i] = ball;
   touched_[i].clear();
@@ -82,7 +103,7 @@ void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
     const double height = pieces_.area(piece) > 0 ? height_over(ball, pieces_.middle(piece), pieces_.normal(piece)) : 0;
     const double rest = highest(piece, i);
     if (height > rest) total_ += cost_of(piece, height) - cost_of(piece, rest);
-    holders_[piece].push_back({i, pieces_.needed(ball.centre, piece) <= ball.radius, height});
+    add_holder(piece, {i, pieces_.needed(ball.centre, piece) <= ball.radius, height});
   }
 }
 

@@ -37,10 +37,12 @@ class CoverSearch {
 
  private:
   struct Holder {
-    std::uint32_t ball;
-    bool holds;     ///< All of it, not only the middle.
-    double height;  ///< Of the column.
+    std::uint32_t ball = 0xffffffffu;
+    bool holds = false;  ///< All of it, not only the middle.
+    double height = 0;   ///< Of the column.
   };
+  /// The highest two of a piece's columns.
+  using Highest = std::array<Holder, 2>;
   /// What a ball was like when it had been moved.
   struct Slid {
     std::size_t alone = 0;
@@ -59,6 +61,8 @@ class CoverSearch {
   double cost_of(std::uint32_t piece, double height) const;
   double column(double height) const;
   double highest(std::uint32_t piece, std::uint32_t but) const;
+  void add_holder(std::uint32_t piece, const Holder& holder);
+  double remove_holder(std::uint32_t piece, std::uint32_t ball);
   /// Pieces that no other ball holds.
   std::vector<std::uint32_t> exclusive(std::uint32_t i) const;
   double needed(const Point& centre, const std::vector<std::uint32_t>& some) const;
@@ -80,6 +84,7 @@ class CoverSearch {
   unsigned threads_;
   std::vector<std::vector<std::uint32_t>> touched_;  // by ball: pieces whose middles it holds
   std::vector<std::vector<Holder>> holders_;         // by piece
+  std::vector<Highest> highest_;                     // by piece
   std::vector<Slid> slid_;
   double total_ = 0;
 };

@@ -19,17 +19,23 @@ namespace {
 /// Thrown where progress says stop.
 struct Interrupted {};
 
+/// With so few balls where they start decides more than what it costs to start twice, from finer pieces.
+constexpr std::size_t kFew = 64;
+
 /// Of the boundary: enough that what a piece sticks out of a ball does not count.
-std::size_t pieces_for(std::size_t balls) { return std::clamp<std::size_t>(16'000 + 24 * balls, 16'000, 60'000); }
+std::size_t pieces_for(std::size_t balls) {
+  return balls <= kFew ? 16'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
+}
+
+CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, unsigned threads) {
+  CoverPieces pieces(solid, pieces_for(balls.size()), threads);
+  return {std::move(pieces), std::move(balls), 0.1 * solid.diagonal(), threads};
+}
 
 class Cover {
  public:
   Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const SphereProgress& progress)
-      : solid_(solid),
-        threads_(threads),
-        progress_(progress),
-        search_(CoverPieces(solid, pieces_for(balls.size()), threads), std::move(balls), 0.1 * solid.diagonal(),
-                threads) {}
+      : solid_(solid), threads_(threads), progress_(progress), search_(search_for(solid, std::move(balls), threads)) {}
 
   /// Of the union, as far as the search has come.
   double search(double from, double until) {
@@ -172,10 +178,9 @@ std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t coun
   return balls;
 }
 
-/// With few balls where they start decides more than what it costs to start twice.
+/// The better of two, where balls are few.
 std::vector<Ball> cover_from_starts(const Solid& solid, std::vector<Ball> inside, unsigned threads,
                                     const SphereProgress& progress) {
-  constexpr std::size_t kFew = 64;
   constexpr std::size_t kStartPoints = 4000;
   const std::size_t count = inside.size();
   Cover first(solid, std::move(inside), threads, progress);
