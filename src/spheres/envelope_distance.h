@@ -30,9 +30,9 @@ struct DistanceOptions {
 };
 
 /// By branch and bound on functions that change no faster than the point moves (docs/theory.md, "Tight spheres"). Where
-/// the mesh is open, the solid is where its winding number is at least 1/2, and the surface that closes it is no part
-/// of the boundary; distances from and to the solid are then upper bounds only. Does not throw. Errors: kUsage (no
-/// balls, or those of measure_ball_union()), kOutOfMemory.
+/// the mesh is open, the surface that closes the solid is no part of the boundary: solid_to_balls then cannot leave out
+/// cells outside, so its bounds may stay far apart, and balls_to_solid takes a cell's side from its middle. Does not
+/// throw. Errors: kUsage (no balls), kOutOfMemory.
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options = {});
 
