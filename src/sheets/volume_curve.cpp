@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
+
+#include "output/svg_drawing.h"
 
 namespace medial_vk {
 namespace {
@@ -34,54 +37,42 @@ void append_rows(std::string& text, const char* order, const SheetRemoval& remov
 // Of the drawing, in its units.
 constexpr double kWidth = 640, kHeight = 400, kLeft = 64, kRight = 16, kTop = 40, kBottom = 52;
 
-/// A step of 1, 2 or 5 times a power of ten that divides `range` into at most eight parts.
-double tick_step(double range) {
-  const double power = std::pow(10, std::floor(std::log10(range / 8)));
-  for (const double times : {1.0, 2.0, 5.0}) {
-    if (range / (times * power) <= 8) return times * power;
-  }
-  return 10 * power;
-}
-
 class Drawing {
  public:
-  explicit Drawing(std::size_t sheets) : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))) {}
+  explicit Drawing(std::size_t sheets)
+      : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))), out_(kWidth, kHeight) {}
 
   void axes() {
     for (double share = 0; share <= 1.001; share += 0.2) {
       line(0, share, sheets_, share, "grid");
-      text(x(0) - 8, y(share) + 4, "end", fmt::format("{:.0f} %", 100 * share));
+      out_.text(x(0) - 8, y(share) + 4, "end", fmt::format("{:.0f} %", 100 * share));
     }
     const double step = std::max(1.0, tick_step(sheets_));
     for (double sheets = 0; sheets <= sheets_; sheets += step) {
       line(sheets, 0, sheets, 0.015, "axis");
-      text(x(sheets), y(0) + 18, "middle", fmt::format("{:.0f}", sheets));
+      out_.text(x(sheets), y(0) + 18, "middle", fmt::format("{:.0f}", sheets));
     }
     line(0, 0, sheets_, 0, "axis");
     line(0, 0, 0, 1, "axis");
-    text((x(0) + x(sheets_)) / 2, kHeight - 12, "middle", "number of sheets");
-    text(x(0), kTop - 16, "start", "share of the volume of the union of balls");
+    out_.text((x(0) + x(sheets_)) / 2, kHeight - 12, "middle", "number of sheets");
+    out_.text(x(0), kTop - 16, "start", "share of the volume of the union of balls");
   }
 
   void curve(const SheetRemoval& removal, const char* kind, const char* name, double name_height) {
-    out_ += fmt::format("<polyline class=\"{}\" points=\"", kind);
+    std::vector<std::pair<double, double>> points;
     for (const CurvePoint& point : points_of(removal)) {
-      out_ += fmt::format("{:.2f},{:.2f} ", x(static_cast<double>(point.sheets)), y(point.volume));
+      points.push_back({x(static_cast<double>(point.sheets)), y(point.volume)});
     }
-    out_.back() = '"';
-    out_ += "/>\n";
+    out_.curve(points, kind);
     const double legend = kWidth - kRight - 210;
-    out_ += fmt::format("<path class=\"{}\" d=\"M{} {}h24\"/>\n", kind, legend, y(name_height) - 4);
-    text(legend + 32, y(name_height), "start", name);
+    out_.key(legend, y(name_height) - 4, kind);
+    out_.text(legend + 32, y(name_height), "start", name);
   }
 
   std::string finish() const {
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n"
-        "<style>svg{{font:13px sans-serif;background:#fff;fill:#222}}"
-        ".grid{{stroke:#ddd}}.axis{{stroke:#222}}polyline,path{{fill:none;stroke-width:2}}"
-        ".significance{{stroke:#0072b2}}.topology{{stroke:#d55e00;stroke-dasharray:6 3}}</style>\n{2}</svg>\n",
-        kWidth, kHeight, out_);
+    return out_.finish(
+        "polyline,path{fill:none;stroke-width:2}"
+        ".significance{stroke:#0072b2}.topology{stroke:#d55e00;stroke-dasharray:6 3}");
   }
 
  private:
@@ -89,15 +80,11 @@ class Drawing {
   static double y(double share) { return kHeight - kBottom - (kHeight - kTop - kBottom) * share; }
 
   void line(double sheets_a, double share_a, double sheets_b, double share_b, const char* kind) {
-    out_ += fmt::format("<line class=\"{}\" x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\"/>\n", kind,
-                        x(sheets_a), y(share_a), x(sheets_b), y(share_b));
-  }
-  void text(double at_x, double at_y, const char* anchor, const std::string& words) {
-    out_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", at_x, at_y, anchor, words);
+    out_.line(x(sheets_a), y(share_a), x(sheets_b), y(share_b), kind);
   }
 
   double sheets_;
-  std::string out_;
+  SvgDrawing out_;
 };
 
 }  // namespace

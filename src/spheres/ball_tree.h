@@ -1,0 +1,72 @@
+// Distances from points to a union of balls, by a tree over the balls.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "medial_vk/queries.h"
+
+namespace medial_vk {
+
+/// The ball that a point is nearest to, or deepest in.
+struct NearestBall {
+  double distance = std::numeric_limits<double>::infinity();  ///< |p - c| - r: negative inside.
+  std::uint32_t ball = 0xffffffffu;                           ///< The smallest index among equals.
+};
+
+/// Answers with f(p) = min |p - c_i| - r_i: the distance to the union outside of it, 0 on its envelope, negative
+/// inside. f does not change faster than the point moves. Questions may come from several threads at once.
+class BallTree {
+ public:
+  struct Node {
+    Point lower, upper;  ///< Of the centres.
+    double least_radius, greatest_radius;
+    std::uint32_t first = 0, count = 0;  ///< Places in order().
+    std::uint32_t right = 0;             ///< Second child; the first follows its parent. 0: a leaf.
+  };
+
+  /// Copies the balls, at least one.
+  explicit BallTree(std::span<const Ball> balls);
+
+  NearestBall nearest(const Point& p) const;
+  /// Is the point in one of the balls by more than `depth`? Stops at the first.
+  bool holds(const Point& p, double depth = 0) const;
+  /// Indices of the balls with |p - c| - r <= limit, in no order that means anything, replace `found`.
+  void gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const;
+
+  const std::vector<Ball>& balls() const { return balls_; }  ///< As they came.
+  const std::vector<Node>& nodes() const { return nodes_; }  ///< Root first.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+
+  std::vector<Ball> balls_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+/// Of the box that a node's centres lie in.
+inline double distance_to_box(const BallTree::Node& node, const Point& p) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double out = std::max({node.lower[axis] - p[axis], p[axis] - node.upper[axis], 0.0});
+    sum += out * out;
+  }
+  return std::sqrt(sum);
+}
+
+inline double farthest_in_box(const BallTree::Node& node, const Point& p) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double out = std::max(std::fabs(p[axis] - node.lower[axis]), std::fabs(p[axis] - node.upper[axis]));
+    sum += out * out;
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,197 @@
+// Covers of many solids by few and by many balls: proved twice, deterministic, and no larger than they need be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cpu_reference/sphere_certificate.h"
+#include "mesh/point_ops.h"
+#include "spheres/dilation.h"
+#include "spheres/envelope_distance.h"
+#include "support/extraction.h"
+#include "support/reference_mesh.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using namespace test;
+
+std::vector<reference::UnionBall> to_reference(const std::vector<Ball>& balls) {
+  std::vector<reference::UnionBall> out;
+  for (const Ball& ball : balls) out.push_back({to_eigen(ball.centre), ball.radius});
+  return out;
+}
+
+/// The largest medial balls that do not hold each other's centres come first.
+std::vector<Ball> spread_balls(const PreparedMesh& mesh, std::size_t count) {
+  ExtractionParameters parameters;
+  parameters.resolution = 14;
+  parameters.extra_levels = 1;
+  const CertifiedExtraction found = std::move(extract_and_certify(mesh, parameters, Backend::kCpu, nullptr).value());
+  std::vector<Ball> all, chosen;
+  for (const MedialSphere& sphere : found.extraction.spheres) all.push_back({sphere.centre, sphere.radius});
+  while (chosen.size() < count && !all.empty()) {
+    std::size_t best = 0;
+    double most = -1e300;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      double away = 2 * all[i].radius;
+      for (const Ball& ball : chosen) away = std::min(away, length(ball.centre - all[i].centre) - 0.7 * ball.radius);
+      if (away > most) {
+        most = away;
+        best = i;
+      }
+    }
+    chosen.push_back(all[best]);
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  return chosen;
+}
+
+struct NamedMesh {
+  const char* name;
+  Mesh mesh;
+};
+
+std::vector<NamedMesh> solids() {
+  std::vector<NamedMesh> all = {{"box", make_box({2, 1, 0.3})},
+                                {"torus", make_turned_torus(40, 20)},
+                                {"l", make_l_shape(2, 0.6, 0.5)},
+                                {"cup", make_cup(1, 0.15, 1.5, 24)},
+                                {"plate", make_plate_with_hole(2, 0.2, 0.8)}};
+  Mesh two = make_sphere(1, 300), other = make_capsule(0.3, 2, 12);
+  translate(other, {3, 0, 0});
+  append(two, other);
+  all.push_back({"two parts", two});
+  Mesh hollow = make_sphere(1, 500), hole = make_sphere(0.7, 300);
+  turn_over(hole);
+  append(hollow, hole);
+  all.push_back({"hollow", hollow});
+  Mesh crossing = make_box({2, 1, 1}), bar = make_box({1, 1, 3});
+  translate(bar, {0.5, 0.3, -1});
+  append(crossing, bar);
+  all.push_back({"crossing", crossing});
+  for (NamedMesh& each : all) {
+    rotate(each.mesh, {1, 2, 0.5}, 0.7);
+    translate(each.mesh, {3, -5, 2});
+  }
+  return all;
+}
+
+TEST(SphereCover, CoversEverySolidWithAnyNumber) {
+  const std::vector<NamedMesh> all = solids();
+  for (const NamedMesh& each : all) {
+    const PreparedMesh mesh = prepare(each.mesh);
+    const Solid solid = std::move(Solid::build(mesh).value());
+    double before = 1e300;
+    for (const std::size_t count : {1u, 2u, 8u, 64u}) {
+      // Many balls take seconds: on every other solid.
+      if (count == 64 && (&each - all.data()) % 2 == 0) continue;
+      SCOPED_TRACE(std::string(each.name) + " with " + std::to_string(count));
+      const SphereSet inside = {spread_balls(mesh, count)};
+      ASSERT_FALSE(inside.balls.empty());
+      EXPECT_TRUE(prove_inside(solid, inside.balls).proved());
+      const SphereSet cover = cover_solid(solid, inside).value();
+      EXPECT_LE(cover.balls.size(), count);
+      EXPECT_TRUE(prove_cover(solid, cover.balls).value().proved());
+      const reference::Certificate checked =
+          reference::check_cover(test::to_reference(mesh), to_reference(cover.balls));
+      EXPECT_TRUE(checked.passed());
+      const double volume = measure_ball_union(cover.balls).value().volume;
+      if (solid.has_volume()) {
+        EXPECT_GT(volume, solid.volume());
+      }
+      EXPECT_LT(volume, 1.02 * before);
+      before = volume;
+      if (count == 1) {
+        // The smallest ball around everything: no other covers it.
+        const Envelope envelope = std::move(Envelope::build(cover.balls).value());
+        EXPECT_LT(measure_distances(solid, envelope).value().boundary_to_balls.upper, 1e-2 * solid.diagonal());
+      }
+    }
+  }
+}
+
+TEST(SphereCover, EveryBallAndItsSizeAreNeeded) {
+  const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const SphereSet cover = cover_solid(solid, {spread_balls(mesh, 16)}).value();
+  for (std::size_t i = 0; i < cover.balls.size(); ++i) {
+    std::vector<Ball> less = cover.balls;
+    less[i].radius -= 1e-3 * solid.diagonal();
+    EXPECT_FALSE(prove_cover(solid, less).value().proved()) << i;
+    less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_FALSE(prove_cover(solid, less).value().proved()) << i;
+    EXPECT_FALSE(reference::check_cover(test::to_reference(mesh), to_reference(less)).passed()) << i;
+  }
+}
+
+TEST(SphereCover, IsTheSameOnOneThread) {
+  const PreparedMesh mesh = prepare(make_turned_torus(40, 20));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const SphereSet inside = {spread_balls(mesh, 20)};
+  const SphereSet all = cover_solid(solid, inside).value(), one = cover_solid(solid, inside, 1).value();
+  ASSERT_EQ(all.balls.size(), one.balls.size());
+  for (std::size_t i = 0; i < all.balls.size(); ++i) {
+    EXPECT_EQ(all.balls[i].centre, one.balls[i].centre);
+    EXPECT_EQ(all.balls[i].radius, one.balls[i].radius);
+  }
+}
+
+TEST(SphereCover, AnyBallsWillDoAndNoneWillNot) {
+  const PreparedMesh mesh = prepare(make_box({2, 1, 0.3}));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const SphereSet far = {{{{50, 0, 0}, 0.1}, {{0, 0, 0}, 0}}};
+  EXPECT_TRUE(prove_cover(solid, cover_solid(solid, far).value().balls).value().proved());
+  EXPECT_EQ(cover_solid(solid, {}).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(cover_solid(solid, {{{{0, 0, std::nan("")}, 1}}}).error().code, ErrorCode::kUsage);
+  const auto stop = [](const char*, double) { return false; };
+  EXPECT_EQ(cover_solid(solid, far, 0, stop).error().code, ErrorCode::kInterrupted);
+}
+
+TEST(SphereCover, OfAnOpenMeshTheSurface) {
+  Mesh open = make_turned_torus(40, 20);
+  open.triangles.resize(open.triangles.size() - 30);
+  const PreparedMesh mesh = prepare(open);
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const SphereSet cover = cover_solid(solid, {spread_balls(mesh, 12)}).value();
+  const CoverProof proof = prove_cover(solid, cover.balls).value();
+  EXPECT_TRUE(proof.surface_proved());
+  EXPECT_EQ(proof.inside, 0u);
+  EXPECT_FALSE(proof.proved());
+}
+
+TEST(Balance, ReachesTheBoundaryAtVerticesAndOnLoneCircles) {
+  // Two balls on the axis of a capsule: one circle, no vertex. It grows to the wall.
+  const PreparedMesh mesh = prepare(make_capsule(1, 2, 64));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const SphereSet inside = {{{{0, 0, -0.5}, 0.99}, {{0, 0, 0.5}, 0.99}}};
+  const SphereSet grown = balance(solid, inside).value();
+  ASSERT_EQ(grown.balls.size(), 2u);
+  for (const Ball& ball : grown.balls) EXPECT_NEAR(ball.radius, std::hypot(1, 0.5), 0.01);
+  // Balls of a box: each vertex of the envelope's nearest boundary point is held by those that make the vertex.
+  const PreparedMesh box = prepare(make_box({2, 1, 1}));
+  const Solid block = std::move(Solid::build(box).value());
+  const SphereSet balls = {spread_balls(box, 12)};
+  const SphereSet more = balance(block, balls).value();
+  BallUnionOptions options;
+  options.complex = true;
+  const BallUnion before = measure_ball_union(balls.balls, options).value();
+  ASSERT_FALSE(before.vertices.empty());
+  for (const EnvelopeVertex& vertex : before.vertices) {
+    const Point target = block.closest(vertex.at).point;
+    for (const std::uint32_t i : vertex.balls) {
+      EXPECT_LE(length(target - more.balls[i].centre), more.balls[i].radius * (1 + 1e-12));
+    }
+  }
+  // No ball reaches farther beyond the boundary than it grew.
+  const Envelope envelope = std::move(Envelope::build(more.balls).value());
+  double most = 0;
+  for (std::size_t i = 0; i < balls.balls.size(); ++i) {
+    EXPECT_GE(more.balls[i].radius, balls.balls[i].radius);
+    most = std::max(most, more.balls[i].radius - balls.balls[i].radius);
+  }
+  EXPECT_LE(measure_distances(block, envelope).value().balls_to_solid.lower, most + 1e-9);
+}
+
+}  // namespace
+}  // namespace medial_vk
