@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "cpu_reference/sphere_certificate.h"
+#include "medial/reference_bridge.h"
 #include "medial/stopwatch.h"
 #include "medial_vk/ball_union.h"
 #include "mesh/point_ops.h"
@@ -169,13 +171,39 @@ class Fitting {
   /// In the frame of the part, where what the contract says is proved.
   Status measure(const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
     const std::vector<Ball>& balls = sets.back().balls;
-    // Joins here: measure_spheres(solid, balls, ...), with proofs, into the fit.
-    if (solid.has_volume()) fit.solid_volume = solid.volume();
-    const Result<BallUnion> measured = measure_ball_union(balls, {goals_.request.threads, false});
+    Result<SphereMeasures> measured = measure_spheres(solid, balls, {.threads = goals_.request.threads});
     if (!measured) return measured.error();
-    fit.spheres_volume = measured.value().volume;
+    fit.measures = std::move(measured).value();
+    if (Status status = check_promise(*fit.measures); !status) return status;
+    if (solid.has_volume()) fit.solid_volume = solid.volume();
+    fit.spheres_volume = fit.measures->volume.balls;
+    if (goals_.check) fit.certificate = check_by_reference(solid.mesh(), balls);
     for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
     return {};
+  }
+
+  /// Better no spheres than some that do not keep what they promise.
+  Status check_promise(const SphereMeasures& measures) const {
+    const InsideProof& inside = measures.inside;
+    if (goals_.request.contract == SphereContract::kInside && !inside.proved()) {
+      return Error{ErrorCode::kInternal,
+                   fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}; nothing was written",
+                               inside.failed, inside.tested, inside.worst)};
+    }
+    if (goals_.request.contract == SphereContract::kCover && !measures.cover.surface_proved()) {
+      return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid; nothing was written"};
+    }
+    return {};
+  }
+
+  reference::Certificate check_by_reference(const PreparedMesh& mesh, const std::vector<Ball>& balls) const {
+    std::vector<reference::UnionBall> copies;
+    for (const Ball& ball : balls) {
+      copies.push_back({{ball.centre[0], ball.centre[1], ball.centre[2]}, ball.radius});
+    }
+    const bool cover = goals_.request.contract == SphereContract::kCover;
+    return cover ? reference::check_cover(to_reference(mesh), copies)
+                 : reference::check_inside(to_reference(mesh), copies);
   }
 
   /// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "cpu_reference/certificate.h"
 #include "robots/parts.h"
+#include "spheres/measures.h"
 #include "spheres/reach_out.h"
 #include "spheres/sphere_set.h"
 
@@ -18,6 +20,7 @@ struct FitGoals {
   std::size_t count_per_link = 0;  ///< Shared out among the parts of each link; 0: not given.
   std::size_t total = 0;           ///< Shared out among all parts; 0: not given.
   bool levels = false;             ///< Also sets of half, a quarter ... of the balls.
+  bool check = false;              ///< Also ask the CPU reference whether the contract is kept.
 };
 
 /// What one part came to.
@@ -29,6 +32,9 @@ struct PartFit {
   std::size_t wanted = 0;                ///< Balls that it was given; 0: as many as its other goals took.
   std::optional<double> solid_volume;    ///< Of its mesh or ball, if the mesh encloses one cleanly.
   std::optional<double> spheres_volume;  ///< Of the union of the last level.
+  // Of the last level, too; in the frame of the part, where its contract is proved. Not of parts that are balls.
+  std::optional<SphereMeasures> measures;
+  std::optional<reference::Certificate> certificate;  ///< If it was asked for.
   double seconds = 0;
 };
 
@@ -37,7 +43,8 @@ using FitProgress = std::function<bool(const Part& part, double done)>;
 
 /// `contract` inside: no ball is outside its part, even by the rounding of its pose. A goal that is shared out is so by
 /// need (robots/share_out.h): error against count is measured on sets of an equal share first. Errors: those of
-/// approximate_by_spheres(), naming link and part; kUsage if a link has more parts than balls.
+/// approximate_by_spheres() and measure_spheres(), naming link and part; kUsage if a link has more parts than balls;
+/// kInternal if balls do not keep the contract, for which no reason is known.
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, Backend backend,
                                        Context* context, const FitProgress& progress = {});
 

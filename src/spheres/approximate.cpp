@@ -6,6 +6,7 @@
 
 #include "spheres/approximate.h"
 #include "spheres/best_method.h"
+#include "spheres/dilation.h"
 #include "spheres/prefixes.h"
 #include "spheres/source_method.h"
 
@@ -27,23 +28,26 @@ Result<SphereSet> inside_spheres(const Solid& solid, const SphereRequest& reques
 }
 
 /// The set as the contract wants it.
-Result<SphereSet> keep_contract(const Solid&, SphereSet inside, const SphereRequest& request, const SphereProgress&) {
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereRequest& request,
+                                const SphereProgress& progress) {
   switch (request.contract) {
     case SphereContract::kInside:
-      return inside;
-    case SphereContract::kCover:
-      // Joins here: return cover_solid(solid, std::move(inside), request.threads, progress);
-    case SphereContract::kBalanced:
-      // Joins here: return balance(solid, std::move(inside), request.threads, progress);
       break;
+    case SphereContract::kCover:
+      return cover_solid(solid, std::move(inside), request.threads, progress);
+    case SphereContract::kBalanced:
+      return balance(solid, std::move(inside), request.threads);
   }
-  return usage("this build knows the contract inside only; use --contract inside");
+  return inside;
 }
 
 Status check_request(const SphereRequest& request) {
   const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
   if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
     return usage("an error is a share below 1, and a gap a length; neither is negative");
+  }
+  if (request.contract != SphereContract::kInside && (request.error > 0 || request.max_gap > 0)) {
+    return usage("an error or a gap is a goal for balls inside; for the other contracts say how many");
   }
   return {};
 }

@@ -128,7 +128,7 @@ class Placing {
     const Point inside = outer.size > inner.size ? outer.towards_balls : inner.at;
     if (outer.size > inner.size && !solid_.contains(inside)) return std::nullopt;
     const Ball ball = maximal_ball(solid_, inside);
-    return ball.radius > 0 ? std::optional(ball) : std::nullopt;
+    return ball.radius > 0 && stays_inside(ball) ? std::optional(ball) : std::nullopt;
   }
 
   Status place(const Candidates::Choice& choice) {
@@ -165,9 +165,8 @@ class Placing {
       step /= 4;
       return 0.0;
     }
-    // Within the ball, so within the solid.
     const Ball moved = maximal_ball(solid_, ball.centre + move);
-    if (!(moved.radius > 0)) {
+    if (!(moved.radius > 0) || !stays_inside(moved)) {
       step /= 2;
       return 0.0;
     }
@@ -183,6 +182,9 @@ class Placing {
     step = std::min(1.3 * step, kLongestStep * moved.radius);
     return gain;
   }
+
+  /// Without a hole in the boundary, growing and sliding within empty balls leads nowhere else.
+  bool stays_inside(const Ball& moved) const { return solid_.mesh().report.closed || solid_.contains(moved.centre); }
 
   void note_change() {
     for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);

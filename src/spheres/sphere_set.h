@@ -31,8 +31,8 @@ struct SphereRequest {
   double error = 0;              ///< Uncovered share of the solid's volume; 0: no such goal.
   double max_gap = 0;            ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
   std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionParameters; 0: by the count.
-  double object_angle = 0.6;
-  unsigned threads = 0;  ///< 0: all. The result does not depend on it.
+  double object_angle = 0.6;     ///< Of the method source.
+  unsigned threads = 0;          ///< 0: all. The result does not depend on it.
 };
 
 struct SphereSet {

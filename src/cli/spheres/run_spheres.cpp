@@ -15,8 +15,10 @@
 #include "cli/spheres/spheres_options.h"
 #include "cli/spheres/spheres_picture.h"
 #include "cli/spheres/spheres_record.h"
+#include "cli/tables.h"
 #include "medial/stopwatch.h"
 #include "output/atomic_file.h"
+#include "output/file_extension.h"
 #include "output/picture.h"
 #include "output/version.h"
 #include "robots/read_urdf.h"
@@ -42,13 +44,13 @@ class SpheresRun {
     if (Status status = write_files(files_); !status) return status;
     if (!options_.quiet) print_message(spheres_summary(options_, record_, files_));
     if (options_.verbose) print_message(spheres_details(options_, record_));
-    return {};
+    return conclude();
   }
 
  private:
   /// Better now than after an hour of work.
   Status check_outputs() const {
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture}) {
+    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.histogram}) {
       if (path->empty()) continue;
       if (Status status = check_writable(*path); !status) return status;
     }
@@ -106,7 +108,7 @@ class SpheresRun {
 
   Status fit() {
     Stopwatch stopwatch;
-    const FitGoals goals = {options_.request, options_.count_per_link, options_.total, options_.levels};
+    const FitGoals goals = {options_.request, options_.count_per_link, options_.total, options_.levels, options_.check};
     const FitProgress on_progress = [this](const Part&, double done) {
       progress_.update("spheres", done);
       return !interrupted();
@@ -128,6 +130,7 @@ class SpheresRun {
     if (!bytes) return bytes.error();
     files_.push_back({options_.output, std::move(bytes).value()});
     if (Status status = draw(); !status) return status;
+    draw_histogram();
     if (!options_.report.empty()) files_.push_back({options_.report, spheres_report(options_, record_)});
     return {};
   }
@@ -162,6 +165,28 @@ class SpheresRun {
     files_.push_back({options_.picture, std::move(png).value()});
     record_.times.push_back({"picture", stopwatch.lap()});
     return {};
+  }
+
+  void draw_histogram() {
+    if (options_.histogram.empty()) return;
+    const SphereMeasures& measures = *record_.fits.front().measures;
+    const bool as_table = file_extension(options_.histogram) == ".csv";
+    files_.push_back(
+        {options_.histogram, as_table ? encode_histograms_csv(measures) : encode_histograms_svg(measures)});
+  }
+
+  /// All parts in one table, a row for each condition.
+  Status conclude() const {
+    if (!options_.check) return {};
+    const reference::Certificate certificate = joint_certificate(record_);
+    const std::string table = certificate_table(certificate);
+    const bool taken = std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
+    if (taken) {
+      print_message(table);
+    } else if (Status status = print_result(table); !status) {
+      return status;
+    }
+    return verdict(certificate);
   }
 
   const SpheresOptions& options_;

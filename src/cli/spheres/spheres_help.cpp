@@ -42,8 +42,8 @@ What they promise:
       --resolution N    voxels along the longest side for the spheres to choose
                         from, 1 to 4096 (default: by the count); with --method
                         source it stands for the count
-      --object-angle A  smallest object angle of medial spheres, radians,
-                        between 0 and pi/2 (default 0.6)
+      --object-angle A  of --method source: smallest object angle of medial
+                        spheres, radians, between 0 and pi/2 (default 0.6)
 
 Robots:
       --collision       the links' <collision> geometry (default)
@@ -64,7 +64,12 @@ Output:
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of the picture: x, y, z, -x, -y or -z (default y; robots
                         want z)
+      --histogram FILE  .svg or .csv: how far surface and spheres are apart, by
+                        area (of a mesh)
       --report FILE     everything about the run as JSON; "-": standard output
+
+      --check           ask the independent CPU reference, too, whether the
+                        promise is kept; exit code 7 if not
 
 Where it runs:
       --backend B       vulkan (default), or cpu, which needs no Vulkan
@@ -74,7 +79,7 @@ Where it runs:
 
 Other:
   -q, --quiet           only errors
-  -v, --verbose         a line for each link
+  -v, --verbose         a line for each link; of a mesh, all measures
   -h, --help            print this and exit
 
 Spheres are in the units of the mesh; of a robot in metres, in the frame of
@@ -82,7 +87,7 @@ their link. Files appear whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage or a goal that cannot be
 met, 3 mesh or robot unreadable or invalid, 4 no usable Vulkan device, 5 out of
-memory, 6 cannot write, 130 interrupted.
+memory, 6 cannot write, 7 --check failed, 130 interrupted.
 )";
 }
 

@@ -58,6 +58,8 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);
   add.text("--report", "file", options.report);
   add.text("--picture", "file", options.picture);
+  add.text("--histogram", "file", options.histogram);
+  add.flag("--check", options.check);
   add.view("--view", given.view);
   add.up("--up", options.view.up);
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
@@ -76,6 +78,9 @@ Status check_input(SpheresOptions& options, const Given& given) {
         fmt::format("'{}' is a macro for URDF: expand it first, xacro {} > robot.urdf", options.input, options.input));
   }
   options.is_robot = extension == ".urdf";
+  if (options.is_robot && !options.histogram.empty()) {
+    return usage_error("--histogram is about the surface of one mesh; of a robot, give the meshes one by one");
+  }
   if (options.is_robot) return {};
   const std::pair<const char*, bool> of_robots[] = {{"--count-per-link", options.count_per_link > 0},
                                                     {"--total", options.total > 0},
@@ -136,12 +141,20 @@ Status complete_files(SpheresOptions& options, const Given& given) {
     return usage_error("--view and --up are about the picture: use them with --picture FILE.png");
   }
   options.view = view_of(given.view, options.view.up);
-  const NamedOutput outputs[] = {
-      {"--output", &options.output}, {"--report", &options.report}, {"--picture", &options.picture}};
+  if (!may_end_in(options.histogram, ".svg") && !may_end_in(options.histogram, ".csv")) {
+    return usage_error(fmt::format("--histogram: '{}' ends in neither .svg nor .csv", options.histogram));
+  }
+  const NamedOutput outputs[] = {{"--output", &options.output},
+                                 {"--report", &options.report},
+                                 {"--picture", &options.picture},
+                                 {"--histogram", &options.histogram}};
   return check_outputs_differ(outputs, options.input);
 }
 
 Status check_combinations(const SpheresOptions& options, const Given& given) {
+  if (options.check && options.request.contract == SphereContract::kBalanced) {
+    return usage_error("--check: spheres of the contract balanced promise nothing that could be checked");
+  }
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (options.visual && given.collision) return usage_error("--collision and --visual cannot be used together");
   if (options.backend == Backend::kCpu && !options.device.empty()) {

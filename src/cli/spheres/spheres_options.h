@@ -29,12 +29,14 @@ struct SpheresOptions {
   bool visual = false;                ///< Of a robot: its visual geometry instead of that for collisions.
   std::vector<std::string> packages;  ///< "name=folder".
 
-  std::string report;   ///< Empty: none; "-": standard output.
-  std::string picture;  ///< The same.
+  std::string report;     ///< Empty: none; "-": standard output.
+  std::string picture;    ///< The same.
+  std::string histogram;  ///< The same.
   PictureView view;
 
   Backend backend = Backend::kVulkan;
   std::string device;
+  bool check = false;
   bool quiet = false;
   bool verbose = false;
 };

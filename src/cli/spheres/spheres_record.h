@@ -31,6 +31,9 @@ std::size_t count_spheres(const SpheresRecord& record);
 std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract);
 std::optional<double> uncovered_share(const SpheresRecord& record, SphereContract contract);
 
+/// Of all parts, one line for each condition; `first_failure` names the link.
+reference::Certificate joint_certificate(const SpheresRecord& record);
+
 /// One line before the work: what was read, where it runs.
 std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& record);
 /// A few lines at the end; `files` have been written.

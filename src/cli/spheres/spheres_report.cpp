@@ -30,7 +30,6 @@ Json part_json(const SpheresOptions& options, const Part& part, const PartFit& f
   const ReachOut& reach = fit.reach.back();
   Json counts = Json::array();
   for (const std::vector<Ball>& level : fit.levels) counts.push_back(level.size());
-  // Joins here: the measures and the certificate of the part.
   return {{"link", part.link},
           {"geometry", part.name},
           {"triangles", part.mesh.report.triangles},
@@ -43,6 +42,8 @@ Json part_json(const SpheresOptions& options, const Part& part, const PartFit& f
           {"solid_volume", or_null(fit.solid_volume)},
           {"spheres_volume", or_null(fit.spheres_volume)},
           {"volume_error", or_null(uncovered_share(fit, options.request.contract))},
+          {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},
+          {"check", fit.certificate ? Json(fit.certificate->passed() ? "passed" : "failed") : Json(nullptr)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.best}, {"worst", reach.worst}}},
           {"seconds", fit.seconds}};
 }

@@ -43,6 +43,42 @@ std::string promise(SphereContract contract) {
   return "balanced";
 }
 
+/// What is proved of every set, whose proofs fit_parts() has demanded.
+std::string certificate_text(SphereContract contract, const SpheresRecord& record) {
+  std::uint64_t spheres = 0, triangles = 0;
+  bool closed = true;
+  double farthest = 0;
+  for (const PartFit& fit : record.fits) {
+    if (!fit.measures) continue;
+    spheres += fit.measures->inside.tested;
+    triangles += fit.measures->cover.triangles;
+    closed &= fit.measures->cover.closed;
+    farthest = std::max(farthest, fit.measures->distances.balls_to_solid.upper);
+  }
+  switch (contract) {
+    case SphereContract::kInside:
+      return fmt::format("{} with centre inside and radius at most the exact distance",
+                         counted(spheres, "sphere", "spheres"));
+    case SphereContract::kCover:
+      return fmt::format("{} covered piece by piece{}", counted(triangles, "triangle", "triangles"),
+                         closed ? ", no hole within" : "; the mesh is open: its surface only");
+    case SphereContract::kBalanced:
+      break;
+  }
+  return fmt::format("no sphere reaches out by more than {:.4g}", farthest);
+}
+
+/// The greatest of all parts, as proved.
+std::string gap_text(const SpheresRecord& record) {
+  double gap = 0, share = 0;
+  for (const PartFit& fit : record.fits) {
+    if (!fit.measures) continue;
+    gap = std::max(gap, fit.measures->distances.boundary_to_balls.upper);
+    share = std::max(share, fit.measures->distances.boundary_to_balls.upper / fit.measures->diagonal);
+  }
+  return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
+}
+
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "-"; }
 
 double seconds(const SpheresRecord& record) {
@@ -82,6 +118,27 @@ std::optional<double> uncovered_share(const SpheresRecord& record, SphereContrac
   return 1 - spheres / solid;
 }
 
+reference::Certificate joint_certificate(const SpheresRecord& record) {
+  reference::Certificate joint;
+  for (std::size_t i = 0; i < record.fits.size(); ++i) {
+    if (!record.fits[i].certificate) continue;
+    for (const reference::CertificateLine& line : record.fits[i].certificate->lines) {
+      const auto same = std::ranges::find(joint.lines, line.condition, &reference::CertificateLine::condition);
+      if (same == joint.lines.end()) {
+        joint.lines.push_back(line);
+        continue;
+      }
+      if (same->failed == 0 && line.failed > 0) {
+        same->first_failure = fmt::format("{}: {}", printable(record.parts[i].link), line.first_failure);
+      }
+      same->tested += line.tested;
+      same->failed += line.failed;
+      same->worst = std::max(same->worst, line.worst);
+    }
+  }
+  return joint;
+}
+
 std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& record) {
   std::uint64_t triangles = 0;
   for (const Part& part : record.parts) triangles += part.mesh.report.triangles;
@@ -110,7 +167,7 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   if (options.levels) spheres += fmt::format(", in {} levels", record.fits.front().levels.size());
   std::string text = line("spheres", spheres);
   text += line("contract", promise(request.contract));
-  // Joins here: the measures of the set (Hausdorff distance, coverage, gaps ...).
+  text += line("certified", certificate_text(request.contract, record));
   if (const std::optional<double> error = uncovered_share(record, request.contract)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
   }
@@ -122,6 +179,7 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
                                                                         : "filled with facets that fall short by up to",
                              facets));
   }
+  text += line("gap", gap_text(record));
   text += line("time", duration(seconds(record)));
   for (const OutputFile& file : files) {
     const std::string name = file.path == "-" ? "standard output" : file.path;
@@ -138,7 +196,9 @@ std::string spheres_details(const SpheresOptions& options, const SpheresRecord& 
     rows.push_back({printable(record.parts[i].link), printable(record.parts[i].name), grouped(fit.levels.back().size()),
                     percent(uncovered_share(fit, options.request.contract)), duration(fit.seconds)});
   }
-  return format_table(columns, rows);
+  std::string text = format_table(columns, rows);
+  if (record.fits.size() == 1 && record.fits.front().measures) text += measures_text(*record.fits.front().measures);
+  return text;
 }
 
 }  // namespace medial_vk::cli
