@@ -37,6 +37,14 @@ Result<Solid> Solid::build(const PreparedMesh& mesh, unsigned threads) {
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh_.closest(p).squared_distance); }
 
+bool Solid::contains(const Point& p) const {
+  // The tree is wrong by 0.03 at worst: of a closed mesh enough for the integer, of others not near 1/2.
+  constexpr double kDoubt = 0.05;
+  const double winding = winding_->at(p);
+  if (mesh_->report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
+  return exact_winding_number(mesh_->mesh, p) >= 0.5;
+}
+
 double Solid::diagonal() const { return length(mesh_->report.upper - mesh_->report.lower); }
 
 bool Solid::has_volume() const {

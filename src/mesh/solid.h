@@ -26,9 +26,8 @@ class Solid {
   /// To the boundary, within rounding() of the exact distance.
   double distance(const Point& p) const;
   double rounding() const { return rounding_; }
-  /// By the winding number, 1/2 and more being inside; near the boundary of an ordinary mesh (closer than rounding())
-  /// either answer may come.
-  bool contains(const Point& p) const { return winding_->at(p) >= 0.5; }
+  /// By the winding number, 1/2 and more being inside; closer to the boundary than rounding() either answer may come.
+  bool contains(const Point& p) const;
   /// Of the bounding box.
   double diagonal() const;
   /// Does the mesh bound the solid and nothing else, so that its signed volume is the solid's? (Closed, and no face

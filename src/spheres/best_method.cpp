@@ -9,6 +9,7 @@
 
 #include "mesh/point_ops.h"
 #include "spheres/candidates.h"
+#include "spheres/envelope_distance.h"
 #include "spheres/gaps.h"
 #include "spheres/maximal_ball.h"
 #include "spheres/prefixes.h"
@@ -23,12 +24,15 @@ struct Level {
   std::uint32_t resolution;
 };
 constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
-// Balls of smaller object angles fill the edges; below, their number grows and what they add does not.
-constexpr double kObjectAngle = 0.3;
+// Balls of smaller object angles fill the edges; below, their number grows and what they add does not. Where normals
+// are not relied on, small angles dismiss hardly any voxel (docs/theory.md, Lemma C), and looking for them takes
+// minutes.
+constexpr double kObjectAngle = 0.3, kObjectAngleOfMessyMeshes = 0.6;
 
 constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
 constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
 constexpr std::size_t kMostBalls = 20000;  // if no count is given
+constexpr double kGapTolerance = 0.01;     // of the bounds of the greatest gap, as a share of the one wanted
 
 /// Step lengths of sliding, in radii of the ball.
 constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05, kLongestStep = 0.5, kShortestStep = 1e-3;
@@ -46,11 +50,16 @@ class Placing {
         progress_(progress),
         balls_(std::move(balls)),
         slider_(solid),
-        gaps_(solid, balls_) {}
+        gaps_(solid, balls_),
+        sampled_gap_(request.max_gap) {}
 
   Result<SphereSet> run() {
     const std::size_t most = request_.count > 0 ? request_.count : kMostBalls;
-    while (balls_.size() < most && !goals_met()) {
+    for (;;) {
+      const Result<bool> met = goals_met();
+      if (!met) return met.error();
+      if (met.value()) return result();
+      if (balls_.size() == most) break;
       if (Status status = find_candidates(); !status.ok()) return status.error();
       Result<std::optional<Candidates::Choice>> choice = choose();
       if (!choice) return choice.error();
@@ -59,7 +68,7 @@ class Placing {
       if (progress_ && !progress_("spheres", share_done(most))) return Error{ErrorCode::kInterrupted, "stopped"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
-    if (has_goals() && !goals_met()) return unmet();
+    if (has_goals()) return unmet();
     return result();
   }
 
@@ -67,10 +76,23 @@ class Placing {
   bool has_goals() const { return request_.error > 0 || request_.max_gap > 0; }
   double uncovered() const { return 1 - volume_ / solid_.volume(); }
 
-  bool goals_met() {
+  Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
     if (request_.error > 0 && !(uncovered() <= request_.error)) return false;
-    return request_.max_gap == 0 || gaps_.widest_on_boundary().size <= request_.max_gap;
+    return request_.max_gap > 0 ? gap_met() : true;
+  }
+
+  /// Samples say when to ask for a proof; one that fails says how much lower they must be.
+  Result<bool> gap_met() {
+    const double sampled = gaps_.widest_on_boundary().size;
+    if (!(sampled <= sampled_gap_)) return false;
+    const double tolerance = kGapTolerance * request_.max_gap / solid_.diagonal();
+    const Result<Bounds> gap =
+        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = request_.threads});
+    if (!gap) return gap.error();
+    if (gap.value().upper <= request_.max_gap) return true;
+    sampled_gap_ = std::min(sampled, sampled * request_.max_gap / gap.value().upper);
+    return false;
   }
 
   double share_done(std::size_t most) const {
@@ -97,13 +119,16 @@ class Placing {
     ++levels_;
     ExtractionParameters parameters;
     parameters.resolution = resolution;
-    parameters.object_angle = kObjectAngle;
+    const MeshReport& report = solid_.mesh().report;
+    parameters.object_angle = report.trusted_triangles == report.triangles ? kObjectAngle : kObjectAngleOfMessyMeshes;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
         extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);
     if (!found) return found.error();
     std::vector<Ball> balls;
-    for (const MedialSphere& s : found.value().extraction.spheres) balls.push_back({s.centre, s.radius});
+    for (const MedialSphere& s : found.value().extraction.spheres) {
+      if (const Ball ball = {s.centre, s.radius}; stays_inside(ball)) balls.push_back(ball);
+    }
     candidates_.add(balls);
     return {};
   }
@@ -183,16 +208,22 @@ class Placing {
     return gain;
   }
 
-  /// Without a hole in the boundary, growing and sliding within empty balls leads nowhere else.
-  bool stays_inside(const Ball& moved) const { return solid_.mesh().report.closed || solid_.contains(moved.centre); }
+  /// Without a hole in the boundary, growing and sliding within empty balls leads nowhere else; near a hole the winding
+  /// number decides, and every evaluation has its own rounding.
+  bool stays_inside(const Ball& ball) const { return solid_.mesh().report.closed || solid_.contains(ball.centre); }
 
   void note_change() {
     for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
   }
 
+  std::vector<Ball> all_balls() const {
+    std::vector<Ball> all;
+    for (std::uint32_t place = 0; place < balls_.places(); ++place) all.push_back(balls_.ball(place));
+    return all;
+  }
+
   Result<SphereSet> result() const {
-    SphereSet set;
-    for (std::uint32_t place = 0; place < balls_.places(); ++place) set.balls.push_back(balls_.ball(place));
+    SphereSet set = {all_balls()};
     if (Status status = order_by_share(set.balls, request_.threads); !status.ok()) return status.error();
     return set;
   }
@@ -208,6 +239,7 @@ class Placing {
   GapFinder gaps_;
   std::size_t levels_ = 0;
   double volume_ = 0;
+  double sampled_gap_;         // what samples must show before a proof is tried
   std::vector<double> steps_;  // by place
 };
 

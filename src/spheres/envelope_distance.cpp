@@ -103,6 +103,15 @@ class Measure {
     return d;
   }
 
+  Bounds boundary_to_balls() const {
+    const auto evaluate = [&](const Piece& piece, double) -> CellBounds {
+      const Point middle = piece.middle();
+      const NearestBall nearest = tree_.nearest(middle);
+      return {nearest.distance, bound_over(piece, middle, nearest)};
+    };
+    return rounded(bound_supremum(pieces_, 0, limits_, evaluate, split_piece), slack_);
+  }
+
  private:
   Bounds rounded(const Bounds& bounds, double slack) const {
     return {std::max(0.0, bounds.lower - slack), bounds.upper + slack};
@@ -112,15 +121,6 @@ class Measure {
   double bound_over(const Piece& piece, const Point& middle, const NearestBall& nearest) const {
     const Ball& ball = tree_.balls()[nearest.ball];
     return std::min(nearest.distance + piece.reach(middle), piece.reach(ball.centre) - ball.radius);
-  }
-
-  Bounds boundary_to_balls() const {
-    const auto evaluate = [&](const Piece& piece, double) -> CellBounds {
-      const Point middle = piece.middle();
-      const NearestBall nearest = tree_.nearest(middle);
-      return {nearest.distance, bound_over(piece, middle, nearest)};
-    };
-    return rounded(bound_supremum(pieces_, 0, limits_, evaluate, split_piece), slack_);
   }
 
   Bounds solid_to_balls(double lower) const {
@@ -234,13 +234,29 @@ Bounds EnvelopeDistances::between_sets() const { return greater(solid_to_balls, 
 
 Bounds EnvelopeDistances::between_surfaces() const { return greater(boundary_to_envelope, envelope_to_boundary); }
 
+namespace {
+
+const Error kNoMemory = {ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
+
+}  // namespace
+
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options) {
   if (envelope.tree().balls().empty()) return Error{ErrorCode::kUsage, "no balls to measure the distance of"};
   try {
     return Measure(solid, envelope, options).all();
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
+    return kNoMemory;
+  }
+}
+
+Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const DistanceOptions& options) {
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads);
+  if (!envelope) return envelope.error();
+  try {
+    return Measure(solid, envelope.value(), options).boundary_to_balls();
+  } catch (const std::bad_alloc&) {
+    return kNoMemory;
   }
 }
 

@@ -36,4 +36,8 @@ struct DistanceOptions {
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options = {});
 
+/// EnvelopeDistances::boundary_to_balls alone. Errors: also those of measure_ball_union().
+Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls,
+                                    const DistanceOptions& options = {});
+
 }  // namespace medial_vk
