@@ -24,10 +24,9 @@ struct Level {
   std::uint32_t resolution;
 };
 constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
-// Balls of smaller object angles fill the edges; below, their number grows and what they add does not. Where normals
-// are not relied on, small angles dismiss hardly any voxel (docs/theory.md, Lemma C), and looking for them takes
-// minutes.
-constexpr double kObjectAngle = 0.3, kObjectAngleOfMessyMeshes = 0.6;
+// Balls of smaller object angles come from the vertices of the envelope: to look for all of them takes minutes where
+// triangles are large or their normals are not relied on.
+constexpr double kObjectAngle = 0.6;
 
 constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
 constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
@@ -119,8 +118,7 @@ class Placing {
     ++levels_;
     ExtractionParameters parameters;
     parameters.resolution = resolution;
-    const MeshReport& report = solid_.mesh().report;
-    parameters.object_angle = report.trusted_triangles == report.triangles ? kObjectAngle : kObjectAngleOfMessyMeshes;
+    parameters.object_angle = kObjectAngle;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
         extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);
@@ -177,7 +175,20 @@ class Placing {
       }
       if (sum <= kEnough * choice.gain) break;
     }
+    add_candidates_at_vertices(around);
     return {};
+  }
+
+  /// What a ball leaves uncovered beside its neighbours lies around their common points.
+  void add_candidates_at_vertices(std::span<const std::uint32_t> around) {
+    std::vector<Ball> balls;
+    for (const std::uint32_t place : around) {
+      const std::optional<Point> vertex = gaps_.deepest_vertex(place);
+      if (!vertex) continue;
+      const Ball ball = maximal_ball(solid_, *vertex);
+      if (ball.radius > 0 && stays_inside(ball)) balls.push_back(ball);
+    }
+    candidates_.add(balls);
   }
 
   /// One step, taken if the union grows, and by how much.

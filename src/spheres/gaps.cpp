@@ -86,23 +86,32 @@ GapFinder::Gap GapFinder::widest_on_boundary() {
   return widest;
 }
 
-GapFinder::Gap GapFinder::deepest_vertex() {
+const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   known_.resize(balls_.places(), 0);
   deepest_.resize(balls_.places());
+  Gap& deepest = deepest_[place];
+  if (known_[place]) return deepest;
+  deepest = {};
+  for (const Point& vertex : balls_.vertices(place)) {
+    const double depth = solid_.distance(vertex);
+    if (depth > deepest.size) deepest = {vertex, depth, {}};
+  }
+  known_[place] = 1;
+  return deepest;
+}
+
+GapFinder::Gap GapFinder::deepest_vertex() {
   Gap deepest;
   for (std::uint32_t place = 0; place < balls_.places(); ++place) {
     if (!balls_.holds(place)) continue;
-    if (!known_[place]) {
-      deepest_[place] = {};
-      for (const Point& vertex : balls_.vertices(place)) {
-        const double depth = solid_.distance(vertex);
-        if (depth > deepest_[place].size) deepest_[place] = {vertex, depth, {}};
-      }
-      known_[place] = 1;
-    }
-    if (deepest_[place].size > deepest.size) deepest = deepest_[place];
+    if (const Gap& here = deepest_at(place); here.size > deepest.size) deepest = here;
   }
   return deepest;
+}
+
+std::optional<Point> GapFinder::deepest_vertex(std::uint32_t place) {
+  const Gap& deepest = deepest_at(place);
+  return deepest.size > 0 ? std::optional(deepest.at) : std::nullopt;
 }
 
 }  // namespace medial_vk

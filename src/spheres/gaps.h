@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "medial_vk/dynamic_union.h"
@@ -26,6 +27,8 @@ class GapFinder {
   Gap widest_on_boundary();
   /// The vertex of the envelope that is farthest from the boundary.
   Gap deepest_vertex();
+  /// The same among those of one ball; nothing if it has none.
+  std::optional<Point> deepest_vertex(std::uint32_t place);
 
  private:
   struct Sample {
@@ -34,6 +37,7 @@ class GapFinder {
   };
   double distance_to(const Point& p, std::uint32_t place) const;
   double refresh(Sample& sample) const;
+  const Gap& deepest_at(std::uint32_t place);
 
   const Solid& solid_;
   const DynamicUnion& balls_;
