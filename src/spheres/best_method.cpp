@@ -30,6 +30,7 @@ constexpr double kObjectAngle = 0.6;
 
 constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
 constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
+constexpr double kAsGood = 0.4;            // of what the best ball adds: one placed for its distance is then preferred
 constexpr std::size_t kMostBalls = 20000;  // if no count is given
 constexpr double kGapTolerance = 0.01;     // of the bounds of the greatest gap, as a share of the one wanted
 
@@ -131,27 +132,39 @@ class Placing {
     return {};
   }
 
+  /// Where much is equally good, as in a plate that is wide for its thickness, distance decides.
   Result<std::optional<Candidates::Choice>> choose() {
+    Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
+    if (!best || !best.value() || balls_.size() == 0) return best;
+    const std::optional<Ball> ball = ball_in_widest_gap();
+    if (!ball) return best;
+    const Result<double> gain = balls_.gain(*ball);
+    if (!gain) return gain.error();
     const std::size_t n = balls_.size();
-    if (n >= kFirstGap && n % kGapPeriod == 0) {
-      const std::optional<Ball> ball = ball_in_widest_gap();
-      if (ball) {
-        const Result<double> gain = balls_.gain(*ball);
-        if (!gain) return gain.error();
-        if (gain.value() > 0) return std::optional<Candidates::Choice>({*ball, gain.value()});
-      }
-    }
-    return candidates_.take_best(balls_);
+    const bool is_due = n >= kFirstGap && n % kGapPeriod == 0 && gain.value() > 0;
+    if (!is_due && gain.value() < kAsGood * best.value()->gain) return best;
+    candidates_.add({&best.value()->ball, 1});
+    return std::optional<Candidates::Choice>({*ball, gain.value()});
   }
 
-  /// The largest ball through the deepest vertex of the envelope, or through the middle between the boundary's farthest
-  /// point and the ball that is nearest there.
+  /// The largest ball through the deepest vertex of the envelope, or near the boundary's farthest point.
   std::optional<Ball> ball_in_widest_gap() {
     const GapFinder::Gap outer = gaps_.widest_on_boundary(), inner = gaps_.deepest_vertex();
-    const Point inside = outer.size > inner.size ? outer.towards_balls : inner.at;
-    if (outer.size > inner.size && !solid_.contains(inside)) return std::nullopt;
-    const Ball ball = maximal_ball(solid_, inside);
+    const std::optional<Point> inside = outer.size > inner.size ? point_inside(outer) : inner.at;
+    if (!inside) return std::nullopt;
+    const Ball ball = maximal_ball(solid_, *inside);
     return ball.radius > 0 && stays_inside(ball) ? std::optional(ball) : std::nullopt;
+  }
+
+  /// Half way to the balls, or, if that is outside, as far as that goes along the normal.
+  std::optional<Point> point_inside(const GapFinder::Gap& gap) const {
+    if (solid_.contains(gap.towards_balls)) return gap.towards_balls;
+    double depth = 0.5 * gap.size;
+    for (int tries = 0; tries < 16; ++tries, depth /= 2) {
+      const Point inside = gap.at + depth * gap.inward;
+      if (solid_.contains(inside)) return inside;
+    }
+    return std::nullopt;
   }
 
   Status place(const Candidates::Choice& choice) {

@@ -13,20 +13,30 @@ namespace {
 
 constexpr std::size_t kSamples = 20000;
 
+struct BoundarySample {
+  Point at, inward;
+};
+
 /// Corners, and points inside triangles in proportion to their area: a lattice (R_2 of M. Roberts) that is folded into
 /// each triangle.
-std::vector<Point> sample_boundary(const Mesh& mesh) {
+std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
   std::vector<double> areas;
+  std::vector<Point> inward(mesh.triangles.size()), at_corner(mesh.vertices.size());
   double total = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const Triangle& t = mesh.triangles[k];
     const Point &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    areas.push_back(0.5 * length(cross(b - a, c - a)));
+    const Point across = cross(c - a, b - a);
+    const double twice = length(across);
+    if (twice > 0) inward[k] = (1 / twice) * across;
+    for (const std::uint32_t v : t) at_corner[v] = inward[k];
+    areas.push_back(0.5 * twice);
     total += areas.back();
   }
-  std::vector<Point> samples;
+  std::vector<BoundarySample> samples;
   // Of very fine meshes some corners will do.
   const std::size_t stride = mesh.vertices.size() / kSamples + 1;
-  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) samples.push_back(mesh.vertices[v]);
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) samples.push_back({mesh.vertices[v], at_corner[v]});
   double due = 0, s = 0.5, t = 0.5;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const Triangle& triangle = mesh.triangles[k];
@@ -36,7 +46,7 @@ std::vector<Point> sample_boundary(const Mesh& mesh) {
       s = std::fmod(s + 0.7548776662466927, 1);
       t = std::fmod(t + 0.5698402909980532, 1);
       const bool folded = s + t > 1;
-      samples.push_back(a + (folded ? 1 - s : s) * ab + (folded ? 1 - t : t) * ac);
+      samples.push_back({a + (folded ? 1 - s : s) * ab + (folded ? 1 - t : t) * ac, inward[k]});
     }
   }
   return samples;
@@ -45,7 +55,9 @@ std::vector<Point> sample_boundary(const Mesh& mesh) {
 }  // namespace
 
 GapFinder::GapFinder(const Solid& solid, const DynamicUnion& balls) : solid_(solid), balls_(balls) {
-  for (const Point& p : sample_boundary(solid.mesh().mesh)) samples_.push_back({p, 0});
+  for (const BoundarySample& sample : sample_boundary(solid.mesh().mesh)) {
+    samples_.push_back({sample.at, sample.inward, 0});
+  }
 }
 
 void GapFinder::forget(std::uint32_t place) {
@@ -81,7 +93,7 @@ GapFinder::Gap GapFinder::widest_on_boundary() {
     const double size = refresh(sample);
     if (!(size > widest.size)) continue;
     const Point towards = balls_.ball(sample.place).centre - sample.at;
-    widest = {sample.at, size, sample.at + (0.5 * size / length(towards)) * towards};
+    widest = {sample.at, size, sample.at + (0.5 * size / length(towards)) * towards, sample.inward};
   }
   return widest;
 }
@@ -94,7 +106,7 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   deepest = {};
   for (const Point& vertex : balls_.vertices(place)) {
     const double depth = solid_.distance(vertex);
-    if (depth > deepest.size) deepest = {vertex, depth, {}};
+    if (depth > deepest.size) deepest = {.at = vertex, .size = depth};
   }
   known_[place] = 1;
   return deepest;

@@ -19,7 +19,8 @@ class GapFinder {
   struct Gap {
     Point at = {0, 0, 0};
     double size = 0;
-    Point towards_balls = {0, 0, 0};  ///< Of one on the boundary: half way to the nearest ball.
+    Point towards_balls = {0, 0, 0};  ///< Of one on the boundary: half way to the nearest ball, if there is one.
+    Point inward = {0, 0, 0};         ///< The same: the unit normal into the solid, as far as the mesh knows.
   };
   /// After the union has changed at a place, or a ball came or went there.
   void forget(std::uint32_t place);
@@ -32,7 +33,7 @@ class GapFinder {
 
  private:
   struct Sample {
-    Point at;
+    Point at, inward;
     std::uint32_t place;  // of the ball that was nearest
   };
   double distance_to(const Point& p, std::uint32_t place) const;
