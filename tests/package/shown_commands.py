@@ -31,9 +31,7 @@ NOT_RUN = {
 }
 # What a reader puts in the place of a word, and how a command is run without what surrounds it.
 WORDS = [(r"\bMESH\b", "turtle.obj"), (r"\bFILE\b", "report.json"), (r"^perf record ", ""),
-         (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", ""),
-         # Until the method best is part of the program; then this line goes.
-         (r"^(medial-vk spheres \S+ --.*)$", r"\1 --method source")]
+         (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", "")]
 CALLS = re.compile(r"(^|\s)(medial-vk|make_model|renderer|examples/robot_arm/make_arm.py|scripts/[\w-]+|bench/[\w-]+|cmake|ctest|node) \S")
 
 
@@ -83,7 +81,7 @@ def outputs_of(words):
     if program == "node":
         return arguments[2:3]
     files = [b for a, b in zip(arguments, arguments[1:])
-             if a in ("-o", "--output", "--html", "--picture", "--report")]
+             if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram")]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
