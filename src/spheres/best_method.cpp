@@ -26,7 +26,7 @@ struct Level {
 constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
 // Balls of smaller object angles come from the vertices of the envelope: to look for all of them takes minutes where
 // triangles are large or their normals are not relied on.
-constexpr double kObjectAngle = 0.6;
+constexpr double kObjectAngle = 0.3;
 
 constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
 constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
@@ -120,6 +120,7 @@ class Placing {
     ExtractionParameters parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
+    parameters.extra_levels = 0;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
         extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);

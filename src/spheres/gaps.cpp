@@ -29,14 +29,17 @@ std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
     const Point across = cross(c - a, b - a);
     const double twice = length(across);
     if (twice > 0) inward[k] = (1 / twice) * across;
-    for (const std::uint32_t v : t) at_corner[v] = inward[k];
+    for (const std::uint32_t v : t) at_corner[v] = at_corner[v] + inward[k];
     areas.push_back(0.5 * twice);
     total += areas.back();
   }
   std::vector<BoundarySample> samples;
   // Of very fine meshes some corners will do.
   const std::size_t stride = mesh.vertices.size() / kSamples + 1;
-  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) samples.push_back({mesh.vertices[v], at_corner[v]});
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
+    const double size = length(at_corner[v]);
+    samples.push_back({mesh.vertices[v], size > 0 ? (1 / size) * at_corner[v] : Point{}});
+  }
   double due = 0, s = 0.5, t = 0.5;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const Triangle& triangle = mesh.triangles[k];

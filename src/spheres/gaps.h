@@ -20,7 +20,7 @@ class GapFinder {
     Point at = {0, 0, 0};
     double size = 0;
     Point towards_balls = {0, 0, 0};  ///< Of one on the boundary: half way to the nearest ball, if there is one.
-    Point inward = {0, 0, 0};         ///< The same: the unit normal into the solid, as far as the mesh knows.
+    Point inward = {0, 0, 0};         ///< The same: a unit normal into the solid, of a corner the mean one.
   };
   /// After the union has changed at a place, or a ball came or went there.
   void forget(std::uint32_t place);
