@@ -68,9 +68,9 @@ Status ThesisPipeline::allocate(const MeshView& view) {
                                       samples_per_top * (FluxSampler::kBytesPerSample + 8);
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t largest = context_->description.type == "cpu" ? kLargestChunkOfCpu : kLargestChunk;
-  const std::uint64_t fitting = std::min(
-      {parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
-       limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
+  const std::uint64_t fitting =
+      std::min({parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
+                limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
     return Error{ErrorCode::kOutOfMemory, "the thesis mode needs " + std::to_string(bytes_per_top * 10 / 9) +
                                               " bytes of device memory; raise --memory or ask fewer samples"};
