@@ -26,6 +26,8 @@ constexpr std::uint64_t kBytesPerVoxel = 256;
 constexpr std::uint64_t kBytesPerRetraction = 2 * sizeof(gpu::Retraction) + 2 * 16 + 8 + 4 + 4 + 2 * 16 + 20;
 // Some millions of samples a dispatch, or some hundreds of thousands: below 100 ms on a GPU, or on a CPU.
 constexpr std::uint32_t kLargestChunk = 128, kLargestChunkOfCpu = 16;
+// Walks of the tree take longest: of so many at a time, some ten milliseconds on two cores.
+constexpr std::uint32_t kQueriesPerSlice = 1u << 20, kQueriesPerSliceOfCpu = 8192;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
@@ -67,7 +69,9 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   const std::uint64_t bytes_per_top = cells_per_top * kBytesPerVoxel + lines_per_top * kBytesPerRetraction +
                                       samples_per_top * (FluxSampler::kBytesPerSample + 8);
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
-  const std::uint64_t largest = context_->description.type == "cpu" ? kLargestChunkOfCpu : kLargestChunk;
+  const bool is_cpu = context_->description.type == "cpu";
+  queries_per_slice_ = is_cpu ? kQueriesPerSliceOfCpu : kQueriesPerSlice;
+  const std::uint64_t largest = is_cpu ? kLargestChunkOfCpu : kLargestChunk;
   const std::uint64_t fitting =
       std::min({parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
@@ -211,7 +215,7 @@ QueryCount ThesisPipeline::query_count(Items items, std::uint64_t most) {
           items.counter,
           items.multiplier,
           &arguments_,
-          slices(items, most, kQueriesPerSlice, TreeQueries::kWorkgroupSize)};
+          slices(items, most, queries_per_slice_, TreeQueries::kWorkgroupSize)};
 }
 
 void ThesisPipeline::run(Recorder& r, const char* shader, Items items, gpu::ThesisConstants step,

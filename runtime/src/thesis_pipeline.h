@@ -24,9 +24,6 @@ namespace medial_vk {
 
 class ThesisPipeline {
  public:
-  /// A dispatch walks the tree for at most so many: tens of milliseconds on a CPU of two cores.
-  static constexpr std::uint32_t kQueriesPerSlice = 32768;
-
   /// `mesh`, made of `view`, and `stop` must outlive the pipeline. Errors: kOutOfMemory, kInternal.
   static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
                                        const ExtractionParameters& parameters, const std::array<std::uint32_t, 3>& grid,
@@ -97,6 +94,7 @@ class ThesisPipeline {
   std::array<std::uint32_t, 3> top_grid_{};
   std::uint32_t levels_ = 4;
   std::uint32_t chunk_ = 1;
+  std::uint32_t queries_per_slice_ = 1;  // that a dispatch walks the tree for, at most
   std::uint32_t next_argument_ = 0;
 
   Buffer counters_, counters_readback_, arguments_, directions_;

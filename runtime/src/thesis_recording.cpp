@@ -57,7 +57,7 @@ void ThesisPipeline::record_flux(Recorder& r, std::uint32_t level) {
   count.sample_arguments = prepare(r, {kThesisSpheres, samples(level)});
   const std::uint32_t packets = packets_->shape().packets(samples(level));
   count.packets =
-      slices({kThesisSpheres, packets}, cells_of(level) * packets, kQueriesPerSlice / packets_->shape().slots(), 1);
+      slices({kThesisSpheres, packets}, cells_of(level) * packets, queries_per_slice_ / packets_->shape().slots(), 1);
   flux_->record(r, count, samples(level), spheres_.range(),
                 directions_.range(directions_at_[level], VkDeviceSize{samples(level)} * 16), slots_[level].range(),
                 fluxes_.range());
