@@ -55,8 +55,7 @@ void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t sa
     }
     r.barrier();
   };
-  const GroupCount groups = {count.spheres, samples,         count.counters,
-                             count.counter, count.arguments, count.packet_arguments};
+  const GroupCount groups = {count.spheres, samples, count.counters, count.counter, count.arguments, count.packets};
 
   const std::array<BufferRange, 4> place = {counters, spheres, directions, samples_.range()};
   run("place_sphere_samples", place, true);

@@ -17,7 +17,7 @@ struct SphereCount {
   const Buffer* arguments = nullptr;
   VkDeviceSize sphere_arguments = 0;
   VkDeviceSize sample_arguments = 0;
-  VkDeviceSize packet_arguments = 0;
+  Slices packets = {};
 };
 
 /// Buffers for the samples of as many spheres as a dispatch takes.

@@ -85,8 +85,8 @@ Result<PacketQueries> PacketQueries::create(Context::Impl& context, const Device
 void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange slots, BufferRange queries,
                             BufferRange nearest, BufferRange hits, TreeQueries::Ties ties) const {
   const bool counted = count.counters != nullptr;
-  const gpu::QueryConstants constants = {count.groups, counted ? count.counter : gpu::kNoCounter, count.group_size,
-                                         device_->triangle_count, 0};
+  gpu::QueryConstants constants = {
+      count.groups, counted ? count.counter : gpu::kNoCounter, count.group_size, device_->triangle_count, 0, 0};
   const BufferRange order = device_->triangle_info.range();
   // A kernel that does not count on the device is given some buffer in place of the counters.
   const std::array<BufferRange, 11> buffers = {device_->triangles.storage_range(tree_->use_texels),
@@ -110,12 +110,15 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                        shape_.width,
                        {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
   if (counted) {
-    r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
+    record_slices(r, count.slices, [&](std::uint32_t first_group, VkDeviceSize offset) {
+      constants.first_group = first_group;
+      r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, offset);
+    });
   } else {
     const std::uint64_t teams = std::uint64_t{count.groups} * shape_.packets(count.group_size);
     r.dispatch(key, buffers, texels, bytes_of(constants), teams * shape_.width);
+    r.barrier();
   }
-  r.barrier();
   resolver_->resolve_closest(r, queries, nearest, hits, ties);
 }
 

@@ -16,8 +16,8 @@ struct GroupCount {
   std::uint32_t group_size = 1;      // queries of a group; groups follow each other
   const Buffer* counters = nullptr;  // if given: counters[counter] groups,
   std::uint32_t counter = 0;
-  const Buffer* arguments = nullptr;  // and PacketShape::packets(group_size) workgroups for each at this place
-  VkDeviceSize arguments_offset = 0;
+  const Buffer* arguments = nullptr;  // and PacketShape::packets(group_size) workgroups for each here
+  Slices slices = {};
 };
 
 /// How many invocations walk together, and how many points each of them keeps.

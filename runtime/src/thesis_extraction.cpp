@@ -44,11 +44,13 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
   watch.watch(stop.value());
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
+  if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   Result<ThesisPipeline> created =
       ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, stop.value());
   if (!created.ok()) return created.error();
+  if (watch.stopped()) return StopWatch::error();
   const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };
   if (Status s = make_programs(context, record_one); !s.ok()) return s.error();
   ThesisPipeline pipeline = std::move(created).value();

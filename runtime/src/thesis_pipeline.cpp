@@ -24,7 +24,10 @@ constexpr float kBallMargin = 1e-6f;
 // What a top cell may need: 8^3 finest voxels with all their samples, and the segments of one round.
 constexpr std::uint64_t kBytesPerVoxel = 256;
 constexpr std::uint64_t kBytesPerRetraction = 2 * sizeof(gpu::Retraction) + 2 * 16 + 8 + 4 + 4 + 2 * 16 + 20;
-constexpr std::uint32_t kLargestChunk = 128;  // some millions of samples a dispatch: below 100 ms on a GPU
+// Some millions of samples a dispatch, or some hundreds of thousands: below 100 ms on a GPU, or on a CPU.
+constexpr std::uint32_t kLargestChunk = 128, kLargestChunkOfCpu = 16;
+// Walks of the tree take longest: of so many at a time, some ten milliseconds on two cores.
+constexpr std::uint32_t kQueriesPerSlice = 1u << 20, kQueriesPerSliceOfCpu = 8192;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
@@ -66,9 +69,12 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   const std::uint64_t bytes_per_top = cells_per_top * kBytesPerVoxel + lines_per_top * kBytesPerRetraction +
                                       samples_per_top * (FluxSampler::kBytesPerSample + 8);
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
-  const std::uint64_t fitting = std::min(
-      {parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
-       limit / (sizeof(gpu::Retraction) * lines_per_top), std::uint64_t{kLargestChunk}, std::uint64_t{top_cells()}});
+  const bool is_cpu = context_->description.type == "cpu";
+  queries_per_slice_ = is_cpu ? kQueriesPerSliceOfCpu : kQueriesPerSlice;
+  const std::uint64_t largest = is_cpu ? kLargestChunkOfCpu : kLargestChunk;
+  const std::uint64_t fitting =
+      std::min({parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
+                limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
     return Error{ErrorCode::kOutOfMemory, "the thesis mode needs " + std::to_string(bytes_per_top * 10 / 9) +
                                               " bytes of device memory; raise --memory or ask fewer samples"};
@@ -179,13 +185,15 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   return step;
 }
 
-VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t divisor, std::uint32_t group_size) {
+VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t divisor, std::uint32_t group_size,
+                                     std::uint32_t first, std::uint32_t count) {
   gpu::DispatchConstants constants{};
   constants.items_counter = items.counter;
   constants.items_multiplier = items.multiplier;
   constants.items_divisor = divisor;
   constants.group_size = group_size;
-  constants.item_limit = 0xffffffffu;
+  constants.first_item = first;
+  constants.item_limit = count;
   constants.list_counter = gpu::kNoCounter;
   constants.argument = next_argument_++ % kMostArguments;
   const std::array<BufferRange, 3> buffers = {counters_.range(), arguments_.range(), stop_->range()};
@@ -194,8 +202,20 @@ VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t div
   return VkDeviceSize{constants.argument} * 12;
 }
 
-QueryCount ThesisPipeline::query_count(Recorder& r, Items items) {
-  return {0, &counters_, items.counter, items.multiplier, &arguments_, prepare(r, items)};
+Slices ThesisPipeline::slices(Items items, std::uint64_t most, std::uint32_t per_slice, std::uint32_t group_size) {
+  const auto count = static_cast<std::uint32_t>((most + per_slice - 1) / per_slice);
+  return {count, per_slice / group_size, [this, items, per_slice, group_size](Recorder& r, std::uint32_t k) {
+            return prepare(r, items, 1, group_size, k * per_slice, per_slice);
+          }};
+}
+
+QueryCount ThesisPipeline::query_count(Items items, std::uint64_t most) {
+  return {0,
+          &counters_,
+          items.counter,
+          items.multiplier,
+          &arguments_,
+          slices(items, most, queries_per_slice_, TreeQueries::kWorkgroupSize)};
 }
 
 void ThesisPipeline::run(Recorder& r, const char* shader, Items items, gpu::ThesisConstants step,

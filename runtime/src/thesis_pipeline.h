@@ -70,10 +70,16 @@ class ThesisPipeline {
            std::vector<std::uint32_t> constants = {});
   /// Exclusive sums of states_ in offsets_, their total in counters[total].
   void scan(Recorder& r, Items items, std::uint32_t total);
-  /// Counts of groups of `group_size` for the items: their place in arguments_.
+  /// Counts of groups of `group_size` for the items, or for `count` of them from the `first` on: their place in
+  /// arguments_.
   VkDeviceSize prepare(Recorder& r, Items items, std::uint32_t divisor = 1,
-                       std::uint32_t group_size = TreeQueries::kWorkgroupSize);
-  QueryCount query_count(Recorder& r, Items items);
+                       std::uint32_t group_size = TreeQueries::kWorkgroupSize, std::uint32_t first = 0,
+                       std::uint32_t count = 0xffffffffu);
+  /// The items, `most` at most, so many at a time: a multiple of `group_size`.
+  Slices slices(Items items, std::uint64_t most, std::uint32_t per_slice, std::uint32_t group_size);
+  QueryCount query_count(Items items, std::uint64_t most);
+  std::uint64_t cells_of(std::uint32_t level) const { return std::uint64_t{chunk_} << (3 * level); }
+  std::uint64_t most_lines() const { return cells_of(levels_ - 1) * gpu::kRetractionsPerRound; }
   void copy_counter(Recorder& r, std::uint32_t from, std::uint32_t to);
 
   Context::Impl* context_;
@@ -88,6 +94,7 @@ class ThesisPipeline {
   std::array<std::uint32_t, 3> top_grid_{};
   std::uint32_t levels_ = 4;
   std::uint32_t chunk_ = 1;
+  std::uint32_t queries_per_slice_ = 1;  // that a dispatch walks the tree for, at most
   std::uint32_t next_argument_ = 0;
 
   Buffer counters_, counters_readback_, arguments_, directions_;

@@ -27,7 +27,7 @@ void ThesisPipeline::record_level(Recorder& r, std::uint32_t level, std::uint32_
   const Items cells{kThesisParents, level == 0 ? 1u : 8u};
   r.begin_stage("cells");
   run(r, "list_cells", cells, step, {kept_.range(), cells_.range(), queries_at_.range()});
-  const QueryCount count = query_count(r, cells);
+  const QueryCount count = query_count(cells, cells_of(level));
   queries_->closest(r, count, queries_at_.range(), nearest_.range(), hits_.range());
   run(r, "ask_sides", cells, step, {cells_.range(), nearest_.range(), queries_at_.range()});
   // A closed boundary has whole winding numbers: an error below 1/2 decides.
@@ -55,7 +55,9 @@ void ThesisPipeline::record_flux(Recorder& r, std::uint32_t level) {
   count.arguments = &arguments_;
   count.sphere_arguments = prepare(r, {kThesisSpheres});
   count.sample_arguments = prepare(r, {kThesisSpheres, samples(level)});
-  count.packet_arguments = prepare(r, {kThesisSpheres, packets_->shape().packets(samples(level))}, 1, 1);
+  const std::uint32_t packets = packets_->shape().packets(samples(level));
+  count.packets =
+      slices({kThesisSpheres, packets}, cells_of(level) * packets, queries_per_slice_ / packets_->shape().slots(), 1);
   flux_->record(r, count, samples(level), spheres_.range(),
                 directions_.range(directions_at_[level], VkDeviceSize{samples(level)} * 16), slots_[level].range(),
                 fluxes_.range());
@@ -68,7 +70,7 @@ void ThesisPipeline::record_round(Recorder& r, std::uint32_t first_sample) {
   run(r, "start_retractions", tried, step,
       {kept_.range(), active_.range(), flux_->samples(), flux_->nearest(), lines_.range(), queries_at_.range(),
        accepted_.range()});
-  queries_->empty(r, query_count(r, tried), queries_at_.range(), empty_.range());
+  queries_->empty(r, query_count(tried, most_lines()), queries_at_.range(), empty_.range());
   run(r, "choose_retractions", tried, step, {lines_.range(), empty_.range(), states_.range()});
   scan(r, tried, kThesisRetractions);
   run(r, "keep_retractions", tried, step,
@@ -88,7 +90,7 @@ void ThesisPipeline::record_round(Recorder& r, std::uint32_t first_sample) {
 // (judge_retractions.comp needs the other half).
 void ThesisPipeline::record_narrowing(Recorder& r, const ThesisConstants& step) {
   const Items lines{kThesisRetractions};
-  const QueryCount count = query_count(r, lines);
+  const QueryCount count = query_count(lines, most_lines());
   const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(4.0 / parameters_.epsilon))));
   for (int k = 0; k < halvings; ++k) {
     queries_->empty(r, count, queries_at_.range(), empty_.range());
@@ -103,7 +105,7 @@ void ThesisPipeline::record_judgement(Recorder& r, const ThesisConstants& step) 
   const Items lines{kThesisRetractions};
   run(r, "judge_retractions", lines, step,
       {kept_.range(), narrowed_.range(), nearest_.range(), queries_at_.range(), sides_at_.range()});
-  const QueryCount count = query_count(r, lines);
+  const QueryCount count = query_count(lines, most_lines());
   queries_->empty(r, count, queries_at_.range(), empty_.range());
   queries_->winding(r, count, sides_at_.range(), numbers_.range(), mesh_->closed ? 0.25f : 0.02f);
   run(r, "accept_retractions", lines, step,

@@ -41,18 +41,23 @@ void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& co
                                       unresolved_.range(), queries};
   buffers.insert(buffers.end(), own.begin(), own.end());
   const std::array<VkBufferView, 2> texels = {mesh_->triangle_texels, mesh_->tree_texels};
-  const gpu::QueryConstants constants = {count.items, count.counters != nullptr ? count.counter : kNoCounter,
-                                         count.multiplier, mesh_->triangle_count, tolerance};
+  gpu::QueryConstants constants = {count.items,      count.counters != nullptr ? count.counter : kNoCounter,
+                                   count.multiplier, mesh_->triangle_count,
+                                   tolerance,        0};
   const char* suffix = storage_suffix(mesh_->use_texels);
   ProgramKey key{kernel.walk,     static_cast<std::uint32_t>(buffers.size()), 2, sizeof(constants), kWorkgroupSize,
                  kernel.constants};
   key.shader += suffix;
   if (count.arguments != nullptr) {
-    r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, count.arguments_offset);
+    record_slices(r, count.slices, [&](std::uint32_t first_group, VkDeviceSize offset) {
+      constants.first_group = first_group;
+      r.dispatch_indirect(key, buffers, texels, bytes_of(constants), *count.arguments, offset);
+    });
+    constants.first_group = 0;
   } else {
     r.dispatch(key, buffers, texels, bytes_of(constants), count.items);
+    r.barrier();
   }
-  r.barrier();
   key.shader = kernel.resolve;
   key.shader += suffix;
   resolve(r, std::move(key), buffers, bytes_of(constants));
@@ -80,7 +85,7 @@ void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange 
                                               info,
                                               nearest,
                                               hits};
-  const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0};
+  const gpu::QueryConstants constants = {0, kNoCounter, 1, mesh_->triangle_count, 0, 0};
   const ProgramKey key{std::string("resolve_closest_points") + storage_suffix(mesh_->use_texels),
                        static_cast<std::uint32_t>(buffers.size()),
                        2,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "recorder.h"
@@ -9,16 +10,35 @@
 
 namespace medial_vk {
 
+/// Dispatches, one after the other, of a number of workgroups that only the device knows: none of them takes long, and
+/// between two of them the device can be told to stop. `prepare` records what writes the group counts of slice k, for
+/// workgroups k * groups to (k + 1) * groups of all, and says where among the arguments they are.
+struct Slices {
+  std::uint32_t count = 0;
+  std::uint32_t groups = 0;
+  std::function<VkDeviceSize(Recorder&, std::uint32_t k)> prepare = {};
+};
+
+/// Records `dispatch(first_group, offset of its arguments)` for each, with a barrier behind it.
+template <class Dispatch>
+void record_slices(Recorder& r, const Slices& slices, const Dispatch& dispatch) {
+  for (std::uint32_t k = 0; k < slices.count; ++k) {
+    const VkDeviceSize offset = slices.prepare(r, k);
+    dispatch(k * slices.groups, offset);
+    r.barrier();
+  }
+}
+
 /// How many queries a dispatch answers: a number the host knows, or a counter on the device.
 struct QueryCount {
   std::uint32_t items = 0;
   const Buffer* counters = nullptr;  // if given: counters[counter] * multiplier queries,
   std::uint32_t counter = 0;
   std::uint32_t multiplier = 1;
-  const Buffer* arguments = nullptr;  // and their groups of TreeQueries::kWorkgroupSize at this place
-  VkDeviceSize arguments_offset = 0;
+  const Buffer* arguments = nullptr;  // and their groups of TreeQueries::kWorkgroupSize here
+  Slices slices = {};
 
-  static QueryCount of(std::uint32_t items) { return {items, nullptr, 0, 1, nullptr, 0}; }
+  static QueryCount of(std::uint32_t items) { return {.items = items}; }
 };
 
 class TreeQueries {

@@ -19,7 +19,7 @@ layout(set = 0, binding = 3) buffer Unresolved { uint unresolved[]; };
 layout(set = 0, binding = 4) readonly buffer Queries { vec4 queries[]; };
 
 // Groups beyond the limit of the first dimension go to the second.
-uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+uint group_index() { return push.first_group + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint invocation_index() { return group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 uint query_count() {

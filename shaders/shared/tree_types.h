@@ -18,6 +18,7 @@ struct QueryConstants {
   uint items_multiplier;
   uint triangle_count;
   float tolerance;        // of winding numbers
+  uint first_group;       // workgroups that earlier dispatches have run
 };
 
 // Words of the list of queries that gave up; their indices follow from kUnresolvedFirst on.

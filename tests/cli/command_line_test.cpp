@@ -317,54 +317,5 @@ TEST_P(Interrupted, EndsAtOnceWhileItDraws) {
 
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));
 
-// Killed a hundred times, at moments spread over a run: the files are those of before, or whole new ones, or not there,
-// and there are no others.
-TEST_F(CommandLine, KilledAtAnyMomentItLeavesWholeFilesOrNone) {
-  const std::vector<std::string> arguments = {"part.obj", "--backend", "cpu",          "-o", "p.ply",
-                                              "--report", "r.json",    "--resolution", "16"};
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(arguments).exit_code, 0);
-  const std::chrono::duration<double> whole_run = std::chrono::steady_clock::now() - begin;
-  const std::string points = read_file(path("p.ply")), old = "what was there before";
-  constexpr int kKills = 100;
-  int replaced = 0;
-  for (int i = 0; i < kKills; ++i) {
-    const bool had_files = i % 2 == 0;
-    for (const char* name : {"p.ply", "r.json"}) {
-      std::filesystem::remove(path(name));
-      if (had_files) test::write_file(path(name), old);
-    }
-    test::Tool tool({arguments, path("")});
-    std::this_thread::sleep_for(whole_run * 1.1 * i / kKills);
-    tool.send(SIGKILL);
-    tool.wait();
-    std::size_t left_over = 0;
-    for (const std::string& name : folder_.names()) {
-      if (!name.starts_with(".medial-vk.")) continue;
-      // Killed between the two calls that replace a file: what stays is whole.
-      const std::string text = read_file(path(name));
-      EXPECT_TRUE(had_files && (text == points || nlohmann::json::accept(text))) << name << " after kill " << i;
-      std::filesystem::remove(path(name));
-      ++left_over;
-    }
-    EXPECT_LE(left_over, 1u);
-    const std::vector<std::string> names = folder_.names();
-    const bool has_points = std::filesystem::exists(path("p.ply"));
-    const bool has_report = std::filesystem::exists(path("r.json"));
-    EXPECT_EQ(names.size(), 1u + (has_points ? 1 : 0) + (has_report ? 1 : 0)) << testing::PrintToString(names);
-    EXPECT_TRUE(has_points || !had_files);
-    if (has_points) {
-      const std::string now = read_file(path("p.ply"));
-      EXPECT_TRUE(now == points || (had_files && now == old)) << now.size() << " bytes after kill " << i;
-      replaced += now == points ? 1 : 0;
-    }
-    if (has_report) {
-      const std::string now = read_file(path("r.json"));
-      EXPECT_TRUE((had_files && now == old) || nlohmann::json::accept(now)) << now;
-    }
-  }
-  RecordProperty("finished_before_the_kill", replaced);
-}
-
 }  // namespace
 }  // namespace medial_vk

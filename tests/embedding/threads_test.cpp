@@ -14,6 +14,7 @@
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/queries.h"
+#include "recording_host.h"
 #include "support/device.h"
 
 namespace medial_vk::test {
@@ -147,6 +148,60 @@ TEST_F(Threads, ListAndOpenDevicesAtOnce) {
         }
       }
     });
+  }
+}
+
+/// What jobs on a device of the thread's own count and find, frame after frame, the mesh moved in between.
+std::string record_and_move(const Solid& mesh) {
+  RecordingHost host(make_context());
+  Result<Context> context = Context::adopt(host.lend());
+  if (!context.ok()) return context.error().message;
+  Result<ExtractionJob> job = ExtractionJob::create(context.value(), mesh.view(), small_job());
+  if (!job.ok()) return job.error().message;
+  std::string out;
+  Solid moved = mesh;
+  for (int frame = 0; frame < 3; ++frame) {
+    for (Point& p : moved.vertices) p[0] *= 1.1;
+    if (const Status status = job.value().move_vertices(moved.view()); !status.ok()) return status.error().message;
+    if (const Status status = host.run(job.value()); !status.ok()) return status.error().message;
+    const RecordedCounts counts = job.value().counts();
+    if (counts.complete != 1 || counts.spheres == 0) return "a frame without spheres";
+    append_bytes(out, counts);
+    append_bytes(out, job.value().placement().scale);
+  }
+  return out;
+}
+
+// As several windows of a program do: each thread has a device, a context that has adopted it, and a job.
+TEST_F(Threads, RecordJobsAtOnce) {
+  const std::vector<Solid> meshes = solids();
+  std::vector<std::string> expected, found(kThreads);
+  for (const Solid& mesh : meshes) expected.push_back(record_and_move(mesh));
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < kThreads; ++i) {
+      threads.emplace_back([&, i] { found[i] = record_and_move(meshes[i]); });
+    }
+  }
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    EXPECT_EQ(expected[i].size(), 3 * (sizeof(RecordedCounts) + sizeof(double))) << expected[i];
+    EXPECT_TRUE(found[i] == expected[i]) << "thread " << i;
+  }
+}
+
+// One device, one context, one job: made by one thread, each frame recorded by another.
+TEST_F(Threads, HandAJobOn) {
+  const Solid mesh = solid(1);
+  RecordingHost host(make_context());
+  Context context = Context::adopt(host.lend()).value();
+  ExtractionJob job = ExtractionJob::create(context, mesh.view(), small_job()).value();
+  for (std::size_t i = 0; i < kThreads; ++i) {
+    std::thread([&] {
+      EXPECT_TRUE(job.move_vertices(mesh.view()).ok());
+      EXPECT_TRUE(host.run(job).ok());
+      EXPECT_EQ(job.counts().complete, 1u);
+      EXPECT_GT(job.counts().spheres, 0u);
+    }).join();
   }
 }
 

@@ -12,6 +12,7 @@
 #include "host_memory.h"
 #include "lent_device.h"
 #include "medial_vk/ball_union.h"
+#include "medial_vk/dynamic_union.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/shrinking_union.h"
 #include "parallel_blocks.h"
@@ -160,6 +161,69 @@ TEST_F(HostMemory, RunsOutInAShrinkingUnion) {
     for (const double volume : rest.value().volumes()) append_bytes(out, volume);
     append_bytes(out, betti.value());
     return out;
+  });
+}
+
+/// All that can be asked of a union.
+std::string bytes_of(const DynamicUnion& balls) {
+  std::string out;
+  append_bytes(out, balls.places());
+  append_bytes(out, balls.size());
+  append_bytes(out, balls.volume());
+  for (const std::uint32_t place : balls.changed()) append_bytes(out, place);
+  for (std::uint32_t place = 0; place < balls.places(); ++place) {
+    append_bytes(out, balls.holds(place));
+    if (!balls.holds(place)) continue;
+    append_bytes(out, balls.ball(place));
+    append_bytes(out, balls.exposure(place));
+    for (const Point& vertex : balls.vertices(place)) append_bytes(out, vertex);
+  }
+  return out;
+}
+
+/// A change, or a question. When that fails, nothing has changed: not the balls, not what the last change was.
+Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& change) {
+  const std::string before = bytes_of(balls);
+  const Status status = in_runtime(change);
+  if (status.ok()) return status;
+  EXPECT_TRUE(bytes_of(balls) == before);
+  return status;
+}
+
+/// After a change that failed: the one before it is taken back, as if nothing had been tried since.
+void expect_undone(DynamicUnion& balls, double volume) {
+  balls.undo();
+  EXPECT_EQ(balls.volume(), volume);
+}
+
+TEST_F(HostMemory, RunsOutInADynamicUnion) {
+  const std::vector<Ball> list = random_balls(30, 4, 0.1, 0.3);
+  const Ball other = {{0.4, 0.5, 0.5}, 0.25};
+  fail_every_allocation("a dynamic union", [&]() -> Answer {
+    auto built = in_runtime([&] { return DynamicUnion::build(40, 2); });
+    if (!built.ok()) return built.error();
+    DynamicUnion& balls = built.value();
+    const auto status_of = [](const auto& result) { return result.ok() ? Status{} : Status{result.error()}; };
+    std::vector<std::function<Status()>> changes;
+    for (const Ball& ball : list)
+      changes.emplace_back([&balls, &status_of, ball] { return status_of(balls.add(ball)); });
+    for (const std::uint32_t place : {3u, 7u, 29u}) changes.emplace_back([&, place] { return balls.remove(place); });
+    for (const std::uint32_t place : {5u, 6u}) changes.emplace_back([&, place] { return balls.move(place, other); });
+    changes.emplace_back([&] { return status_of(balls.add(other)); });
+    const std::size_t count = changes.size();
+    changes.emplace_back([&] { return status_of(balls.gain({{0.5, 0.5, 0.5}, 0.3})); });
+    changes.emplace_back([&] { return status_of(balls.loss(11)); });
+    double before_last = 0, now = 0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      if (const Status status = change_or_leave(balls, changes[i]); !status.ok()) {
+        expect_undone(balls, before_last);
+        return status.error();
+      }
+      if (i < count) before_last = std::exchange(now, balls.volume());
+    }
+    const std::string changed = bytes_of(balls);
+    in_runtime([&] { balls.undo(); });
+    return changed + bytes_of(balls);
   });
 }
 

@@ -204,5 +204,45 @@ TEST(PointOrder, IsAPermutationThatKeepsNeighboursTogether) {
   EXPECT_EQ(order_along_curve(std::vector<Point>(3, Point{1, 1, 1})), (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
+// A number of queries that only the device knows, cut into dispatches: every one is answered, none twice, and each
+// dispatch is followed by the next question whether to go on.
+TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
+  const Mesh mesh = test::make_turned_torus();
+  Context::Impl& context = context_->impl();
+  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  const std::vector<Texel> queries = samples_of_spheres(spiral_points(50), 20);
+  const Answers expected = ask_one_by_one(device, queries);
+  constexpr std::uint32_t kGroup = TreeQueries::kWorkgroupSize, kPerSlice = 2 * kGroup;
+  const auto total = static_cast<std::uint32_t>(queries.size());
+  Arena arena(context);
+  const Buffer words = arena.create_buffer(64, MemoryKind::kUpload, "a test").value();
+  auto* word = static_cast<std::uint32_t*>(words.mapped);
+  for (const std::uint32_t asked_for : {total, total - 1, kPerSlice + 1, kPerSlice, 1u, 0u}) {
+    SCOPED_TRACE(asked_for);
+    TreeQueries single = TreeQueries::create(context, device, total).value();
+    std::vector<std::uint32_t> asked_before;  // by slice: recorded in this order, each before its dispatch
+    const std::vector<std::uint32_t> unused(4);
+    const Answers found = run(queries, unused, [&](Recorder& r, auto, auto asked, auto nearest, auto hits) {
+      word[0] = asked_for;
+      const auto prepare = [&](Recorder& recorder, std::uint32_t k) -> VkDeviceSize {
+        asked_before.push_back(k);
+        const std::uint32_t left = asked_for - std::min(asked_for, k * kPerSlice);
+        const std::uint32_t groups = (std::min(left, kPerSlice) + kGroup - 1) / kGroup;
+        recorder.fill(words, 16, 4, groups);
+        recorder.fill(words, 20, 8, 1);
+        recorder.barrier();
+        return 16;
+      };
+      const Slices slices = {(total + kPerSlice - 1) / kPerSlice, kPerSlice / kGroup, prepare};
+      single.closest(r, {0, &words, 0, 1, &words, slices}, asked, nearest, hits, TreeQueries::Ties::kIndex);
+    });
+    for (std::uint32_t k = 0; k < asked_before.size(); ++k) EXPECT_EQ(asked_before[k], k);
+    EXPECT_EQ(asked_before.size(), (total + kPerSlice - 1) / kPerSlice);
+    for (std::uint32_t i = 0; i < total; ++i) {
+      EXPECT_EQ(found.nearest[i], i < asked_for ? expected.nearest[i] : Texel{}) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace medial_vk

@@ -79,12 +79,12 @@ class DynamicUnion::Impl {
   std::uint32_t size() const { return places() - static_cast<std::uint32_t>(free_.size()); }
   bool holds(std::uint32_t place) const { return place < places() && !is_gone(balls_[kFirst + place]); }
   const Ball& ball(std::uint32_t place) const { return given_[kFirst + place]; }
-  std::span<const std::uint32_t> changed() const { return changed_; }
+  std::span<const std::uint32_t> changed() const { return last_.changed; }
 
   double volume() const {
-    std::vector<double> terms;
-    for (std::uint32_t j = kFirst; j < end_; ++j) terms.push_back(pieces_[j].measured.volume);
-    return careful_sum(terms) / scale_ / scale_ / scale_;
+    CarefulSum sum;
+    for (std::uint32_t j = kFirst; j < end_; ++j) sum.add(pieces_[j].measured.volume);
+    return sum.value() / scale_ / scale_ / scale_;
   }
 
   Exposure exposure(std::uint32_t place) const {
@@ -141,13 +141,13 @@ class DynamicUnion::Impl {
   void remove(std::uint32_t place) { change(kFirst + place, kGone); }
   void move(std::uint32_t place, const Ball& to) { change(kFirst + place, to); }
 
+  /// Needs no memory.
   void undo() {
-    if (changed_ball_ == kNone) return;
-    const std::uint32_t i = changed_ball_;
-    set_ball(i, given_before_);
-    for (auto& [j, piece] : pieces_before_) std::swap(pieces_[j], piece);
-    changed_ball_ = kNone;
-    changed_.clear();
+    if (last_.ball == kNone) return;
+    set_ball(last_.ball, last_.given_before);
+    for (auto& [j, piece] : last_.pieces_before) std::swap(pieces_[j], piece);
+    last_.ball = kNone;
+    last_.changed.clear();
   }
 
   double gain(const Ball& ball) {
@@ -176,7 +176,14 @@ class DynamicUnion::Impl {
   }
 
  private:
-  Ball scaled(const Ball& ball) const { return scaled_balls({&ball, 1}, scale_).front(); }
+  struct Change {
+    std::uint32_t ball = kNone;
+    Ball given_before{};
+    std::vector<std::uint32_t> changed;
+    std::vector<std::pair<std::uint32_t, Piece>> pieces_before;
+  };
+
+  Ball scaled(const Ball& ball) const { return scaled_ball(ball, scale_); }
 
   void find_touching(const Ball& ball, std::vector<std::uint32_t>& found) const {
     found.clear();
@@ -219,25 +226,38 @@ class DynamicUnion::Impl {
     return measure_ball_in_cell(cell_, balls_[i].radius);
   }
 
-  /// A ball comes (from kGone), goes (to kGone) or moves.
+  /// A ball comes (from kGone), goes (to kGone) or moves. If memory runs out meanwhile, all is as before, and the
+  /// change before can still be undone.
   void change(std::uint32_t i, const Ball& to) {
-    const Ball before = balls_[i];
-    given_before_ = given_[i];
-    pieces_before_.clear();
-    changed_.clear();
-    find_touching(before, affected_);
-    changed_ball_ = i;
-    set_ball(i, to);
+    const std::uint32_t end_before = end_;
+    std::swap(last_, change_before_);
+    last_.ball = kNone;
+    last_.changed.clear();
+    last_.pieces_before.clear();
     try {
-      find_touching(balls_[i], near_);
-      append(affected_, near_);
-      sort_unique(affected_);
-      if (is_gone(to)) put(i, {});
-      for (const std::uint32_t j : affected_) update(j, i, !is_gone(before));
+      make_change(i, to);
     } catch (...) {
       undo();
+      if (end_ > end_before) {  // the place is the last that was given back
+        free_.pop_back();
+        end_ = end_before;
+      }
+      std::swap(last_, change_before_);
       throw;
     }
+  }
+
+  void make_change(std::uint32_t i, const Ball& to) {
+    const bool was_there = !is_gone(balls_[i]);
+    find_touching(balls_[i], affected_);
+    last_.given_before = given_[i];
+    last_.ball = i;
+    set_ball(i, to);
+    find_touching(balls_[i], near_);
+    append(affected_, near_);
+    sort_unique(affected_);
+    if (is_gone(to)) put(i, {});
+    for (const std::uint32_t j : affected_) update(j, i, was_there);
   }
 
   /// The piece of j after a change of ball i.
@@ -260,9 +280,9 @@ class DynamicUnion::Impl {
   }
 
   void put(std::uint32_t j, Piece piece) {
-    pieces_before_.emplace_back(j, Piece{});
-    changed_.push_back(j - kFirst);
-    pieces_before_.back().second = std::exchange(pieces_[j], std::move(piece));
+    last_.changed.push_back(j - kFirst);
+    last_.pieces_before.emplace_back(j, Piece{});  // from here on nothing throws: undo() must not meet this empty one
+    last_.pieces_before.back().second = std::exchange(pieces_[j], std::move(piece));
   }
 
   void set_ball(std::uint32_t i, const Ball& to) {
@@ -284,11 +304,7 @@ class DynamicUnion::Impl {
   std::vector<Piece> pieces_;
   std::uint32_t end_ = kFirst;
   std::vector<std::uint32_t> free_;
-  // Of the last change.
-  std::uint32_t changed_ball_ = kNone;
-  Ball given_before_;
-  std::vector<std::uint32_t> changed_;
-  std::vector<std::pair<std::uint32_t, Piece>> pieces_before_;
+  Change last_, change_before_;
   // Of the question at hand.
   PowerCell cell_;
   std::vector<std::uint32_t> near_, cutting_, affected_;

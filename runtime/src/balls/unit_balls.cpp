@@ -39,23 +39,30 @@ double snap(double x) {
 
 }  // namespace
 
-std::vector<Ball> scaled_balls(std::span<const Ball> balls, double scale) {
-  std::vector<Ball> result(balls.begin(), balls.end());
-  for (auto& [centre, radius] : result) {
-    for (double& x : centre) x = snap(scale * x);
-    radius = snap(scale * radius);
-  }
+Ball scaled_ball(const Ball& ball, double scale) {
+  Ball result = ball;
+  for (double& x : result.centre) x = snap(scale * x);
+  result.radius = snap(scale * result.radius);
   return result;
 }
 
+std::vector<Ball> scaled_balls(std::span<const Ball> balls, double scale) {
+  std::vector<Ball> result;
+  result.reserve(balls.size());
+  for (const Ball& ball : balls) result.push_back(scaled_ball(ball, scale));
+  return result;
+}
+
+void CarefulSum::add(double term) {
+  const double next = sum_ + term;
+  lost_ += std::fabs(sum_) >= std::fabs(term) ? (sum_ - next) + term : (term - next) + sum_;
+  sum_ = next;
+}
+
 double careful_sum(std::span<const double> terms) {
-  double sum = 0, lost = 0;
-  for (const double term : terms) {
-    const double next = sum + term;
-    lost += std::fabs(sum) >= std::fabs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
+  CarefulSum sum;
+  for (const double term : terms) sum.add(term);
+  return sum.value();
 }
 
 }  // namespace medial_vk
