@@ -4,16 +4,16 @@
 #include <limits>
 #include <utility>
 
-#include "spheres/ball_tree.h"
 #include "spheres/branch_and_bound.h"
 #include "spheres/cover_column.h"
+#include "spheres/nearest_ball_tree.h"
 #include "spheres/smallest_ball.h"
 
 namespace medial_vk {
 
 CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, unsigned threads)
     : pieces_(std::move(pieces)), balls_(std::move(balls)), ease_(ease), threads_(threads) {
-  const BallTree tree(balls_);
+  const NearestBallTree tree(balls_);
   std::vector<std::uint32_t> owner(pieces_.size());
   for_all(pieces_.size(), 64, threads_, [&](std::size_t piece) {
     owner[piece] = tree.nearest(pieces_.middle(static_cast<std::uint32_t>(piece))).ball;

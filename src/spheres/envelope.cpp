@@ -128,9 +128,9 @@ double Envelope::distance(const Point& p, double enough) const {
     std::uint32_t node;
     double bound;
   };
-  const std::vector<BallTree::Node>& nodes = tree_.nodes();
+  const std::vector<NearestBallTree::Node>& nodes = tree_.nodes();
   const auto bound_of = [&](std::uint32_t at) {
-    const BallTree::Node& node = nodes[at];
+    const NearestBallTree::Node& node = nodes[at];
     return std::max(
         {0.0, distance_to_box(node, p) - node.greatest_radius, node.least_radius - farthest_in_box(node, p)});
   };
@@ -141,7 +141,7 @@ double Envelope::distance(const Point& p, double enough) const {
   while (size > 0 && best > enough) {
     const Entry entry = stack[--size];
     if (entry.bound >= best) continue;
-    const BallTree::Node& node = nodes[entry.node];
+    const NearestBallTree::Node& node = nodes[entry.node];
     if (node.right != 0) {
       Entry near = {entry.node + 1, bound_of(entry.node + 1)}, far = {node.right, bound_of(node.right)};
       if (far.bound < near.bound) std::swap(near, far);

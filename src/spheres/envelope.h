@@ -8,7 +8,7 @@
 
 #include "medial_vk/ball_union.h"
 #include "medial_vk/result.h"
-#include "spheres/ball_tree.h"
+#include "spheres/nearest_ball_tree.h"
 
 namespace medial_vk {
 
@@ -18,7 +18,7 @@ class Envelope {
   /// At least one ball. Errors: those of measure_ball_union().
   static Result<Envelope> build(std::span<const Ball> balls, unsigned threads = 0);
 
-  const BallTree& tree() const { return tree_; }
+  const NearestBallTree& tree() const { return tree_; }
   const BallUnion& measured() const { return union_; }
   /// Points that belong to three balls at once and lie in none by more than tolerance(); where more spheres than three
   /// meet there may be several of them.
@@ -39,7 +39,7 @@ class Envelope {
   bool is_exposed(const Point& p) const { return !tree_.holds(p, tolerance_); }
   void add_vertices(const std::array<std::uint32_t, 3>& balls);
 
-  BallTree tree_;
+  NearestBallTree tree_;
   BallUnion union_;
   double tolerance_;
   std::vector<EnvelopeVertex> vertices_;

@@ -145,7 +145,7 @@ class Measure {
       if (ball.radius > solid_.distance(ball.centre) || !solid_.contains(ball.centre)) others.push_back(ball);
     }
     if (others.empty()) return {};
-    const BallTree tree(others);
+    const NearestBallTree tree(others);
     const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
       const double reach = cube.reach();
       const NearestBall nearest = tree.nearest(cube.centre);
@@ -219,7 +219,7 @@ class Measure {
 
   const Solid& solid_;
   const Envelope& envelope_;
-  const BallTree& tree_;
+  const NearestBallTree& tree_;
   const DistanceOptions& options_;
   double slack_;
   SearchLimits limits_;

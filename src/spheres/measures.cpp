@@ -83,7 +83,7 @@ VolumeError measure_volume(const Solid& solid, const Envelope& envelope, bool is
     error.outside = std::max(0.0, error.balls - error.solid);
     return error;
   }
-  const BallTree& tree = envelope.tree();
+  const NearestBallTree& tree = envelope.tree();
   const auto sampled = integrate<2>(report.lower, report.upper, options.seed, options.threads, [&](const Point& p) {
     const bool in_balls = tree.holds(p);
     // Where the solid's volume is known, only what is in no ball must be looked at.

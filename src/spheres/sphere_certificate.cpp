@@ -22,7 +22,7 @@ enum class Cover : std::uint8_t { kCovered, kUncovered, kUndecided };
 /// Is one triangle covered?
 class TriangleCover {
  public:
-  TriangleCover(const BallTree& tree, double magnitude)
+  TriangleCover(const NearestBallTree& tree, double magnitude)
       : tree_(tree), moved_(kDepth * 1.7320508075688775 * kUnit * magnitude) {}
 
   Cover run(const std::array<Point, 3>& triangle, Point& where) {
@@ -94,7 +94,7 @@ class TriangleCover {
     return Cover::kUndecided;
   }
 
-  const BallTree& tree_;
+  const NearestBallTree& tree_;
   double moved_;
   std::vector<Piece> stack_;
   std::vector<std::vector<std::uint32_t>> lists_;  // of the pieces on the way down
@@ -131,7 +131,7 @@ double magnitude_of(const MeshReport& report) {
   return magnitude;
 }
 
-void test_surface(const Solid& solid, const BallTree& tree, unsigned threads, CoverProof& proof) {
+void test_surface(const Solid& solid, const NearestBallTree& tree, unsigned threads, CoverProof& proof) {
   const Mesh& mesh = solid.mesh().mesh;
   const std::size_t count = mesh.triangles.size();
   const double magnitude = magnitude_of(solid.mesh().report);

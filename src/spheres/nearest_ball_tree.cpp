@@ -1,4 +1,4 @@
-#include "spheres/ball_tree.h"
+#include "spheres/nearest_ball_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -16,13 +16,14 @@ constexpr std::size_t kStack = 64;
 
 }  // namespace
 
-BallTree::BallTree(std::span<const Ball> balls) : balls_(balls.begin(), balls.end()), order_(balls.size()) {
+NearestBallTree::NearestBallTree(std::span<const Ball> balls)
+    : balls_(balls.begin(), balls.end()), order_(balls.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   nodes_.reserve(balls_.size());
   if (!balls_.empty()) build(0, static_cast<std::uint32_t>(balls_.size()));
 }
 
-std::uint32_t BallTree::build(std::uint32_t first, std::uint32_t count) {
+std::uint32_t NearestBallTree::build(std::uint32_t first, std::uint32_t count) {
   Node node;
   node.first = first;
   node.count = count;
@@ -56,7 +57,7 @@ std::uint32_t BallTree::build(std::uint32_t first, std::uint32_t count) {
   return self;
 }
 
-NearestBall BallTree::nearest(const Point& p) const {
+NearestBall NearestBallTree::nearest(const Point& p) const {
   NearestBall best;
   if (nodes_.empty()) return best;
   struct Entry {
@@ -89,7 +90,7 @@ NearestBall BallTree::nearest(const Point& p) const {
   return best;
 }
 
-bool BallTree::holds(const Point& p, double depth) const {
+bool NearestBallTree::holds(const Point& p, double depth) const {
   if (nodes_.empty()) return false;
   std::array<std::uint32_t, kStack> stack;
   std::size_t size = 0;
@@ -111,7 +112,7 @@ bool BallTree::holds(const Point& p, double depth) const {
   return false;
 }
 
-void BallTree::gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const {
+void NearestBallTree::gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const {
   found.clear();
   if (nodes_.empty()) return;
   std::array<std::uint32_t, kStack> stack;

@@ -20,7 +20,7 @@ struct NearestBall {
 
 /// Answers with f(p) = min |p - c_i| - r_i: the distance to the union outside of it, 0 on its envelope, negative
 /// inside. f does not change faster than the point moves. Questions may come from several threads at once.
-class BallTree {
+class NearestBallTree {
  public:
   struct Node {
     Point lower, upper;  ///< Of the centres.
@@ -30,7 +30,7 @@ class BallTree {
   };
 
   /// Copies the balls, at least one.
-  explicit BallTree(std::span<const Ball> balls);
+  explicit NearestBallTree(std::span<const Ball> balls);
 
   NearestBall nearest(const Point& p) const;
   /// Is the point in one of the balls by more than `depth`? Stops at the first.
@@ -51,7 +51,7 @@ class BallTree {
 };
 
 /// Of the box that a node's centres lie in.
-inline double distance_to_box(const BallTree::Node& node, const Point& p) {
+inline double distance_to_box(const NearestBallTree::Node& node, const Point& p) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double out = std::max({node.lower[axis] - p[axis], p[axis] - node.upper[axis], 0.0});
@@ -60,7 +60,7 @@ inline double distance_to_box(const BallTree::Node& node, const Point& p) {
   return std::sqrt(sum);
 }
 
-inline double farthest_in_box(const BallTree::Node& node, const Point& p) {
+inline double farthest_in_box(const NearestBallTree::Node& node, const Point& p) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double out = std::max(std::fabs(p[axis] - node.lower[axis]), std::fabs(p[axis] - node.upper[axis]));
