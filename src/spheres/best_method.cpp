@@ -24,8 +24,7 @@ struct Level {
   std::uint32_t resolution;
 };
 constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
-// Balls of smaller object angles come from the vertices of the envelope: to look for all of them takes minutes where
-// triangles are large or their normals are not relied on.
+// Balls of smaller object angles fill the edges; below, their number grows and what they add does not.
 constexpr double kObjectAngle = 0.3;
 
 constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
@@ -120,6 +119,8 @@ class Placing {
     ExtractionParameters parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
+    // Every voxel need not have its point: undecided ones, subdivided, can take minutes (sheets that lie in faces of
+    // voxels, as in boxes along the axes).
     parameters.extra_levels = 0;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
