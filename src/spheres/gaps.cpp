@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <queue>
 #include <utility>
 
@@ -107,7 +108,9 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   Gap& deepest = deepest_[place];
   if (known_[place]) return deepest;
   deepest = {};
-  for (const Point& vertex : balls_.vertices(place)) {
+  const Result<std::vector<Point>> vertices = balls_.vertices(place);
+  if (!vertices) throw std::bad_alloc();  // its only error for a ball that is there
+  for (const Point& vertex : vertices.value()) {
     const double depth = solid_.distance(vertex);
     if (depth > deepest.size) deepest = {.at = vertex, .size = depth};
   }

@@ -176,7 +176,8 @@ std::string bytes_of(const DynamicUnion& balls) {
     if (!balls.holds(place)) continue;
     append_bytes(out, balls.ball(place));
     append_bytes(out, balls.exposure(place));
-    for (const Point& vertex : balls.vertices(place)) append_bytes(out, vertex);
+    const std::vector<Point> vertices = balls.vertices(place).value();
+    for (const Point& vertex : vertices) append_bytes(out, vertex);
   }
   return out;
 }

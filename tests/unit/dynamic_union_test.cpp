@@ -120,7 +120,7 @@ TEST(DynamicUnion, VerticesLieOnThreeSpheres) {
   const std::vector<Ball> some = {{{0, 0, 0}, 0.5}, {{0.4, 0, 0}, 0.5}, {{0.2, 0.4, 0}, 0.5}};
   for (const Ball& ball : some) ASSERT_TRUE(balls.add(ball).ok());
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const std::vector<Point> vertices = balls.vertices(i);
+    const std::vector<Point> vertices = balls.vertices(i).value();
     ASSERT_EQ(vertices.size(), 2u);
     for (const Point& v : vertices) {
       for (const Ball& ball : some) {

@@ -140,7 +140,8 @@ TEST(GapFinder, FindsTheCornersOfABoxAndTheVertices) {
   const GapFinder::Gap deepest = gaps.deepest_vertex();
   double expected = 0;
   for (std::uint32_t place = 0; place < 3; ++place) {
-    for (const Point& v : balls.vertices(place)) expected = std::max(expected, box.solid.distance(v));
+    const std::vector<Point> vertices = balls.vertices(place).value();
+    for (const Point& v : vertices) expected = std::max(expected, box.solid.distance(v));
   }
   EXPECT_EQ(deepest.size, expected);
 }

@@ -37,8 +37,9 @@ class DynamicUnion {
   const Ball& ball(std::uint32_t place) const;
   double volume() const;
   Exposure exposure(std::uint32_t place) const;
-  /// Where its sphere meets two others on the surface, as BallUnion::vertices.
-  std::vector<Point> vertices(std::uint32_t place) const;
+  /// Where its sphere meets two others on the surface, as BallUnion::vertices. Errors: kUsage (no ball there),
+  /// kOutOfMemory.
+  Result<std::vector<Point>> vertices(std::uint32_t place) const;
 
   /// The three changes. Errors: kUsage (no ball there, no room, a ball beyond `largest`), kOutOfMemory; then nothing
   /// has changed. add() says where the ball is now.

@@ -332,7 +332,14 @@ std::uint32_t DynamicUnion::size() const { return impl_->size(); }
 const Ball& DynamicUnion::ball(std::uint32_t place) const { return impl_->ball(place); }
 double DynamicUnion::volume() const { return impl_->volume(); }
 Exposure DynamicUnion::exposure(std::uint32_t place) const { return impl_->exposure(place); }
-std::vector<Point> DynamicUnion::vertices(std::uint32_t place) const { return impl_->vertices(place); }
+
+Result<std::vector<Point>> DynamicUnion::vertices(std::uint32_t place) const {
+  return catch_out_of_memory("finding the vertices of a union", [&]() -> Result<std::vector<Point>> {
+    if (Status status = impl_->check(place); !status.ok()) return status.error();
+    return impl_->vertices(place);
+  });
+}
+
 std::span<const std::uint32_t> DynamicUnion::changed() const { return impl_->changed(); }
 void DynamicUnion::undo() { impl_->undo(); }
 
