@@ -28,7 +28,7 @@ Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::str
   for (const NamedOutput& output : outputs) {
     if (output.file->empty()) continue;
     if (input != "-" && *output.file != "-" && same_file(*output.file, input)) {
-      return usage_error(fmt::format("{} would overwrite the mesh {}", output.option, input));
+      return usage_error(fmt::format("{} would overwrite the input {}", output.option, input));
     }
     for (const NamedOutput& other : outputs) {
       if (output.file == other.file || other.file->empty()) continue;

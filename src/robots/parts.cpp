@@ -70,7 +70,7 @@ class PartLoader {
     }
     Mesh mesh;
     if (geometry.kind == GeometryKind::kMesh) {
-      Result<const Mesh*> file = mesh_file(geometry.mesh);
+      Result<const Mesh*> file = mesh_file(geometry.mesh, part.file);
       if (!file) return file.error();
       mesh = *file.value();
       scale_mesh(geometry.scale, mesh);
@@ -87,9 +87,11 @@ class PartLoader {
     return {};
   }
 
-  Result<const Mesh*> mesh_file(const std::string& uri) {
+  /// `found` gets its path.
+  Result<const Mesh*> mesh_file(const std::string& uri, std::string& found) {
     const Result<std::string> path = find_mesh(uri, places_);
     if (!path) return path.error();
+    found = path.value();
     const auto known = files_.find(path.value());
     if (known != files_.end()) return &known->second;
     const bool is_collada = file_extension(path.value()) == ".dae";

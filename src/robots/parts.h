@@ -19,6 +19,7 @@ struct Part {
   Pose pose;                 ///< From the part's frame to its link's.
   std::optional<Ball> ball;  ///< A sphere: the part itself, in its own frame. Then there is no mesh.
   PreparedMesh mesh;         ///< In the part's frame, scaled.
+  std::string file;          ///< That the mesh was read from; empty: none, or not known.
   double facet_share = 0;    ///< Of a curved primitive: how far the mesh is from it, as a share of the radius.
 };
 

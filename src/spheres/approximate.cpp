@@ -41,10 +41,17 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
   return inside;
 }
 
-Status check_request(const SphereRequest& request) {
+Status check_request(const Solid& solid, const SphereRequest& request) {
   const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
   if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
     return usage("an error is a share below 1, and a gap a length; neither is negative");
+  }
+  if (request.error > 0 && !solid.has_volume()) {
+    return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
+  }
+  // Balls inside stay off the boundary by rounding.
+  if (request.max_gap > 0 && request.max_gap < 16 * solid.rounding()) {
+    return usage("so small a gap is below the rounding of distances");
   }
   if (request.contract != SphereContract::kInside && (request.error > 0 || request.max_gap > 0)) {
     return usage("an error or a gap is a goal for balls inside; for the other contracts say how many");
@@ -54,7 +61,7 @@ Status check_request(const SphereRequest& request) {
 
 Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
                                          Backend backend, Context* context, const SphereProgress& progress) {
-  if (Status status = check_request(request); !status) return status.error();
+  if (Status status = check_request(solid, request); !status) return status.error();
   Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
   if (!inside) return inside.error();
   const std::vector<Ball>& balls = inside.value().balls;

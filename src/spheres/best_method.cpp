@@ -94,15 +94,23 @@ class Placing {
     return false;
   }
 
-  double share_done(std::size_t most) const {
+  double share_done(std::size_t most) {
     if (request_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
-    return request_.error > 0 ? std::min(1.0, request_.error / uncovered()) : 0;
+    double share = 1;
+    if (request_.error > 0) share = std::min(share, request_.error / uncovered());
+    if (request_.max_gap > 0) share = std::min(share, request_.max_gap / gaps_.widest_on_boundary().size);
+    return share;
   }
 
-  Error unmet() const {
-    return {ErrorCode::kUsage,
-            fmt::format("{} balls leave {:.3g} of the volume uncovered; allow more balls, or a larger error or gap",
-                        balls_.size(), uncovered())};
+  Error unmet() {
+    std::string left;
+    if (request_.error > 0) left = fmt::format("{:.3g} of the volume uncovered", uncovered());
+    if (request_.max_gap > 0) {
+      left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
+    }
+    const std::size_t n = balls_.size();
+    return {ErrorCode::kUsage, fmt::format("{} {} {}; allow more balls, or a larger error or gap", n,
+                                           n == 1 ? "ball leaves" : "balls leave", left)};
   }
 
   /// The next medial points, if there are enough balls for them.
@@ -137,15 +145,16 @@ class Placing {
   /// Where much is equally good, as in a plate that is wide for its thickness, distance decides.
   Result<std::optional<Candidates::Choice>> choose() {
     Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
-    if (!best || !best.value() || balls_.size() == 0) return best;
+    if (!best || balls_.size() == 0) return best;
     const std::optional<Ball> ball = ball_in_widest_gap();
     if (!ball) return best;
     const Result<double> gain = balls_.gain(*ball);
     if (!gain) return gain.error();
     const std::size_t n = balls_.size();
-    const bool is_due = n >= kFirstGap && n % kGapPeriod == 0 && gain.value() > 0;
-    if (!is_due && gain.value() < kAsGood * best.value()->gain) return best;
-    candidates_.add({&best.value()->ball, 1});
+    const bool is_due = n >= kFirstGap && n % kGapPeriod == 0;
+    const double least = !best.value() || is_due ? 0 : kAsGood * best.value()->gain;
+    if (gain.value() <= least) return best;
+    if (best.value()) candidates_.add({&best.value()->ball, 1});
     return std::optional<Candidates::Choice>({*ball, gain.value()});
   }
 

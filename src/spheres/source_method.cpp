@@ -154,9 +154,6 @@ Result<SphereSet> source_spheres(const Solid& solid, const SphereRequest& reques
     return usage("the method source finds its own resolution; give either that or a count or error");
   }
   if (!has_goal && request.resolution == 0) return usage("there is no goal: give a count, an error or a resolution");
-  if (request.error > 0 && !solid.has_volume()) {
-    return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
-  }
   return GridSearch(solid, request, backend, context, progress).run();
 }
 

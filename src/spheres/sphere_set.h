@@ -36,7 +36,7 @@ struct SphereRequest {
 };
 
 struct SphereSet {
-  /// In mesh units. Every prefix is a good set of its own size: the levels (`--levels`).
+  /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).
   std::vector<Ball> balls;
 };
 

@@ -198,6 +198,33 @@ TEST_F(SpheresCommand, WrongUsageIs2) {
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
 }
 
+TEST_F(SpheresCommand, ARobotsOwnMeshesAreNotOverwritten) {
+  const std::string before = read_file(path("part.obj"));
+  const ToolResult result =
+      spheres({"two.urdf", "--package", "here=" + path(""), "--total", "6", "--format", "csv", "-o", "part.obj"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--output would overwrite the input"));
+  EXPECT_EQ(read_file(path("part.obj")), before);
+}
+
+TEST_F(SpheresCommand, AnErrorNeedsAVolume) {
+  Mesh open = test::make_box({1, 1, 1});
+  open.triangles.resize(open.triangles.size() - 2);
+  test::write_file(path("open.obj"), test::to_obj(open));
+  for (const char* method : {"best", "source"}) {
+    const ToolResult result = run({"spheres", "open.obj", "--error", "0.1", "--method", method, "--backend", "cpu"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("does not enclose cleanly"));
+  }
+}
+
+TEST_F(SpheresCommand, AGapThatIsNotReachedIsNamed) {
+  const ToolResult result = best({"part.obj", "--count", "3", "--max-gap", "0.01"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("3 balls leave a gap of 0."));
+  EXPECT_THAT(best({"part.obj", "--max-gap", "1e-16"}).err, HasSubstr("below the rounding of distances"));
+}
+
 TEST_F(SpheresCommand, UnreadableRobotsAre3AndSayWhy) {
   const auto fails_with = [&](const std::string& robot, const std::string& message) {
     test::write_file(path("bad.urdf"), robot);

@@ -300,7 +300,7 @@ TEST(Options, MessagesNameTheRange) {
 TEST(Options, ContradictionsAreRefused) {
   message_of({"a.obj", "-q", "-v"});
   message_of({"a.obj", "--backend", "cpu", "--device", "0"});
-  EXPECT_THAT(message_of({"a.ply", "-o", "./a.ply"}), HasSubstr("would overwrite the mesh"));
+  EXPECT_THAT(message_of({"a.ply", "-o", "./a.ply"}), HasSubstr("would overwrite the input"));
   EXPECT_THAT(message_of({"a.obj", "-o", "b.ply", "--report", "./b.ply"}), HasSubstr("same file"));
   EXPECT_THAT(message_of({"a.obj", "--html", "-", "--report", "-"}), HasSubstr("same file"));
 }

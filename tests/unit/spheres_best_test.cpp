@@ -206,6 +206,11 @@ TEST(BestMethod, MeetsGoalsOrSaysWhatWasLeft) {
   EXPECT_THAT(too_few.error().message, HasSubstr("3 balls leave"));
 }
 
+TEST(BestMethod, GapsAreFilledWhenCandidatesAreUsedUp) {
+  const Shape cube(test::make_box({1, 1, 1}));
+  EXPECT_EQ(cube.fit({.count = 8, .resolution = 1}).value().balls.size(), 8u);
+}
+
 TEST(BestMethod, StopsWhenAsked) {
   const Shape shape(turned_l_shape());
   SphereRequest request{.count = 50, .resolution = 16};

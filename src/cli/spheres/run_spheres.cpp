@@ -92,6 +92,10 @@ class SpheresRun {
                    options_.input);
     if (!parts) return parts.error();
     record_.parts = std::move(parts).value();
+    for (const Part& part : record_.parts) {
+      if (part.file.empty()) continue;
+      if (Status status = check_outputs_differ(outputs_of(options_), part.file); !status) return status;
+    }
     return {};
   }
 

@@ -102,6 +102,9 @@ Status check_goals(const SpheresOptions& options) {
   if (options.count_per_link > 0 && options.total > 0) {
     return usage_error("--count-per-link and --total cannot be used together");
   }
+  if (request.contract != SphereContract::kInside && (request.error > 0 || request.max_gap > 0)) {
+    return usage_error("--error and --max-gap are goals of balls inside; for the other contracts say how many");
+  }
   const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
   const bool any = request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
                    request.max_gap > 0 || by_resolution;
@@ -144,11 +147,7 @@ Status complete_files(SpheresOptions& options, const Given& given) {
   if (!may_end_in(options.histogram, ".svg") && !may_end_in(options.histogram, ".csv")) {
     return usage_error(fmt::format("--histogram: '{}' ends in neither .svg nor .csv", options.histogram));
   }
-  const NamedOutput outputs[] = {{"--output", &options.output},
-                                 {"--report", &options.report},
-                                 {"--picture", &options.picture},
-                                 {"--histogram", &options.histogram}};
-  return check_outputs_differ(outputs, options.input);
+  return check_outputs_differ(outputs_of(options), options.input);
 }
 
 Status check_combinations(const SpheresOptions& options, const Given& given) {
@@ -164,6 +163,13 @@ Status check_combinations(const SpheresOptions& options, const Given& given) {
 }
 
 }  // namespace
+
+std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
+  return {{"--output", &options.output},
+          {"--report", &options.report},
+          {"--picture", &options.picture},
+          {"--histogram", &options.histogram}};
+}
 
 Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments) {
   CLI::App app;

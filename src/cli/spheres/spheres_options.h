@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output_names.h"
 #include "cli/parse_picture.h"
 #include "medial_vk/result.h"
 #include "output/picture/options.h"
@@ -43,6 +44,9 @@ struct SpheresOptions {
 
 /// `arguments` without the program's name and without "spheres". Errors: kUsage with a message that names the option.
 Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments);
+
+/// Every file that is to be written, with its option.
+std::vector<NamedOutput> outputs_of(const SpheresOptions& options);
 
 /// What `medial-vk spheres --help` prints.
 std::string spheres_help_text();

@@ -57,23 +57,25 @@ std::string spheres_report(const SpheresOptions& options, const SpheresRecord& r
   }
   Json seconds = Json::object();
   for (const StageTime& time : record.times) seconds[time.stage] = time.seconds;
-  const Json json = {{"format", kSpheresReportFormat},
-                     {"program", "medial-vk spheres"},
-                     {"version", version()},
-                     {"input", options.input},
-                     {"output", options.output},
-                     {"output_format", name_of(options.format)},
-                     {options.is_robot ? "robot" : "mesh", record.robot},
-                     {"method", name_of(options.request.method)},
-                     {"contract", name_of(options.request.contract)},
-                     {"object_angle", options.request.object_angle},
-                     {"backend", options.backend == Backend::kCpu ? "cpu" : "vulkan"},
-                     {"device", record.device ? Json(record.device->name) : Json(nullptr)},
-                     {"goals", goals_json(options)},
-                     {"num_spheres", count_spheres(record)},
-                     {"volume_error", or_null(uncovered_share(record, options.request.contract))},
-                     {"parts", parts},
-                     {"seconds", seconds}};
+  const Json json = {
+      {"format", kSpheresReportFormat},
+      {"program", "medial-vk spheres"},
+      {"version", version()},
+      {"input", options.input},
+      {"output", options.output},
+      {"output_format", name_of(options.format)},
+      {options.is_robot ? "robot" : "mesh", record.robot},
+      {"method", name_of(options.request.method)},
+      {"contract", name_of(options.request.contract)},
+      {"object_angle",
+       options.request.method == SphereMethod::kSource ? Json(options.request.object_angle) : Json(nullptr)},
+      {"backend", options.backend == Backend::kCpu ? "cpu" : "vulkan"},
+      {"device", record.device ? Json(record.device->name) : Json(nullptr)},
+      {"goals", goals_json(options)},
+      {"num_spheres", count_spheres(record)},
+      {"volume_error", or_null(uncovered_share(record, options.request.contract))},
+      {"parts", parts},
+      {"seconds", seconds}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

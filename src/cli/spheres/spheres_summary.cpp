@@ -57,8 +57,8 @@ std::string certificate_text(SphereContract contract, const SpheresRecord& recor
   }
   switch (contract) {
     case SphereContract::kInside:
-      return fmt::format("{} with centre inside and radius at most the exact distance",
-                         counted(spheres, "sphere", "spheres"));
+      return fmt::format("{} with centre inside and radius at most the exact distance{}",
+                         counted(spheres, "sphere", "spheres"), closed ? "" : "; the mesh is open: its surface only");
     case SphereContract::kCover:
       return fmt::format("{} covered piece by piece{}", counted(triangles, "triangle", "triangles"),
                          closed ? ", no hole within" : "; the mesh is open: its surface only");
