@@ -352,7 +352,8 @@ TEST_F(SpheresCommand, MoreBallsAreNeverWorse) {
 }
 
 TEST_F(SpheresCommand, BestGivesTheSameBytesOnAnyNumberOfThreads) {
-  for (const auto& [contract, count] : {std::pair{"inside", "20"}, {"cover", "2"}, {"balanced", "20"}}) {
+  for (const auto& each : {std::pair{"inside", "20"}, {"cover", "2"}, {"balanced", "20"}}) {
+    const char *contract = each.first, *count = each.second;
     const auto bytes = [&](const char* threads) {
       const ToolResult result =
           best({"part.obj", "--count", count, "--contract", contract, "--threads", threads, "-q", "-o", "a.json"});
