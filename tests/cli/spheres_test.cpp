@@ -420,7 +420,8 @@ TEST_F(SpheresCommand, RobotsKeepEveryContract) {
     const ToolResult result = best(arguments);
     ASSERT_EQ(result.exit_code, 0) << contract << result.err;
     EXPECT_EQ(report()["num_spheres"], 5);
-    for (const json& part : report()["parts"]) {
+    const json written = report();
+    for (const json& part : written["parts"]) {
       if (part["geometry"] == "primitive1") {
         EXPECT_TRUE(part["measures"].is_null());
         continue;
