@@ -17,6 +17,18 @@ inline Point cross(const Point& a, const Point& b) {
 }
 inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
+/// A unit vector at right angles to one: that in the plane of `axis` and the coordinate axis that is most across it.
+inline Point perpendicular_to(const Point& axis) {
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (std::fabs(axis[k]) < std::fabs(axis[least])) least = k;
+  }
+  Point across{};
+  across[least] = 1;
+  across = across - axis[least] * axis;
+  return (1 / length(across)) * across;
+}
+
 /// Twice the area, along the normal, from the corner where rounding costs least: the one opposite the longest side.
 /// `shorter` gets the product of the lengths of the two sides used. The differences of two doubles carry a relative
 /// error u = 2^-53 each; a component of the product then has an error of at most 4u (|e_y f_z| + |e_z f_y|)

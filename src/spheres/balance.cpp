@@ -32,14 +32,7 @@ class Growth {
     const Point axis = (1 / gap) * between;
     const double along = (gap * gap + (a.radius - b.radius) * (a.radius + b.radius)) / (2 * gap);
     const double squared = std::max(0.0, (a.radius - along) * (a.radius + along));
-    std::size_t least = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (std::fabs(axis[k]) < std::fabs(axis[least])) least = k;
-    }
-    Point across{};
-    across[least] = 1;
-    across = across - axis[least] * axis;
-    const Point out = (std::sqrt(squared) / length(across)) * across;
+    const Point out = std::sqrt(squared) * perpendicular_to(axis);
     const Point middle = a.centre + along * axis;
     reach(middle + out, edge);
     reach(middle - out, edge);

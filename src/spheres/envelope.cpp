@@ -18,18 +18,6 @@ double magnitude_of(std::span<const Ball> balls) {
   return magnitude;
 }
 
-/// A unit vector at right angles to one.
-Point across_any(const Point& axis) {
-  std::size_t least = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (std::fabs(axis[k]) < std::fabs(axis[least])) least = k;
-  }
-  Point across{};
-  across[least] = 1;
-  across = across - axis[least] * axis;
-  return (1 / length(across)) * across;
-}
-
 }  // namespace
 
 std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, std::array<Point, 2>& points) {
@@ -95,7 +83,7 @@ void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Poi
   const Point across = to - dot(to, axis) * axis;
   const double out = length(across);
   // On the axis all points of the circle are as near, its ends too, if it has any: any of them will do.
-  const Point away = out > 0 ? (1 / out) * across : across_any(axis);
+  const Point away = out > 0 ? (1 / out) * across : perpendicular_to(axis);
   const Point near = middle + std::sqrt(squared) * away;
   const double distance = length(p - near);
   if (distance < best && is_exposed(near)) best = distance;

@@ -90,31 +90,9 @@ NearestBall NearestBallTree::nearest(const Point& p) const {
   return best;
 }
 
-bool NearestBallTree::holds(const Point& p, double depth) const {
+template <class Visit>
+bool NearestBallTree::any_within(const Point& p, double limit, const Visit& visit) const {
   if (nodes_.empty()) return false;
-  std::array<std::uint32_t, kStack> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const std::uint32_t at = stack[--size];
-    const Node& node = nodes_[at];
-    if (distance_to_box(node, p) - node.greatest_radius >= -depth) continue;
-    if (node.right != 0) {
-      stack[size++] = node.right;
-      stack[size++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const Ball& ball = balls_[order_[k]];
-      if (length(p - ball.centre) - ball.radius < -depth) return true;
-    }
-  }
-  return false;
-}
-
-void NearestBallTree::gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const {
-  found.clear();
-  if (nodes_.empty()) return;
   std::array<std::uint32_t, kStack> stack;
   std::size_t size = 0;
   stack[size++] = 0;
@@ -129,9 +107,23 @@ void NearestBallTree::gather(const Point& p, double limit, std::vector<std::uint
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
       const Ball& ball = balls_[order_[k]];
-      if (length(p - ball.centre) - ball.radius <= limit) found.push_back(order_[k]);
+      const double distance = length(p - ball.centre) - ball.radius;
+      if (distance <= limit && visit(order_[k], distance)) return true;
     }
   }
+  return false;
+}
+
+bool NearestBallTree::holds(const Point& p, double depth) const {
+  return any_within(p, -depth, [&](std::uint32_t, double distance) { return distance < -depth; });
+}
+
+void NearestBallTree::gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  any_within(p, limit, [&](std::uint32_t ball, double) {
+    found.push_back(ball);
+    return false;
+  });
 }
 
 }  // namespace medial_vk

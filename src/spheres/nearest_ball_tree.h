@@ -44,6 +44,9 @@ class NearestBallTree {
 
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  /// Calls visit(ball, |p - c| - r) where the latter is at most `limit`, until one returns true; did one?
+  template <class Visit>
+  bool any_within(const Point& p, double limit, const Visit& visit) const;
 
   std::vector<Ball> balls_;
   std::vector<std::uint32_t> order_;

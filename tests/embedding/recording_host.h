@@ -6,7 +6,7 @@
 
 #include "context_impl.h"
 #include "medial_vk/extraction_job.h"
-#include "medial_vk/host_device.h"
+#include "support/lend_device.h"
 
 namespace medial_vk::test {
 
@@ -28,16 +28,7 @@ class RecordingHost {
   RecordingHost& operator=(const RecordingHost&) = delete;
   ~RecordingHost() { impl().vk.vkDestroyCommandPool(impl().device, pool_, nullptr); }
 
-  HostDevice lend() {
-    HostDevice host;
-    host.instance = impl().instance;
-    host.physical_device = impl().physical_device;
-    host.device = impl().device;
-    host.queue = impl().queue;
-    host.queue_family = impl().queue_family;
-    host.cache_folder = "/dev/null";
-    return host;
-  }
+  HostDevice lend() { return lend_device(impl()); }
 
   /// Records, submits, waits.
   Status run(ExtractionJob& job) {

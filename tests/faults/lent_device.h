@@ -6,7 +6,7 @@
 
 #include "fault_test.h"
 #include "medial_vk/extraction_job.h"
-#include "medial_vk/host_device.h"
+#include "support/lend_device.h"
 
 namespace medial_vk::test {
 
@@ -30,14 +30,8 @@ class LentDevice {
   ~LentDevice() { impl().vk.vkDestroyCommandPool(impl().device, pool_, nullptr); }
 
   HostDevice lend(const VkAllocationCallbacks* callbacks = nullptr) {
-    HostDevice host;
+    HostDevice host = lend_device(impl());
     host.allocation_callbacks = callbacks;
-    host.instance = impl().instance;
-    host.physical_device = impl().physical_device;
-    host.device = impl().device;
-    host.queue = impl().queue;
-    host.queue_family = impl().queue_family;
-    host.cache_folder = "/dev/null";
     return host;
   }
 
