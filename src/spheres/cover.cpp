@@ -20,8 +20,8 @@ constexpr double kRoom = 1e-9;
 
 /// Of the boundary: enough that what a piece sticks out of a ball does not count.
 std::size_t pieces_for(std::size_t balls) {
-  if (balls <= 16) return 3'000;  // The polish cuts those that matter.
-  return balls <= kFew ? 6'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
+  if (balls <= 16) return 6'000;
+  return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
 }
 
 CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, unsigned threads) {
