@@ -174,6 +174,10 @@ TEST(SphereCover, AnyBallsWillDoAndNoneWillNot) {
   EXPECT_EQ(cover_solid(solid, {{{{0, 0, std::nan("")}, 1}}}).error().code, ErrorCode::kUsage);
   const auto stop = [](const char*, double) { return false; };
   EXPECT_EQ(cover_solid(solid, far, 0, stop).error().code, ErrorCode::kInterrupted);
+  const std::map<std::size_t, std::vector<Ball>> starts = {{1, {far.balls[0]}}, {4, far.balls}};
+  EXPECT_EQ(cover_by_counts(solid, starts, {4}, 0, stop).error().code, ErrorCode::kInterrupted);
+  // Fewer balls than wanted, one of them with nothing to do.
+  EXPECT_TRUE(prove_cover(solid, cover_by_counts(solid, starts, {4}).value().front().balls).value().proved());
 }
 
 TEST(SphereCover, OfAnOpenMeshTheSurface) {
