@@ -1,6 +1,9 @@
 #include "cli/device_opening.h"
 
+#include <utility>
+
 #include "cli/messages.h"
+#include "medial/stopwatch.h"
 
 namespace medial_vk::cli {
 
@@ -12,10 +15,16 @@ void DeviceOpening::start(const std::string& wanted) {
   opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
 }
 
-Result<Context> DeviceOpening::take() {
-  Result<Context> context = opening_.get();
-  if (!context) return with_hint(context.error(), wanted_);
-  return context;
+Status DeviceOpening::take(std::optional<Context>& context, std::optional<DeviceDescription>& description,
+                           std::vector<StageTime>& times) {
+  if (!opening_.valid()) return {};
+  Stopwatch stopwatch;
+  Result<Context> opened = opening_.get();
+  if (!opened) return with_hint(opened.error(), wanted_);
+  context.emplace(std::move(opened).value());
+  description = context->device();
+  times.push_back({"device", stopwatch.lap()});
+  return {};
 }
 
 }  // namespace medial_vk::cli

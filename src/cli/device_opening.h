@@ -2,9 +2,12 @@
 #pragma once
 
 #include <future>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "medial_vk/context.h"
+#include "medial_vk/extraction.h"
 
 namespace medial_vk::cli {
 
@@ -12,8 +15,10 @@ class DeviceOpening {
  public:
   /// Begins, on a thread of its own. `wanted` is what --device named, or empty: the best.
   void start(const std::string& wanted);
-  /// Waits for it; call once after start(). Errors: those of Context::create(), with what to do about them.
-  Result<Context> take();
+  /// Waits for it: the context, what it is, and a line "device" with the time that was spent here. Without start(),
+  /// nothing. Errors: those of Context::create(), with what to do about them.
+  Status take(std::optional<Context>& context, std::optional<DeviceDescription>& description,
+              std::vector<StageTime>& times);
 
  private:
   std::string wanted_;

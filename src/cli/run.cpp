@@ -52,7 +52,7 @@ class ExtractionRun {
     if (Status status = check_outputs(); !status) return status;
     if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the mesh is read
     if (Status status = load(); !status) return status;
-    if (Status status = take_device(); !status) return status;
+    if (Status status = opening_.take(context_, record_.device, record_.host_times); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
     if (Status status = make_files(); !status) return status;
@@ -91,17 +91,6 @@ class ExtractionRun {
     record_.simplify = options_.simplify;
     record_.mesh = mesh_.report;
     record_.longest_side = longest_side(mesh_.report);
-    return {};
-  }
-
-  Status take_device() {
-    if (options_.backend == Backend::kCpu) return {};
-    Stopwatch stopwatch;
-    Result<Context> context = opening_.take();
-    if (!context) return context.error();
-    context_.emplace(std::move(context).value());
-    record_.device = context_->device();
-    record_.host_times.push_back({"device", stopwatch.lap()});
     return {};
   }
 

@@ -91,19 +91,36 @@ class Fitting {
     return {};
   }
 
-  /// An equal share for each first: its beginnings are the curve of error against count.
+  /// Curves for an equal share first, and longer ones for those who get more: in the end every curve says all that was
+  /// asked, and the shares are those of whole curves.
   Result<std::vector<std::size_t>> counts_by_need(const Group& group) {
     const std::size_t balls = static_cast<std::size_t>(
         std::ranges::count_if(group.parts, [&](std::size_t part) { return parts_[part].ball.has_value(); }));
     const std::size_t others = group.parts.size() - balls;
     const std::size_t equal = others == 0 ? 1 : std::max<std::size_t>(1, (group.balls - balls) / others);
-    std::vector<NeedCurve> curves;
-    for (const std::size_t part : group.parts) {
-      Result<NeedCurve> curve = curve_of(part, equal);
-      if (!curve) return curve.error();
-      curves.push_back(std::move(curve).value());
+    std::vector<NeedCurve> curves(group.parts.size());
+    std::vector<std::size_t> lengths(group.parts.size(), curve_length(equal));
+    std::vector<std::size_t> counts(group.parts.size(), 0);
+    for (bool is_known = false; !is_known;) {
+      is_known = true;
+      for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (counts[i] > 0 && is_long_enough(curves[i], counts[i])) continue;
+        if (counts[i] > 0) ++steps_;
+        lengths[i] = std::max(lengths[i], curve_length(counts[i]));
+        Result<NeedCurve> curve = curve_of(group.parts[i], lengths[i]);
+        if (!curve) return curve.error();
+        curves[i] = std::move(curve).value();
+      }
+      counts = share_out(curves, group.balls);
+      for (std::size_t i = 0; i < curves.size(); ++i) is_known = is_known && is_long_enough(curves[i], counts[i]);
     }
-    return share_out(curves, group.balls);
+    return counts;
+  }
+
+  /// The method of the source has no set that another begins with: its curves are continued instead.
+  bool is_long_enough(const NeedCurve& curve, std::size_t count) const {
+    return curve.is_ball || curve.ends || goals_.request.method == SphereMethod::kSource ||
+           curve.uncovered.size() >= curve_length(count);
   }
 
   Result<NeedCurve> curve_of(std::size_t number, std::size_t count) {
@@ -124,20 +141,29 @@ class Fitting {
     }
     if (!sets) return named(part, sets.error());
     ++done_;
-    const Result<std::vector<double>> volumes = prefix_volumes(sets.value().back().balls, request.threads);
+    const SphereSet& set = sets.value().back();
+    const Result<std::vector<double>> volumes = volumes_of(set);
     if (!volumes) return named(part, volumes.error());
-    // An open mesh has no volume; then the greatest set stands for the solid.
-    const double covered = volumes.value().empty() ? 0 : volumes.value().back();
-    const double whole = solid.value().has_volume() ? solid.value().volume() : covered;
+    // An open mesh has no volume; what its surface encloses with the origin will do.
+    const double open = std::fabs(part.mesh.report.signed_volume);
+    const double whole = part.volume.value_or(solid.value().has_volume() ? solid.value().volume() : open);
     for (const double volume : volumes.value()) curve.uncovered.push_back(whole - volume);
+    curve.ends = goals_.request.method == SphereMethod::kBest && set.balls.size() < count;
     return curve;
+  }
+
+  /// The method best says what they were; other sets are told by their beginnings.
+  Result<std::vector<double>> volumes_of(const SphereSet& set) const {
+    if (!set.volumes.empty()) return set.volumes;
+    return prefix_volumes(set.balls, goals_.request.threads);
   }
 
   Result<std::vector<SphereSet>> approximate(const Part& part, const Solid& solid, SphereRequest request,
                                              std::size_t count, bool levels) {
     request.count = count;
     const SphereProgress on_progress = [&](const char*, double done) {
-      return !progress_ || progress_(part, (static_cast<double>(done_) + done) / static_cast<double>(steps_));
+      return !progress_ ||
+             progress_(part, std::min(1.0, (static_cast<double>(done_) + done) / static_cast<double>(steps_)));
     };
     if (levels) return approximate_in_levels(solid, request, backend_, context_, on_progress);
     Result<SphereSet> set = approximate_by_spheres(solid, request, backend_, context_, on_progress);
@@ -154,6 +180,7 @@ class Fitting {
       fit.levels = {{Ball{part.pose.shift, part.ball->radius}}};
       fit.reach = {{}};
       fit.solid_volume = fit.spheres_volume = volume_of(*part.ball);
+      fit.of_shape = true;
       return {};
     }
     Stopwatch stopwatch;
@@ -162,20 +189,22 @@ class Fitting {
     Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), goals_.request, count, goals_.levels);
     if (!sets) return named(part, sets.error());
     ++done_;
-    if (Status status = measure(solid.value(), sets.value(), fit); !status) return named(part, status.error());
+    if (Status status = measure(part, solid.value(), sets.value(), fit); !status) return named(part, status.error());
     place_levels(part, sets.value(), fit);
     fit.seconds = stopwatch.lap();
     return {};
   }
 
   /// In the frame of the part, where what the contract says is proved.
-  Status measure(const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
+  Status measure(const Part& part, const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
     const std::vector<Ball>& balls = sets.back().balls;
     Result<SphereMeasures> measured = measure_spheres(solid, balls, {.threads = goals_.request.threads});
     if (!measured) return measured.error();
     fit.measures = std::move(measured).value();
     if (Status status = check_promise(*fit.measures); !status) return status;
     if (solid.has_volume()) fit.solid_volume = solid.volume();
+    fit.of_shape = part.volume && measure_against(*part.volume, *fit.measures);
+    if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
     if (goals_.check) fit.certificate = check_by_reference(solid.mesh(), balls);
     for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));

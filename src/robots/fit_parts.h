@@ -30,7 +30,8 @@ struct PartFit {
   std::vector<std::vector<Ball>> levels;
   std::vector<ReachOut> reach;           ///< Per level: an upper bound of how far balls reach out of the part.
   std::size_t wanted = 0;                ///< Balls that it was given; 0: as many as its other goals took.
-  std::optional<double> solid_volume;    ///< Of its mesh or ball, if the mesh encloses one cleanly.
+  std::optional<double> solid_volume;    ///< Of its mesh, if that encloses one cleanly; else see `of_shape`.
+  bool of_shape = false;                 ///< The volume and its errors are those of a primitive, not of its facets.
   std::optional<double> spheres_volume;  ///< Of the union of the last level.
   // Of the last level, too; in the frame of the part, where its contract is proved. Not of parts that are balls.
   std::optional<SphereMeasures> measures;
@@ -42,7 +43,8 @@ struct PartFit {
 using FitProgress = std::function<bool(const Part& part, double done)>;
 
 /// `contract` inside: no ball is outside its part, even by the rounding of its pose. A goal that is shared out is so by
-/// need (robots/share_out.h): error against count is measured on sets of an equal share first. Errors: those of
+/// need (robots/share_out.h): error against count is that of balls inside, whatever the contract. With the method best
+/// a larger number gives no part fewer balls, and no part of contract inside more error. Errors: those of
 /// approximate_by_spheres() and measure_spheres(), naming link and part; kUsage if a link has more parts than balls;
 /// kInternal if balls do not keep the contract, for which no reason is known.
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, Backend backend,

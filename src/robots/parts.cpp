@@ -66,6 +66,7 @@ class PartLoader {
   Status fill(const Geometry& geometry, Part& part) {
     if (geometry.kind == GeometryKind::kSphere) {
       part.ball = Ball{{0, 0, 0}, geometry.size[0]};
+      part.volume = primitive_volume(geometry);
       return {};
     }
     Mesh mesh;
@@ -78,6 +79,7 @@ class PartLoader {
     } else {
       mesh = make_primitive(geometry, side_);
       part.facet_share = facet_share(geometry.kind);
+      part.volume = primitive_volume(geometry);
     }
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh));
     if (!prepared) {

@@ -14,13 +14,14 @@ namespace medial_vk {
 
 /// One geometry of a link.
 struct Part {
-  std::string link;          ///< Of a mesh by itself: its name.
-  std::string name;          ///< A mesh: its file as the URDF has it, without package://; else primitiveI, from 0.
-  Pose pose;                 ///< From the part's frame to its link's.
-  std::optional<Ball> ball;  ///< A sphere: the part itself, in its own frame. Then there is no mesh.
-  PreparedMesh mesh;         ///< In the part's frame, scaled.
-  std::string file;          ///< That the mesh was read from; empty: none, or not known.
-  double facet_share = 0;    ///< Of a curved primitive: how far the mesh is from it, as a share of the radius.
+  std::string link;              ///< Of a mesh by itself: its name.
+  std::string name;              ///< A mesh: its file as the URDF has it, without package://; else primitiveI, from 0.
+  Pose pose;                     ///< From the part's frame to its link's.
+  std::optional<Ball> ball;      ///< A sphere: the part itself, in its own frame. Then there is no mesh.
+  PreparedMesh mesh;             ///< In the part's frame, scaled.
+  std::string file;              ///< That the mesh was read from; empty: none, or not known.
+  std::optional<double> volume;  ///< Of a primitive: of the shape itself, cubic metres; not of its facets.
+  double facet_share = 0;        ///< Of a curved primitive: how far the mesh is from it, as a share of the radius.
 };
 
 /// `side`: of the facets of curved primitives. Meshes are read once, however often they are used. Errors: kInvalidMesh,

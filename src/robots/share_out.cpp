@@ -7,23 +7,6 @@
 namespace medial_vk {
 namespace {
 
-/// The lower convex hull of points over 1, 2, 3 ...: what the next ball is worth on it, never more than the one before.
-std::vector<double> gains_on_hull(const std::vector<double>& uncovered) {
-  std::vector<std::size_t> hull;
-  const auto slope = [&](std::size_t a, std::size_t b) {
-    return (uncovered[b] - uncovered[a]) / static_cast<double>(b - a);
-  };
-  for (std::size_t i = 0; i < uncovered.size(); ++i) {
-    while (hull.size() > 1 && slope(hull[hull.size() - 2], hull.back()) >= slope(hull.back(), i)) hull.pop_back();
-    hull.push_back(i);
-  }
-  std::vector<double> gains;
-  for (std::size_t i = 1; i < hull.size(); ++i) {
-    gains.insert(gains.end(), hull[i] - hull[i - 1], std::max(0.0, -slope(hull[i - 1], hull[i])));
-  }
-  return gains;
-}
-
 /// Error falls at least like this power of the count on smooth solids.
 constexpr double kLeastPower = 0.6, kGreatestPower = 2;
 
@@ -33,10 +16,9 @@ double fall(double error, double balls, double power) { return error * (1 - std:
 /// The part's answer to "what is the next ball worth?" for any count.
 class Need {
  public:
-  explicit Need(const NeedCurve& curve) : is_ball_(curve.is_ball), gains_(gains_on_hull(curve.uncovered)) {
-    if (curve.uncovered.empty()) return;
-    errors_.push_back(std::max(curve.uncovered.front(), 0.0));
-    for (const double gain : gains_) errors_.push_back(std::max(errors_.back() - gain, 0.0));
+  explicit Need(const NeedCurve& curve) : is_ball_(curve.is_ball), ends_(curve.ends) {
+    for (const double error : curve.uncovered) errors_.push_back(std::max(error, 0.0));
+    if (errors_.empty()) return;
     const std::size_t middle = (errors_.size() - 1) / 2;
     if (errors_.back() <= 0 || middle + 2 > errors_.size()) return;
     const double ratio = static_cast<double>(errors_.size()) / static_cast<double>(middle + 1);
@@ -46,19 +28,31 @@ class Need {
   double gain(std::size_t balls) const {
     if (is_ball_ || errors_.empty()) return -1;
     const double now = static_cast<double>(balls);
-    if (balls < errors_.size()) return std::max(gains_[balls - 1], fall(errors_[balls - 1], now, kLeastPower));
+    if (balls < errors_.size()) return std::max(gain_on_curve(balls), fall(errors_[balls - 1], now, kLeastPower));
+    if (ends_) return -1;
     const double error = errors_.back() * std::pow(static_cast<double>(errors_.size()) / now, power_);
     return fall(error, now, power_);
   }
 
  private:
-  bool is_ball_;
-  std::vector<double> gains_;
-  std::vector<double> errors_;  // on the hull, with 1, 2, 3 ... balls
+  /// The greatest average over the next few balls.
+  double gain_on_curve(std::size_t balls) const {
+    double most = 0;
+    const std::size_t end = std::min(errors_.size(), curve_length(balls));
+    for (std::size_t next = balls + 1; next <= end; ++next) {
+      most = std::max(most, (errors_[balls - 1] - errors_[next - 1]) / static_cast<double>(next - balls));
+    }
+    return most;
+  }
+
+  bool is_ball_, ends_;
+  std::vector<double> errors_;  // with 1, 2, 3 ... balls
   double power_ = kLeastPower;
 };
 
 }  // namespace
+
+std::size_t curve_length(std::size_t count) { return count + std::max<std::size_t>(4, count / 4); }
 
 std::vector<std::size_t> share_out(std::span<const NeedCurve> curves, std::size_t total) {
   std::vector<std::size_t> counts(curves.size(), 1);

@@ -6,6 +6,7 @@
 
 #include "spheres/approximate.h"
 #include "spheres/best_method.h"
+#include "spheres/cover_family.h"
 #include "spheres/dilation.h"
 #include "spheres/prefixes.h"
 #include "spheres/source_method.h"
@@ -59,9 +60,26 @@ Status check_request(const Solid& solid, const SphereRequest& request) {
   return {};
 }
 
+/// From balls inside, more than are wanted: how many depends on the next number that covers are searched for.
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                           Backend backend, Context* context, const SphereProgress& progress) {
+  if (request.count == 0) return usage("say how many balls shall cover the solid");
+  SphereRequest start = request;
+  start.contract = SphereContract::kInside;
+  start.count = cover_top(request.count);
+  const Result<SphereSet> inside = best_spheres(solid, start, backend, context, progress);
+  if (!inside) return inside.error();
+  const std::vector<std::size_t> counts =
+      all_levels ? level_counts(request.count) : std::vector<std::size_t>{request.count};
+  return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
+}
+
 Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
                                          Backend backend, Context* context, const SphereProgress& progress) {
   if (Status status = check_request(solid, request); !status) return status.error();
+  if (request.contract == SphereContract::kCover && request.method == SphereMethod::kBest) {
+    return best_covers(solid, request, all_levels, backend, context, progress);
+  }
   Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
   if (!inside) return inside.error();
   const std::vector<Ball>& balls = inside.value().balls;

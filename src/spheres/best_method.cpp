@@ -9,6 +9,7 @@
 
 #include "mesh/point_ops.h"
 #include "spheres/candidates.h"
+#include "spheres/cover_family.h"
 #include "spheres/envelope_distance.h"
 #include "spheres/gaps.h"
 #include "spheres/maximal_ball.h"
@@ -64,6 +65,8 @@ class Placing {
       if (!choice) return choice.error();
       if (!choice.value()) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
+      volumes_.push_back(volume_);
+      if (cover_top(balls_.size()) == balls_.size()) stages_[balls_.size()] = all_balls();
       if (progress_ && !progress_("spheres", share_done(most))) return Error{ErrorCode::kInterrupted, "stopped"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
@@ -258,7 +261,8 @@ class Placing {
   }
 
   Result<SphereSet> result() const {
-    SphereSet set = {all_balls()};
+    SphereSet set = {all_balls(), volumes_, stages_};
+    set.stages[cover_top(balls_.size())] = set.balls;
     if (Status status = order_by_share(set.balls, request_.threads); !status.ok()) return status.error();
     return set;
   }
@@ -274,6 +278,8 @@ class Placing {
   GapFinder gaps_;
   std::size_t levels_ = 0;
   double volume_ = 0;
+  std::vector<double> volumes_;  // after each ball
+  std::map<std::size_t, std::vector<Ball>> stages_;
   double sampled_gap_;         // what samples must show before a proof is tried
   std::vector<double> steps_;  // by place
 };

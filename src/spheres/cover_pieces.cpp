@@ -14,7 +14,7 @@ namespace {
 /// Cells along the longest side of the box: at most 27,000 of them.
 constexpr int kCells = 30;
 constexpr int kTriangleDepth = 24;
-constexpr std::uint32_t kBlock = 48;
+constexpr std::uint32_t kLeaf = 12;
 
 }  // namespace
 
@@ -120,34 +120,34 @@ void CoverPieces::refine(const std::vector<bool>& which) {
 void CoverPieces::arrange() {
   order_.resize(size());
   std::iota(order_.begin(), order_.end(), 0u);
-  blocks_.clear();
-  // Halves of halves, by the middle along the longest side of the box.
-  std::vector<Block> open = {{{}, {}, 0, static_cast<std::uint32_t>(size())}};
-  while (!open.empty()) {
-    Block block = open.back();
-    open.pop_back();
-    if (block.count == 0) continue;
-    const auto begin = order_.begin() + block.first, end = begin + block.count;
-    block.lower = block.upper = middle_[*begin];
-    for (auto at = begin; at != end; ++at) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        block.lower[k] = std::min(block.lower[k], middle_[*at][k]);
-        block.upper[k] = std::max(block.upper[k], middle_[*at][k]);
-      }
+  boxes_.clear();
+  if (!order_.empty()) arrange(0, static_cast<std::uint32_t>(size()));
+}
+
+/// Halves of halves, by the middle along the longest side of the box.
+void CoverPieces::arrange(std::uint32_t first, std::uint32_t count) {
+  const auto begin = order_.begin() + first, end = begin + count;
+  const std::size_t place = boxes_.size();
+  Box box = {middle_[*begin], middle_[*begin], first, count, 0};
+  for (auto at = begin; at != end; ++at) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], middle_[*at][k]);
+      box.upper[k] = std::max(box.upper[k], middle_[*at][k]);
     }
-    if (block.count <= kBlock) {
-      blocks_.push_back(block);
-      continue;
-    }
-    const Point side = block.upper - block.lower;
+  }
+  boxes_.push_back(box);
+  if (count > kLeaf) {
+    const Point side = box.upper - box.lower;
     const auto axis = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
-    const std::uint32_t half = block.count / 2;
+    const std::uint32_t half = count / 2;
     std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
       return middle_[a][axis] != middle_[b][axis] ? middle_[a][axis] < middle_[b][axis] : a < b;
     });
-    open.push_back({{}, {}, block.first, half});
-    open.push_back({{}, {}, block.first + half, block.count - half});
+    boxes_[place].count = 0;
+    arrange(first, half);
+    arrange(first + half, count - half);
   }
+  boxes_[place].next = static_cast<std::uint32_t>(boxes_.size());
 }
 
 double CoverPieces::needed(const Point& centre, std::uint32_t piece) const {
@@ -166,14 +166,19 @@ void CoverPieces::gather(const Ball& ball, std::vector<std::uint32_t>& found) co
     const Point d = middle_[piece] - ball.centre;
     if (dot(d, d) <= most) found.push_back(piece);
   };
-  for (const Block& block : blocks_) {
+  for (std::size_t place = 0; place < boxes_.size();) {
+    const Box& box = boxes_[place];
     double away = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double out = std::max({block.lower[k] - ball.centre[k], ball.centre[k] - block.upper[k], 0.0});
+      const double out = std::max({box.lower[k] - ball.centre[k], ball.centre[k] - box.upper[k], 0.0});
       away += out * out;
     }
-    if (away > most) continue;
-    for (std::uint32_t k = block.first; k < block.first + block.count; ++k) take(order_[k]);
+    if (away > most) {
+      place = box.next;
+      continue;
+    }
+    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) take(order_[k]);
+    ++place;
   }
   for (auto piece = static_cast<std::uint32_t>(order_.size()); piece < size(); ++piece) take(piece);
 }

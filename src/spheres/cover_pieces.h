@@ -37,20 +37,22 @@ class CoverPieces {
  private:
   void add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth);
   void add_cells(const Solid& solid, unsigned threads);
-  /// Puts neighbours into blocks, so that most balls are told from most pieces by a box.
+  /// Puts neighbours into a tree of boxes, so that a ball is told from most pieces by few of them.
   void arrange();
+  void arrange(std::uint32_t first, std::uint32_t count);
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_ = {0};
-  struct Block {
-    Point lower, upper;  // of the middles
-    std::uint32_t first, count;
+  struct Box {
+    Point lower, upper;          // of the middles
+    std::uint32_t first, count;  // in order_; 0 pieces: not a leaf
+    std::uint32_t next;          // box after this one and all within it
   };
   std::vector<Point> middle_;
   std::vector<double> area_;
   std::vector<Point> normal_;
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> order_;  // pieces by block; those added since are in none
+  std::vector<Box> boxes_;            // each before those within it
+  std::vector<std::uint32_t> order_;  // pieces by leaf; those added since are in none
 };
 
 }  // namespace medial_vk

@@ -38,14 +38,17 @@ double CoverSearch::highest(std::uint32_t piece, std::uint32_t but) const {
   return two[0].ball == but ? two[1].height : two[0].height;
 }
 
-void CoverSearch::add_holder(std::uint32_t piece, const Holder& holder) {
-  holders_[piece].push_back(holder);
-  Highest& two = highest_[piece];
+void CoverSearch::rank(const Holder& holder, Highest& two) {
   if (holder.height > two[0].height) {
     two = {holder, two[0]};
   } else if (holder.height > two[1].height) {
     two[1] = holder;
   }
+}
+
+void CoverSearch::add_holder(std::uint32_t piece, const Holder& holder) {
+  holders_[piece].push_back(holder);
+  rank(holder, highest_[piece]);
 }
 
 /// Its height.
@@ -58,9 +61,7 @@ double CoverSearch::remove_holder(std::uint32_t piece, std::uint32_t ball) {
   Highest& two = highest_[piece];
   if (two[0].ball != ball && two[1].ball != ball) return height;
   two = {};
-  std::vector<Holder> all;
-  all.swap(holders);
-  for (const Holder& holder : all) add_holder(piece, holder);
+  for (const Holder& holder : holders) rank(holder, two);
   return height;
 }
 
@@ -133,11 +134,26 @@ double CoverSearch::share(std::uint32_t i) const {
   return sum;
 }
 
+bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const {
+  const Ball ball = {balls_[i].centre, radius};
+  double sum = 0;
+  for (const std::uint32_t piece : touched_[i]) {
+    if (!(pieces_.area(piece) > 0)) continue;
+    const double height = height_over(ball, pieces_.middle(piece), pieces_.normal(piece));
+    const double paid = highest_[piece][0].height;
+    if (height > paid) sum += cost_of(piece, height) - cost_of(piece, paid);
+    if (sum > most) return true;
+  }
+  return false;
+}
+
 void CoverSearch::refine() {
+  constexpr double kSmall = 0.05;  // of the ball's radius: what such a piece sticks out does not count
   std::vector<bool> which(pieces_.size());
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
     for (const std::uint32_t piece : exclusive(i)) {
-      if (pieces_.needed(balls_[i].centre, piece) > 0.98 * balls_[i].radius) which[piece] = true;
+      const bool holds_up = pieces_.needed(balls_[i].centre, piece) > 0.98 * balls_[i].radius;
+      if (holds_up && pieces_.needed(pieces_.middle(piece), piece) > kSmall * balls_[i].radius) which[piece] = true;
     }
   }
   pieces_.refine(which);
@@ -150,18 +166,16 @@ void CoverSearch::restore(std::vector<Ball> balls) {
 }
 
 void CoverSearch::add(std::span<const Point> points) {
-  pieces_.add(points);
-  const auto piece = static_cast<std::uint32_t>(pieces_.size() - 1);
-  std::uint32_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
-    const double growth = std::max(0.0, pieces_.needed(balls_[i].centre, piece) - balls_[i].radius);
-    if (balls_[i].radius > 0 && growth < least) {
-      least = growth;
-      best = i;
+  for (const Point& p : points) {
+    pieces_.add({&p, 1});
+    Ball* taker = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (Ball& ball : balls_) {
+      const double growth = std::max(0.0, length(p - ball.centre) - ball.radius);
+      if (ball.radius > 0 && growth < least) least = growth, taker = &ball;
     }
+    taker->radius = std::max(taker->radius, length(p - taker->centre) * kCoverRoom);
   }
-  balls_[best].radius = std::max(balls_[best].radius, pieces_.needed(balls_[best].centre, piece) * kCoverRoom);
   recount();
 }
 

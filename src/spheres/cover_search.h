@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "spheres/cover_pieces.h"
@@ -26,9 +26,11 @@ class CoverSearch {
   std::size_t trade();
   /// Balls that are missed least are set down beside those that stick out most. Returns how many were.
   std::size_t relocate();
-  /// Cuts the pieces that hold up a ball.
+  /// Takes away a ball that is missed little, after which others have other indices. There must be two.
+  void remove_one();
+  /// Cuts the pieces that hold up a ball, unless they are small beside it.
   void refine();
-  /// Another piece; the ball that must grow least takes it.
+  /// More pieces, one for each point; the balls that must grow least take them.
   void add(std::span<const Point> points);
 
   const std::vector<Ball>& balls() const { return balls_; }
@@ -61,6 +63,7 @@ class CoverSearch {
   double cost_of(std::uint32_t piece, double height) const;
   double column(double height) const;
   double highest(std::uint32_t piece, std::uint32_t but) const;
+  static void rank(const Holder& holder, Highest& two);
   void add_holder(std::uint32_t piece, const Holder& holder);
   double remove_holder(std::uint32_t piece, std::uint32_t ball);
   /// Pieces that no other ball holds.
@@ -69,8 +72,16 @@ class CoverSearch {
   Ball around(const std::vector<std::uint32_t>& some) const;
   /// What ball i costs that no other does.
   double share(std::uint32_t i) const;
+  /// Does the ball with this radius stick out, over what it touches now, for more than `most` beyond what is paid?
+  bool costs_more(std::uint32_t i, double radius, double most) const;
   Ball best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const;
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
+  /// All that are not idle, those that cost most first.
+  std::vector<std::uint32_t> costliest_first() const;
+  /// What the others must at least grow by to do without this ball, as a volume; 0 if it holds nothing alone.
+  double price_to_leave(std::uint32_t i) const;
+  bool is_same_as_slid(std::uint32_t i, std::size_t alone) const;
+  void slide_batch(std::span<const std::uint32_t> batch);
   bool trade_one(std::uint32_t i);
   bool leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved);
   void take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share);

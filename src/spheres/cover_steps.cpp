@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/point_ops.h"
+#include "spheres/branch_and_bound.h"
 #include "spheres/cover_column.h"
 #include "spheres/cover_search.h"
 #include "spheres/smallest_ball.h"
@@ -91,20 +92,59 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
   return best;
 }
 
-void CoverSearch::slide() {
-  constexpr int kHalvings = 5;
+std::vector<std::uint32_t> CoverSearch::costliest_first() const {
   std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.push_back({-share(i), i});
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) {
+    if (balls_[i].radius > 0) order.push_back({-share(i), i});
+  }
   std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> balls;
+  for (const auto& [cost, i] : order) balls.push_back(i);
+  return balls;
+}
+
+/// Where nothing has changed since the last time, nothing would now.
+bool CoverSearch::is_same_as_slid(std::uint32_t i, std::size_t alone) const {
+  return slid_[i] == Slid{alone, balls_[i].radius, share(i)};
+}
+
+void CoverSearch::slide() {
+  constexpr std::size_t kBatch = 16;
   slid_.resize(balls_.size());
-  for (const auto& [cost, i] : order) {
-    if (balls_[i].radius == 0) continue;
-    const std::vector<std::uint32_t> alone = exclusive(i);
-    // Where nothing has changed since the last time, nothing would now.
-    if (slid_[i] == Slid{alone.size(), balls_[i].radius, share(i)}) continue;
+  std::vector<std::uint32_t> batch;
+  for (const std::uint32_t i : costliest_first()) {
+    if (is_same_as_slid(i, exclusive(i).size())) continue;
+    batch.push_back(i);
+    if (batch.size() < kBatch) continue;
+    slide_batch(batch);
+    batch.clear();
+  }
+  slide_batch(batch);
+}
+
+/// Where each would go is asked for all at once, on all threads. By the time that its turn comes another may have left
+/// it with more to hold; it is asked again then.
+void CoverSearch::slide_batch(std::span<const std::uint32_t> batch) {
+  constexpr int kHalvings = 5;
+  struct Plan {
+    std::vector<std::uint32_t> alone;
+    Ball ball;
+  };
+  const auto where = [&](std::uint32_t i, const std::vector<std::uint32_t>& alone) {
+    return alone.empty() ? Ball{balls_[i].centre, 0} : best_around(i, alone, kHalvings);
+  };
+  std::vector<Plan> plans(batch.size());
+  for_all(batch.size(), 1, threads_, [&](std::size_t k) {
+    plans[k].alone = exclusive(batch[k]);
+    plans[k].ball = where(batch[k], plans[k].alone);
+  });
+  for (std::size_t k = 0; k < batch.size(); ++k) {
+    const std::uint32_t i = batch[k];
+    std::vector<std::uint32_t> alone = exclusive(i);
+    if (alone != plans[k].alone) plans[k] = {alone, where(i, alone)};
     const Ball before = balls_[i];
     const double total = total_;
-    replace(i, alone.empty() ? Ball{before.centre, 0} : best_around(i, alone, kHalvings));
+    replace(i, plans[k].ball);
     if (total_ > total) replace(i, before);
     slid_[i] = {alone.size(), balls_[i].radius, share(i)};
   }
@@ -135,7 +175,7 @@ bool CoverSearch::trade_one(std::uint32_t i) {
       support = piece;
     }
   }
-  const double total = total_;
+  const double total = total_, own = share(i);
   for (const double part : {0.03, 0.12, 0.3}) {
     std::vector<std::uint32_t> given;
     for (const std::uint32_t piece : alone) {
@@ -154,8 +194,10 @@ bool CoverSearch::trade_one(std::uint32_t i) {
     std::partial_sort(takers.begin(), takers.begin() + static_cast<std::ptrdiff_t>(count), takers.end());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = takers[k].second;
+      const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, given));
+      if (costs_more(j, radius, own)) continue;  // What ball i may save is no more than its share.
       const std::vector<Saved> saved = {{j, balls_[j]}, {i, whole}};
-      replace(j, {balls_[j].centre, std::max(balls_[j].radius, needed(balls_[j].centre, given))});
+      replace(j, {balls_[j].centre, radius});
       const std::vector<std::uint32_t> rest = exclusive(i);
       replace(i, rest.empty() ? Ball{whole.centre, 0} : Ball{whole.centre, needed(whole.centre, rest)});
       if (total_ < total * (1 - 1e-6)) return true;
@@ -245,23 +287,26 @@ bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   return false;
 }
 
+/// That is not known before it is tried.
+double CoverSearch::price_to_leave(std::uint32_t i) const {
+  const std::vector<std::uint32_t> alone = exclusive(i);
+  if (alone.empty()) return 0;
+  double price = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t j : neighbours(i, 6)) {
+    const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, alone));
+    price = std::min(price, (radius - balls_[j].radius) * radius * radius);
+  }
+  return price;
+}
+
 std::size_t CoverSearch::relocate() {
   // The shares of the volume that a ball adds are what may be saved by another beside it; what a ball holds alone must
-  // be held by a neighbour, at a cost that is not known before it is tried: small ones first.
+  // be held by a neighbour: those that can go cheaply are tried first.
   const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
   std::vector<std::pair<double, std::uint32_t>> free, wide;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
     wide.push_back({-share(i), i});
-    const std::vector<std::uint32_t> alone = exclusive(i);
-    double growth = 0;
-    if (!alone.empty()) {
-      growth = std::numeric_limits<double>::infinity();
-      for (const std::uint32_t j : neighbours(i, 6)) {
-        const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, alone));
-        growth = std::min(growth, (radius - balls_[j].radius) * radius * radius);
-      }
-    }
-    free.push_back({growth, i});
+    free.push_back({price_to_leave(i), i});
   }
   std::sort(free.begin(), free.end());
   std::sort(wide.begin(), wide.end());
@@ -276,6 +321,34 @@ std::size_t CoverSearch::relocate() {
     if (moved || !is_idle) ++at;
   }
   return relocated;
+}
+
+void CoverSearch::remove_one() {
+  constexpr std::size_t kTries = 6;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.push_back({price_to_leave(i), i});
+  std::sort(order.begin(), order.end());
+  std::uint32_t cheapest = order.front().second;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < std::min(kTries, order.size()); ++k) {
+    std::vector<Saved> saved;
+    if (leave(order[k].second, order[k].second, saved) && total_ < least) {
+      least = total_;
+      cheapest = order[k].second;
+    }
+    undo(saved);
+  }
+  std::vector<Saved> saved;
+  leave(cheapest, cheapest, saved);
+  const auto last = static_cast<std::uint32_t>(balls_.size() - 1);
+  const Ball moved = balls_[last];
+  replace(last, {moved.centre, 0});
+  if (cheapest != last) replace(cheapest, moved);
+  slid_.resize(balls_.size());
+  slid_[cheapest] = slid_[last];
+  balls_.pop_back();
+  touched_.pop_back();
+  slid_.pop_back();
 }
 
 }  // namespace medial_vk

@@ -1,6 +1,10 @@
 // Balls inside a solid, grown and moved until they cover it, or until their envelope is near its boundary.
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <vector>
+
 #include "spheres/sphere_certificate.h"
 #include "spheres/sphere_set.h"
 
@@ -15,6 +19,14 @@ namespace medial_vk {
 /// number), kOutOfMemory, kInterrupted.
 Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned threads = 0,
                               const SphereProgress& progress = {});
+
+/// A cover for each of the numbers. Larger numbers never give a larger volume, also between calls, if the starts are
+/// the same as far as they go: by cover_top() (spheres/cover_family.h), balls inside, as many, or fewer for the
+/// greatest. Otherwise as cover_solid().
+Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
+                                               const std::map<std::size_t, std::vector<Ball>>& starts,
+                                               const std::vector<std::size_t>& counts, unsigned threads = 0,
+                                               const SphereProgress& progress = {});
 
 /// S_D+ of Section 8.2: every ball grows until it holds, for each vertex of the envelope that it makes, the point of
 /// the boundary nearest to that vertex, and for each arc of two balls that no third one touches, those nearest to two

@@ -247,4 +247,17 @@ Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball>
   }
 }
 
+bool measure_against(double shape_volume, SphereMeasures& measures) {
+  const bool is_cover = measures.cover.proved();
+  if (!is_cover && !measures.inside.proved()) return false;
+  VolumeError& volume = measures.volume;
+  measures.metrics.volume_ratio *= volume.solid / shape_volume;
+  volume.solid = shape_volume;
+  volume.uncovered = is_cover ? 0 : std::max(0.0, shape_volume - volume.balls);
+  volume.outside = is_cover ? std::max(0.0, volume.balls - shape_volume) : 0;
+  volume.standard_error = 0;
+  measures.metrics.coverage = 1 - volume.uncovered / shape_volume;
+  return true;
+}
+
 }  // namespace medial_vk

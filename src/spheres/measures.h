@@ -75,6 +75,11 @@ struct MeasureOptions {
 Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball> balls,
                                        const MeasureOptions& options = {});
 
+/// The volume of a shape that facets stand for, from within (of balls proved to lie inside these) or from without (of
+/// balls proved to cover them), takes the place of the facets' own: the error is then exactly that of the shape. Other
+/// balls keep the facets for their measure; returns whether anything changed.
+bool measure_against(double shape_volume, SphereMeasures& measures);
+
 /// For the report: everything but the pictures' bins has its own key; see docs/report.md.
 nlohmann::ordered_json measures_json(const SphereMeasures& measures);
 /// For people: one line each, lengths also in percent of the diagonal.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "medial/extract.h"
@@ -38,6 +39,11 @@ struct SphereRequest {
 struct SphereSet {
   /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).
   std::vector<Ball> balls;
+  /// Of the method best, balls inside: volume of the union when there were 1, 2, 3 ... balls, which is the same for
+  /// every number wanted. (Not that of the first balls here: balls move while others come.)
+  std::vector<double> volumes = {};
+  /// Likewise, the balls when there were 1, 4, 16, 64, 128, 256 ... of them, by that number, and all that there are.
+  std::map<std::size_t, std::vector<Ball>> stages = {};
 };
 
 /// Stage and share of it done; return false to stop.

@@ -128,6 +128,16 @@ TEST_F(SpheresCommand, StreamsGoThrough) {
   EXPECT_EQ(json::parse(result.out)["mesh"], "stdin");
 }
 
+TEST_F(SpheresCommand, ARobotOfSpheresOnlyIsItself) {
+  test::write_file(path("ball.urdf"), R"(<robot name="ball"><link name="a"><collision><geometry><sphere radius="0.5"/>
+    </geometry></collision></link></robot>)");
+  const ToolResult result =
+      run({"spheres", "ball.urdf", "--backend", "cpu", "--total", "9", "--contract", "cover", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("1 sphere, each of which is the geometry itself"));
+  EXPECT_EQ(report()["parts"][0]["volume_of"], "shape");
+}
+
 TEST_F(SpheresCommand, ARobotGetsSpheresForCollision) {
   const ToolResult result = spheres(robot_arguments("--count-per-link", "20"));
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "cpu_reference/sphere_certificate.h"
 #include "mesh/point_ops.h"
+#include "spheres/cover_family.h"
 #include "spheres/dilation.h"
 #include "spheres/envelope_distance.h"
 #include "support/extraction.h"
+#include "support/reference_balls.h"
 #include "support/reference_mesh.h"
 #include "support/solids.h"
 
@@ -16,12 +19,6 @@ namespace medial_vk {
 namespace {
 
 using namespace test;
-
-std::vector<reference::UnionBall> to_reference(const std::vector<Ball>& balls) {
-  std::vector<reference::UnionBall> out;
-  for (const Ball& ball : balls) out.push_back({to_eigen(ball.centre), ball.radius});
-  return out;
-}
 
 /// The largest medial balls that do not hold each other's centres come first.
 std::vector<Ball> spread_balls(const PreparedMesh& mesh, std::size_t count) {
@@ -92,7 +89,7 @@ TEST(SphereCover, CoversEverySolidWithAnyNumber) {
       EXPECT_LE(cover.balls.size(), count);
       EXPECT_TRUE(prove_cover(solid, cover.balls).value().proved());
       const reference::Certificate checked =
-          reference::check_cover(test::to_reference(mesh), to_reference(cover.balls));
+          reference::check_cover(test::to_reference(mesh), test::to_reference(cover.balls));
       EXPECT_TRUE(checked.passed());
       const double volume = measure_ball_union(cover.balls).value().volume;
       if (solid.has_volume()) {
@@ -109,6 +106,39 @@ TEST(SphereCover, CoversEverySolidWithAnyNumber) {
   }
 }
 
+TEST(SphereCover, MoreBallsAreNeverWorse) {
+  const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  std::map<std::size_t, std::vector<Ball>> starts;
+  double before = 1e300;
+  for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 11u, 15u, 16u}) {
+    // Each asked for by itself, from no more than it needs.
+    const std::size_t top = cover_top(count);
+    if (starts.count(top) == 0) starts[top] = spread_balls(mesh, top);
+    const SphereSet cover = std::move(cover_by_counts(solid, starts, {count}).value().front());
+    EXPECT_LE(cover.balls.size(), count);
+    EXPECT_TRUE(prove_cover(solid, cover.balls).value().proved());
+    const double volume = measure_ball_union(cover.balls).value().volume;
+    EXPECT_LE(volume, before * (1 + 1e-12)) << count;
+    before = volume;
+  }
+}
+
+TEST(SphereCover, LevelsAreTheAnswersForTheirNumbers) {
+  const PreparedMesh mesh = prepare(make_box({2, 1, 0.3}));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  std::map<std::size_t, std::vector<Ball>> starts;
+  for (const std::size_t top : {1u, 4u, 16u}) starts[top] = spread_balls(mesh, top);
+  const std::vector<SphereSet> levels = std::move(cover_by_counts(solid, starts, {3, 6}).value());
+  starts.erase(16);
+  const SphereSet three = std::move(cover_by_counts(solid, starts, {3}, 1).value().front());
+  ASSERT_EQ(levels.front().balls.size(), three.balls.size());
+  for (std::size_t i = 0; i < three.balls.size(); ++i) {
+    EXPECT_EQ(levels.front().balls[i].centre, three.balls[i].centre);
+    EXPECT_EQ(levels.front().balls[i].radius, three.balls[i].radius);
+  }
+}
+
 TEST(SphereCover, EveryBallAndItsSizeAreNeeded) {
   const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
   const Solid solid = std::move(Solid::build(mesh).value());
@@ -119,7 +149,7 @@ TEST(SphereCover, EveryBallAndItsSizeAreNeeded) {
     EXPECT_FALSE(prove_cover(solid, less).value().proved()) << i;
     less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_FALSE(prove_cover(solid, less).value().proved()) << i;
-    EXPECT_FALSE(reference::check_cover(test::to_reference(mesh), to_reference(less)).passed()) << i;
+    EXPECT_FALSE(reference::check_cover(test::to_reference(mesh), test::to_reference(less)).passed()) << i;
   }
 }
 
@@ -144,6 +174,10 @@ TEST(SphereCover, AnyBallsWillDoAndNoneWillNot) {
   EXPECT_EQ(cover_solid(solid, {{{{0, 0, std::nan("")}, 1}}}).error().code, ErrorCode::kUsage);
   const auto stop = [](const char*, double) { return false; };
   EXPECT_EQ(cover_solid(solid, far, 0, stop).error().code, ErrorCode::kInterrupted);
+  const std::map<std::size_t, std::vector<Ball>> starts = {{1, {far.balls[0]}}, {4, far.balls}};
+  EXPECT_EQ(cover_by_counts(solid, starts, {4}, 0, stop).error().code, ErrorCode::kInterrupted);
+  // Fewer balls than wanted, one of them with nothing to do.
+  EXPECT_TRUE(prove_cover(solid, cover_by_counts(solid, starts, {4}).value().front().balls).value().proved());
 }
 
 TEST(SphereCover, OfAnOpenMeshTheSurface) {

@@ -60,6 +60,47 @@ TEST_F(FitParts, TheLargerGetsMore) {
   EXPECT_LT(*fits.value()[0].spheres_volume, 1.4);
 }
 
+TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 12;
+  std::vector<PartFit> before;
+  for (const std::size_t total : {3u, 8u, 21u, 22u, 40u}) {
+    goals_.total = total;
+    const std::vector<PartFit> fits = std::move(fit().value());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_GE(fits[i].wanted, before[i].wanted) << total;
+      EXPECT_GE(*fits[i].spheres_volume, *before[i].spheres_volume * (1 - 1e-12)) << total;
+    }
+    before = fits;
+  }
+}
+
+TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
+  Geometry cylinder;
+  cylinder.kind = GeometryKind::kCylinder;
+  cylinder.size = {0.5, 2, 0};
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 12;
+  goals_.request.count = 4;
+  for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
+    goals_.request.contract = contract;
+    const bool cover = contract == SphereContract::kCover;
+    const FacetSide side = cover ? FacetSide::kCircumscribed : FacetSide::kInscribed;
+    Part part = single_part("c", prepare_mesh(make_primitive(cylinder, side)).value());
+    part.volume = primitive_volume(cylinder);
+    parts_ = {part};
+    const PartFit fitted = std::move(fit().value().front());
+    EXPECT_TRUE(fitted.of_shape);
+    EXPECT_EQ(*fitted.solid_volume, primitive_volume(cylinder));
+    const VolumeError& volume = fitted.measures->volume;
+    EXPECT_EQ(volume.standard_error, 0);
+    EXPECT_EQ(volume.solid, primitive_volume(cylinder));
+    EXPECT_EQ(volume.uncovered, cover ? 0 : volume.solid - volume.balls);
+    EXPECT_EQ(volume.outside, cover ? volume.balls - volume.solid : 0);
+    EXPECT_GT(volume.uncovered + volume.outside, 0);
+  }
+}
+
 TEST_F(FitParts, SpheresStandInTheFrameOfTheLink) {
   goals_.count_per_link = 60;
   const std::vector<PartFit> fits = fit().value();

@@ -222,6 +222,32 @@ TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
   EXPECT_THAT(share_out(std::vector<NeedCurve>{early, late}, 4), ElementsAre(1, 3));
   const NeedCurve ball = {{}, true};
   EXPECT_THAT(share_out(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
+  const NeedCurve ends = {{3, 2, 1}, false, true};
+  EXPECT_THAT(share_out(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
+}
+
+TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
+  // Bumpy curves, as they are.
+  std::vector<NeedCurve> curves(4);
+  for (std::size_t part = 0; part < curves.size(); ++part) {
+    double error = 3.0 + 5.0 * static_cast<double>(part);
+    for (std::size_t k = 1; k <= 400; ++k) {
+      curves[part].uncovered.push_back(error);
+      const double share = 0.9 / static_cast<double>(k) * ((k * 7 + part * 3) % 5 == 0 ? 1.9 : 0.4);
+      error *= 1 - share;
+    }
+  }
+  std::vector<std::size_t> before(curves.size(), 0);
+  for (std::size_t total = curves.size(); total < 600; ++total) {
+    const std::vector<std::size_t> counts = share_out(curves, total);
+    std::size_t sum = 0;
+    for (std::size_t part = 0; part < counts.size(); ++part) {
+      EXPECT_GE(counts[part], before[part]) << total;
+      sum += counts[part];
+    }
+    EXPECT_EQ(sum, total);
+    before = counts;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "mesh/point_ops.h"
 #include "spheres/sphere_certificate.h"
 #include "support/extraction.h"
+#include "support/reference_balls.h"
 #include "support/reference_mesh.h"
 #include "support/solids.h"
 
@@ -15,12 +16,6 @@ namespace {
 
 using namespace test;
 
-std::vector<reference::UnionBall> to_reference(const std::vector<Ball>& balls) {
-  std::vector<reference::UnionBall> out;
-  for (const Ball& ball : balls) out.push_back({to_eigen(ball.centre), ball.radius});
-  return out;
-}
-
 class SphereCertificate : public testing::Test {
  protected:
   explicit SphereCertificate(Mesh input = make_box({2, 2, 2}))
@@ -28,12 +23,12 @@ class SphereCertificate : public testing::Test {
 
   bool inside(const std::vector<Ball>& balls) const {
     const bool proved = prove_inside(solid_, balls).proved();
-    EXPECT_EQ(proved, reference::check_inside(test::to_reference(mesh_), to_reference(balls)).passed());
+    EXPECT_EQ(proved, reference::check_inside(test::to_reference(mesh_), test::to_reference(balls)).passed());
     return proved;
   }
   CoverProof cover(const std::vector<Ball>& balls) const {
     const CoverProof proof = prove_cover(solid_, balls).value();
-    EXPECT_EQ(proof.proved(), reference::check_cover(test::to_reference(mesh_), to_reference(balls)).passed());
+    EXPECT_EQ(proof.proved(), reference::check_cover(test::to_reference(mesh_), test::to_reference(balls)).passed());
     return proof;
   }
 

@@ -79,6 +79,8 @@ TEST(SpheresOptions, MistakesAreNamed) {
   EXPECT_THAT(message_of({"a.csv", "--count", "9", "-o", "a.csv"}), HasSubstr("overwrite"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "a.json", "--report", "a.json"}), HasSubstr("same file"));
   EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--visual", "--collision"}), HasSubstr("together"));
+  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--object-angle", "0.4"}), HasSubstr("--method source"));
+  EXPECT_EQ(parsed({"a.obj", "--count", "9", "--object-angle", "0.4", "--method", "source"}).request.object_angle, 0.4);
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "-q", "-v"}), HasSubstr("-q and -v"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "--backend", "cpu", "--device", "1"}), HasSubstr("--device"));
 }

@@ -35,7 +35,7 @@ class SpheresRun {
     if (Status status = check_outputs(); !status) return status;
     if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the input is read
     if (Status status = load(); !status) return status;
-    if (Status status = take_device(); !status) return status;
+    if (Status status = opening_.take(context_, record_.device, record_.times); !status) return status;
     if (!options_.quiet) print_message(spheres_opening(options_, record_));
     if (Status status = fit(); !status) return status;
     if (Status status = make_files(); !status) return status;
@@ -96,17 +96,6 @@ class SpheresRun {
       if (part.file.empty()) continue;
       if (Status status = check_outputs_differ(outputs_of(options_), part.file); !status) return status;
     }
-    return {};
-  }
-
-  Status take_device() {
-    if (options_.backend == Backend::kCpu) return {};
-    Stopwatch stopwatch;
-    Result<Context> context = opening_.take();
-    if (!context) return context.error();
-    context_.emplace(std::move(context).value());
-    record_.device = context_->device();
-    record_.times.push_back({"device", stopwatch.lap()});
     return {};
   }
 

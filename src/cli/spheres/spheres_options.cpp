@@ -23,6 +23,7 @@ constexpr std::uint64_t kMostSpheres = 1'000'000;
 struct Given {
   std::optional<SphereFormat> format;
   bool collision = false;
+  double object_angle = 0;  // 0: not given
   ViewChoice view;
 };
 
@@ -51,7 +52,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
       "--contract",
       {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}, {"balanced", SphereContract::kBalanced}},
       request.contract);
-  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", request.object_angle);
+  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.levels);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
@@ -154,6 +155,9 @@ Status check_combinations(const SpheresOptions& options, const Given& given) {
   if (options.check && options.request.contract == SphereContract::kBalanced) {
     return usage_error("--check: spheres of the contract balanced promise nothing that could be checked");
   }
+  if (given.object_angle > 0 && options.request.method != SphereMethod::kSource) {
+    return usage_error("--object-angle is of --method source; the method best chooses among all medial spheres");
+  }
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (options.visual && given.collision) return usage_error("--collision and --visual cannot be used together");
   if (options.backend == Backend::kCpu && !options.device.empty()) {
@@ -180,6 +184,7 @@ Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arg
   declare(app, options, given);
   if (Status status = parse_arguments(app, arguments, "one mesh or robot at a time"); !status) return status.error();
   if (options.help) return options;
+  if (given.object_angle > 0) options.request.object_angle = given.object_angle;
   if (Status status = check_combinations(options, given); !status) return status.error();
   if (Status status = check_input(options, given); !status) return status.error();
   if (Status status = check_goals(options); !status) return status.error();

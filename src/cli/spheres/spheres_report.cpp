@@ -40,6 +40,7 @@ Json part_json(const SpheresOptions& options, const Part& part, const PartFit& f
           {"num_spheres", fit.levels.back().size()},
           {"levels", counts},
           {"solid_volume", or_null(fit.solid_volume)},
+          {"volume_of", fit.of_shape ? "shape" : "mesh"},
           {"spheres_volume", or_null(fit.spheres_volume)},
           {"volume_error", or_null(uncovered_share(fit, options.request.contract))},
           {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},

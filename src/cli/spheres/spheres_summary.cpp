@@ -60,6 +60,8 @@ std::string certificate_text(SphereContract contract, const SpheresRecord& recor
       return fmt::format("{} with centre inside and radius at most the exact distance{}",
                          counted(spheres, "sphere", "spheres"), closed ? "" : "; the mesh is open: its surface only");
     case SphereContract::kCover:
+      if (triangles == 0)
+        return fmt::format("{}, each of which is the geometry itself", counted(spheres, "sphere", "spheres"));
       return fmt::format("{} covered piece by piece{}", counted(triangles, "triangle", "triangles"),
                          closed ? ", no hole within" : "; the mesh is open: its surface only");
     case SphereContract::kBalanced:
@@ -173,11 +175,12 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   }
   const auto facets = std::ranges::max(record.parts, {}, &Part::facet_share).facet_share;
   if (facets > 0) {
+    const bool contract_is_exact = request.contract != SphereContract::kBalanced;
     text += line("note",
-                 fmt::format("Round primitives are {} {:.2g} of their radius.",
+                 fmt::format("Round primitives are {} {:.2g} of their radius{}.",
                              request.contract == SphereContract::kCover ? "wrapped in facets that stand off by up to"
                                                                         : "filled with facets that fall short by up to",
-                             facets));
+                             facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
   }
   text += line("gap", gap_text(record));
   text += line("time", duration(seconds(record)));

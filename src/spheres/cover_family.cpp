@@ -1,0 +1,70 @@
+#include "spheres/cover_family.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "medial_vk/ball_union.h"
+#include "spheres/branch_and_bound.h"
+
+namespace medial_vk {
+
+CoverFamily::Answer CoverFamily::certify(const std::vector<Ball>& balls) const {
+  const Result<BallUnion> measured = measure_ball_union(balls, {1, false});
+  if (!measured) throw std::bad_alloc();
+  return {balls, measured.value().volume};
+}
+
+/// A proof may add to a cover, and then one of fewer balls may be smaller: they are looked at as long as that can be.
+/// No cover of fewer balls has less volume before its proof.
+CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, const Cover::Report& report) const {
+  if (top == 1) return certify({ball_around(solid_)});
+  Cover cover = search_cover(solid_, starts_.at(top), 1, report);
+  Answer best;
+  for (double last = cover.volume();; cover.shrink()) {
+    const bool is_left_out = cover.volume() < last;
+    if (is_left_out) continue;
+    last = cover.volume();
+    if (cover.count() > count) continue;
+    if (!best.balls.empty() && last >= best.volume) return best;
+    Answer next = certify(cover.certified());
+    if (best.balls.empty() || next.volume < best.volume) best = std::move(next);
+    if (cover.count() <= 2) return best;
+  }
+}
+
+std::vector<Ball> CoverFamily::of(std::size_t count) {
+  // The most work first, each on one thread.
+  struct Job {
+    std::size_t top, count;
+  };
+  std::vector<Job> jobs;
+  const std::size_t greatest = starts_.rbegin()->first;
+  for (const auto& [top, start] : starts_) {
+    if (top < count && tops_.count(top) == 0) jobs.insert(jobs.begin(), {top, top});
+  }
+  const std::size_t last = std::min(greatest, cover_top(count));
+  if (last > count || (last == count && tops_.count(last) == 0)) jobs.insert(jobs.begin(), {last, count});
+  std::vector<Answer> answers(jobs.size());
+  std::mutex mutex;
+  double shown = 0;  // that of the first
+  for_all(jobs.size(), 1, threads_, [&](std::size_t k) {
+    const Cover::Report report = [&, k](double done) {
+      if (!progress_) return;
+      const std::lock_guard lock(mutex);
+      if (k == 0) shown = done;
+      if (!progress_("cover", shown)) throw CoverInterrupted();
+    };
+    answers[k] = best_below(jobs[k].top, jobs[k].count, report);
+  });
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (jobs[k].count >= jobs[k].top) tops_[jobs[k].top] = answers[k];
+  }
+  const Answer* best = answers.empty() ? nullptr : &answers.front();
+  for (const auto& [top, answer] : tops_) {
+    if (top <= count && (best == nullptr || answer.volume < best->volume)) best = &answer;
+  }
+  return best->balls;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,53 @@
+// Covers by any number of balls, of which more are never worse.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "spheres/cover.h"
+#include "spheres/sphere_set.h"
+
+namespace medial_vk {
+
+/// The numbers for which a cover is searched from balls inside: 1, 4, 16, 64 and the powers of two beyond. Those
+/// between take balls away from the next.
+constexpr std::size_t cover_top(std::size_t count) {
+  std::size_t top = 1;
+  while (top < count) top *= top < 64 ? 4 : 2;
+  return top;
+}
+
+/// For every top T there are covers of T, T - 1, T - 2 ... balls, one after the other, that depend on the solid and on
+/// T only; one that is smaller than that before it, which has more balls, is left out. The answer for n balls is the
+/// smallest cover of no more than n that any of the tops up to cover_top(n) has. For a larger number there are these
+/// and others, so it is never larger.
+class CoverFamily {
+ public:
+  /// By top: balls inside, T of them, or fewer for the greatest. Keeps references.
+  CoverFamily(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts, unsigned threads,
+              const SphereProgress& progress)
+      : solid_(solid), starts_(starts), threads_(threads), progress_(progress) {}
+
+  /// Proved. Throws std::bad_alloc, and CoverInterrupted where progress says stop.
+  std::vector<Ball> of(std::size_t count);
+
+ private:
+  struct Answer {
+    std::vector<Ball> balls;
+    double volume = 0;
+  };
+  Answer certify(const std::vector<Ball>& balls) const;
+  Answer best_below(std::size_t top, std::size_t count, const Cover::Report& report) const;
+
+  const Solid& solid_;
+  const std::map<std::size_t, std::vector<Ball>>& starts_;
+  unsigned threads_;
+  const SphereProgress& progress_;
+  std::map<std::size_t, Answer> tops_;  // for as many balls as the top has
+};
+
+/// Thrown where progress says stop.
+struct CoverInterrupted {};
+
+}  // namespace medial_vk
