@@ -17,7 +17,8 @@ std::vector<std::vector<std::uint32_t>> balls_by_sheet(const SheetBalls& sheets)
 }
 
 bool goes_first(const std::vector<double>& of_sheet, std::uint32_t a, std::uint32_t b) {
-  return of_sheet[a] < of_sheet[b] || (of_sheet[a] == of_sheet[b] && a > b);
+  if (of_sheet[a] != of_sheet[b]) return of_sheet[a] < of_sheet[b];
+  return a > b;
 }
 
 /// Ascending.
