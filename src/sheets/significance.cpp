@@ -54,8 +54,8 @@ class Removing {
       if (const Status status = remove_least_first(); !status.ok()) return status.error();
       if (!keeps_topology_) break;
     }
-    for (auto sheet = order_.rbegin(); sheet != order_.rend(); ++sheet) {
-      if (state_[*sheet] != State::kGone) removal_.kept.push_back(*sheet);
+    for (std::size_t n = order_.size(); n-- > 0;) {
+      if (state_[order_[n]] != State::kGone) removal_.kept.push_back(order_[n]);
     }
     return std::move(removal_);
   }
@@ -70,7 +70,7 @@ class Removing {
       const std::uint32_t sheet = order_[n++];
       if (state_[sheet] != State::kNotTried) continue;
       if (!progress_(done())) return Error{ErrorCode::kInterrupted, "interrupted"};
-      if (const Status status = try_to_remove(sheet); !status.ok()) return status;
+      if (Status status = try_to_remove(sheet); !status.ok()) return status;
       if (too_little_) return {};
       if (state_[sheet] == State::kStays) continue;
       for (const std::uint32_t ball : rest_.changed()) {
