@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -117,7 +118,7 @@ std::vector<std::uint32_t> CoverSearch::neighbours(std::uint32_t i, std::size_t 
     near.emplace_back(length(balls_[j].centre - balls_[i].centre) - balls_[j].radius, j);
   }
   count = std::min(count, near.size());
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+  std::partial_sort(near.begin(), std::next(near.begin(), static_cast<std::ptrdiff_t>(count)), near.end());
   std::vector<std::uint32_t> balls;
   for (std::size_t k = 0; k < count; ++k) balls.push_back(near[k].second);
   return balls;
@@ -151,7 +152,7 @@ bool CoverSearch::trade_one(std::uint32_t i) {
       if (gap < 0.3 * whole.radius) takers.emplace_back(gap, j);
     }
     const std::size_t count = std::min<std::size_t>(3, takers.size());
-    std::partial_sort(takers.begin(), takers.begin() + static_cast<std::ptrdiff_t>(count), takers.end());
+    std::partial_sort(takers.begin(), std::next(takers.begin(), static_cast<std::ptrdiff_t>(count)), takers.end());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = takers[k].second;
       const std::vector<Saved> saved = {{j, balls_[j]}, {i, whole}};
