@@ -147,8 +147,8 @@ Estimate estimate(const std::vector<Ball>& balls, std::uint64_t samples, std::ui
   // Of a box with share p, two samples disagree with chance 2 p (1 - p), and their mean has variance p (1 - p) / 2.
   const std::uint64_t total = kPerCell * cells * cells * cells;
   const Point& step = grid.step();
-  const double box = step[0] * step[1] * step[2] * static_cast<double>(cells * cells * cells) /
-                     static_cast<double>(total / 2);
+  const double box =
+      step[0] * step[1] * step[2] * static_cast<double>(cells * cells * cells) / static_cast<double>(total / 2);
   return {box * static_cast<double>(all.hits) / 2, box * std::sqrt(static_cast<double>(all.disagree)) / 2, total};
 }
 
@@ -168,8 +168,9 @@ int main(int argc, char** argv) {
   app.add_option("--limit", limit, "standard errors that are allowed");
   app.add_option("FILES", files)->required();
   CLI11_PARSE(app, argc, argv);
-  fmt::print("| balls of | balls | samples | volume | by samples | standard error, relative | apart, standard errors |\n"
-             "|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| balls of | balls | samples | volume | by samples | standard error, relative | apart, standard errors |\n"
+      "|---|---|---|---|---|---|---|\n");
   bool good = true;
   for (const std::string& file : files) {
     const std::vector<Ball> balls = bench::read_balls(file);

@@ -65,8 +65,9 @@ void measure(const std::vector<Ball>& balls, const BallUnionOptions& options) {
 class Table {
  public:
   Table(unsigned threads, int repeats) : threads_(threads), repeats_(repeats) {
-    fmt::print("| balls | number | wall s | CPU s | with complex: wall s | CPU s | CGAL, CPU s |\n"
-               "|---|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| balls | number | wall s | CPU s | with complex: wall s | CPU s | CGAL, CPU s |\n"
+        "|---|---|---|---|---|---|---|\n");
   }
 
   /// CPU seconds without the complex. The three kinds of runs alternate, so that what else the machine does meets all.
@@ -81,8 +82,8 @@ class Table {
     }
     const Times a = median_of(plain), b = median_of(with_complex);
     const std::string other = peer.empty() ? "" : fmt::format("{:.3f}", median_of(peer).cpu);
-    fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {} |\n", name, balls.size(), a.wall, a.cpu, b.wall, b.cpu,
-               other);
+    fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {} |\n", name, balls.size(), a.wall, a.cpu, b.wall,
+               b.cpu, other);
     std::fflush(stdout);
     return a.cpu;
   }

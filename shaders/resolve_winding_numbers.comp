@@ -2,17 +2,22 @@
 #extension GL_GOOGLE_include_directive : enable
 // The winding numbers whose walk was too long: a workgroup sums all triangles for one query. The order of the sum is
 // fixed, so the result is the same every time.
-#define QUERY_STORAGE_BUFFERS 6
+#define QUERY_STORAGE_BUFFERS 7
 #include "tree_query.glsl"
 layout(set = 0, binding = 5) writeonly buffer Numbers { vec2 numbers[]; };
+layout(set = 0, binding = 6) readonly coherent buffer Stop { uint stop; };  // not 0: no answer is wanted any more
 #include "winding.glsl"
 
 shared float sums[256];
+shared bool stopped;  // one look for all lanes: they meet at barriers
 
 void main() {
   if (group_index() >= unresolved[kUnresolvedCount]) return;
   uint query = unresolved[kUnresolvedFirst + group_index()];
   uint lane = gl_LocalInvocationID.x;
+  if (lane == 0u) stopped = stop != 0u;
+  barrier();
+  if (stopped) return;
   vec3 p = queries[query].xyz;
   float sum = 0.0;
   for (uint t = lane; t < push.triangle_count; t += gl_WorkGroupSize.x)

@@ -99,7 +99,7 @@ class Pieces {
     for (int k = 1; k < 3; ++k) {
       if ((piece[k] - piece[(k + 1) % 3]).norm() > (piece[longest] - piece[(longest + 1) % 3]).norm()) longest = k;
     }
-    const Vector3d a = piece[longest], b = piece[(longest + 1) % 3], c = piece[(longest + 2) % 3];
+    const Vector3d &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
     const Vector3d half = (a + b) / 2;
     return cut({a, half, c}, nearer, depth + 1) && cut({half, b, c}, nearer, depth + 1);
   }

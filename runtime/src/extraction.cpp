@@ -111,9 +111,8 @@ class CertifiedRun {
 
 Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view,
                                      const ExtractionParameters& parameters, StopWatch& watch) {
-  Result<StopWord> stop = StopWord::create(context);
+  Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();
-  watch.watch(stop.value());
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
   if (watch.stopped()) return StopWatch::error();
@@ -121,7 +120,7 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size, stop.value());
+  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size, *stop.value());
   if (!pipeline.ok()) return pipeline.error();
   extraction.counters.levels.resize(pipeline.value().level_count());
   for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)

@@ -20,9 +20,16 @@ void StopWord::raise() {
   std::atomic_ref<std::uint32_t>(*static_cast<std::uint32_t*>(word_.mapped)).store(1, std::memory_order_release);
 }
 
+Result<const StopWord*> StopWatch::make_word(Context::Impl& context) {
+  Result<StopWord> word = StopWord::create(context);
+  if (!word.ok()) return word.error();
+  word_ = std::move(word).value();
+  return &*word_;
+}
+
 bool StopWatch::stopped() {
   if (!stopped_) stopped_ = stop_.stop_requested() || (progress_ && !progress_(done_));
-  if (stopped_ && word_ != nullptr) word_->raise();
+  if (stopped_ && word_) word_->raise();
   return stopped_;
 }
 

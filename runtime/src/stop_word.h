@@ -7,6 +7,8 @@
 // chunk.
 #pragma once
 
+#include <optional>
+
 #include "medial_vk/extraction.h"
 #include "memory.h"
 
@@ -32,8 +34,8 @@ class StopWatch {
  public:
   StopWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
 
-  /// `word` is raised from now on.
-  void watch(StopWord& word) { word_ = &word; }
+  /// The word that is raised from now on. It lives as long as the watch. Errors: kOutOfMemory.
+  Result<const StopWord*> make_word(Context::Impl& context);
   /// Share of the job that is done: what the callback is told.
   void set_done(double done) { done_ = done; }
   /// Asks. True from the first time on that the answer is yes.
@@ -44,7 +46,7 @@ class StopWatch {
  private:
   const ProgressCallback& progress_;
   std::stop_token stop_;
-  StopWord* word_ = nullptr;
+  std::optional<StopWord> word_;
   double done_ = 0;
   bool stopped_ = false;
 };

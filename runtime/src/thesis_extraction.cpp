@@ -39,16 +39,15 @@ Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline&
 
 Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
                                   StopWatch& watch) {
-  Result<StopWord> stop = StopWord::create(context);
+  Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();
-  watch.watch(stop.value());
   Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
   if (!mesh.ok()) return mesh.error();
   if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
   Result<ThesisPipeline> created =
-      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, stop.value());
+      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, *stop.value());
   if (!created.ok()) return created.error();
   if (watch.stopped()) return StopWatch::error();
   const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };

@@ -121,7 +121,7 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   counters_readback_ = readback.value();
 
   Result<TreeQueries> queries =
-      TreeQueries::create(*context_, *mesh_, std::max(capacity, static_cast<std::uint32_t>(lines)));
+      TreeQueries::create(*context_, *mesh_, std::max(capacity, static_cast<std::uint32_t>(lines)), stop_->range());
   if (!queries.ok()) return queries.error();
   queries_ = std::make_unique<TreeQueries>(std::move(queries).value());
   Result<PacketQueries> packets =

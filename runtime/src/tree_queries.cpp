@@ -16,17 +16,26 @@ constexpr std::uint32_t kResolveGroup = 256;
 
 }  // namespace
 
-Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity) {
+Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
+                                        std::optional<BufferRange> stop) {
   TreeQueries queries(context, mesh);
   Result<Buffer> list = queries.arena_.create_buffer((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4,
                                                      MemoryKind::kDevice, "a list of unresolved queries");
   if (!list.ok()) return list.error();
   Result<Buffer> total = queries.arena_.create_buffer(4, MemoryKind::kReadback, "a count of unresolved queries");
   if (!total.ok()) return total.error();
+  Buffer never;  // in place of a stop that nobody can ask for
+  if (!stop) {
+    Result<Buffer> word = queries.arena_.create_buffer(4, MemoryKind::kDevice, "a word that stays 0");
+    if (!word.ok()) return word.error();
+    never = word.value();
+  }
+  queries.stop_ = stop ? *stop : never.range();
   queries.unresolved_ = list.value();
   queries.total_ = total.value();
   auto cleared = run_commands(context, [&](Recorder& r) {
     r.fill(queries.unresolved_, 0, gpu::kUnresolvedFirst * 4, 0);
+    if (!stop) r.fill(never, 0, 4, 0);
     return r.status();
   });
   if (!cleared.ok()) return cleared.error();
@@ -103,13 +112,13 @@ void TreeQueries::closest(Recorder& r, const QueryCount& count, BufferRange quer
 }
 
 void TreeQueries::empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const {
-  const std::array<BufferRange, 2> own = {mesh_->triangle_info.range(), empty};
+  const std::array<BufferRange, 3> own = {mesh_->triangle_info.range(), empty, stop_};
   record(r, {"test_balls", "resolve_balls", {}}, count, own, queries, 0);
 }
 
 void TreeQueries::winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers,
                           float tolerance) const {
-  const std::array<BufferRange, 1> own = {numbers};
+  const std::array<BufferRange, 2> own = {numbers, stop_};
   record(r, {"find_winding_numbers", "resolve_winding_numbers", {}}, count, own, queries, tolerance);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "recorder.h"
@@ -45,8 +46,12 @@ class TreeQueries {
  public:
   static constexpr std::uint32_t kWorkgroupSize = 64;
 
-  /// For dispatches of at most `capacity` queries. The mesh must outlive the object. Errors: kOutOfMemory, kInternal.
-  static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity);
+  /// For dispatches of at most `capacity` queries. The mesh must outlive the object. Once the word at `stop` is not 0,
+  /// workgroups of empty() and winding() that begin return at once: what they should have written is then left as it
+  /// was. (Looking at all triangles takes milliseconds for each query; a dispatch of thousands took ten seconds.)
+  /// Errors: kOutOfMemory, kInternal.
+  static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
+                                    std::optional<BufferRange> stop = {});
 
   /// Queries are vec4 in the unit box: xyz, and in w the squared distance within which a point is of interest; negative
   /// to pass the query over (its results are left as they are). Each call is followed by a barrier.
@@ -84,6 +89,7 @@ class TreeQueries {
   const DeviceMesh* mesh_;
   Arena arena_;
   Buffer unresolved_;  // shaders/shared/tree_query.glsl
+  BufferRange stop_;
   Buffer total_;
 };
 

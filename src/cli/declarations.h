@@ -79,6 +79,17 @@ class Declarations {
   CLI::App& app_;
 };
 
+/// An application that reads one command line after the other.
+class ReusableApp : public CLI::App {
+ public:
+  /// CLI11 forgets the line before by itself, but not if that one ended with an error, and never the order of its
+  /// options, a list that grows from line to line.
+  void forget() {
+    clear();
+    parse_order_.clear();
+  }
+};
+
 /// Parses `arguments` into what was declared on `app`, which must allow extras: they are reported here, with a
 /// suggestion. `one_only` follows the name of a second input ("one mesh at a time"). Errors: kUsage.
 Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const char* one_only);

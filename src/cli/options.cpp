@@ -169,30 +169,23 @@ Status check_combinations(const Options& options) {
 }  // namespace
 
 /// The application writes to `options`, so the two stay together and in place.
-struct OptionParser::Declared : CLI::App {
+struct OptionParser::Declared {
+  ReusableApp app;
   Options options;
-
-  /// CLI11 forgets the line before by itself, but not if that one ended with an error, and never the order of its
-  /// options, a list that grows from line to line.
-  void forget() {
-    clear();
-    parse_order_.clear();
-    options = Options();
-  }
 };
 
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
-  declared_->set_help_flag();  // Help is text of our own.
-  declared_->allow_extras();   // Reported here, with a suggestion.
-  declare(*declared_, declared_->options);
+  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.allow_extras();   // Reported here, with a suggestion.
+  declare(declared_->app, declared_->options);
 }
 
 OptionParser::~OptionParser() = default;
 
 Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
-  declared_->forget();
-  Options& options = declared_->options;
-  if (Status status = parse_arguments(*declared_, arguments, "one mesh at a time"); !status) return status.error();
+  declared_->app.forget();
+  Options& options = declared_->options = Options();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) return status.error();
   if (Status status = check_combinations(options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();

@@ -227,6 +227,7 @@ class Fitting {
 
   reference::Certificate check_by_reference(const PreparedMesh& mesh, const std::vector<Ball>& balls) const {
     std::vector<reference::UnionBall> copies;
+    copies.reserve(balls.size());
     for (const Ball& ball : balls) {
       copies.push_back({{ball.centre[0], ball.centre[1], ball.centre[2]}, ball.radius});
     }

@@ -23,6 +23,7 @@ std::vector<Pose> link_poses(const Robot& robot) {
     }
   }
   std::vector<Pose> poses;
+  poses.reserve(known.size());
   for (const std::optional<Pose>& pose : known) poses.push_back(*pose);
   return poses;
 }

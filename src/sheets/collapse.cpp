@@ -58,8 +58,10 @@ std::vector<bool> faces_that_go(const DualComplex& complex, const CollapseRule& 
   }
   std::vector<std::uint32_t> order(complex.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t s, std::uint32_t t) { return sizes[s] > sizes[t] || (sizes[s] == sizes[t] && s < t); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t s, std::uint32_t t) {
+    if (sizes[s] != sizes[t]) return sizes[s] > sizes[t];
+    return s < t;
+  });
   const std::vector<std::array<std::uint32_t, 2>> at = tetrahedra_at_triangles(complex);
   Sets sets(complex.tetrahedra.size() + 1);
   std::vector<bool> gone(complex.triangles.size());

@@ -17,7 +17,8 @@ std::vector<std::vector<std::uint32_t>> balls_by_sheet(const SheetBalls& sheets)
 }
 
 bool goes_first(const std::vector<double>& of_sheet, std::uint32_t a, std::uint32_t b) {
-  return of_sheet[a] < of_sheet[b] || (of_sheet[a] == of_sheet[b] && a > b);
+  if (of_sheet[a] != of_sheet[b]) return of_sheet[a] < of_sheet[b];
+  return a > b;
 }
 
 /// Ascending.
@@ -53,8 +54,8 @@ class Removing {
       if (const Status status = remove_least_first(); !status.ok()) return status.error();
       if (!keeps_topology_) break;
     }
-    for (auto sheet = order_.rbegin(); sheet != order_.rend(); ++sheet) {
-      if (state_[*sheet] != State::kGone) removal_.kept.push_back(*sheet);
+    for (std::size_t n = order_.size(); n-- > 0;) {
+      if (state_[order_[n]] != State::kGone) removal_.kept.push_back(order_[n]);
     }
     return std::move(removal_);
   }
@@ -69,7 +70,7 @@ class Removing {
       const std::uint32_t sheet = order_[n++];
       if (state_[sheet] != State::kNotTried) continue;
       if (!progress_(done())) return Error{ErrorCode::kInterrupted, "interrupted"};
-      if (const Status status = try_to_remove(sheet); !status.ok()) return status;
+      if (Status status = try_to_remove(sheet); !status.ok()) return status;
       if (too_little_) return {};
       if (state_[sheet] == State::kStays) continue;
       for (const std::uint32_t ball : rest_.changed()) {

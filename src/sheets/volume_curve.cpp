@@ -43,12 +43,14 @@ class Drawing {
       : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))), out_(kWidth, kHeight) {}
 
   void axes() {
-    for (double share = 0; share <= 1.001; share += 0.2) {
+    for (int fifths = 0; fifths <= 5; ++fifths) {
+      const double share = 0.2 * fifths;
       line(0, share, sheets_, share, "grid");
       out_.text(x(0) - 8, y(share) + 4, "end", fmt::format("{:.0f} %", 100 * share));
     }
     const double step = std::max(1.0, tick_step(sheets_));
-    for (double sheets = 0; sheets <= sheets_; sheets += step) {
+    for (std::size_t tick = 0; step * static_cast<double>(tick) <= sheets_; ++tick) {
+      const double sheets = step * static_cast<double>(tick);
       line(sheets, 0, sheets, 0.015, "axis");
       out_.text(x(sheets), y(0) + 18, "middle", fmt::format("{:.0f}", sheets));
     }
@@ -61,7 +63,7 @@ class Drawing {
   void curve(const SheetRemoval& removal, const char* kind, const char* name, double name_height) {
     std::vector<std::pair<double, double>> points;
     for (const CurvePoint& point : points_of(removal)) {
-      points.push_back({x(static_cast<double>(point.sheets)), y(point.volume)});
+      points.emplace_back(x(static_cast<double>(point.sheets)), y(point.volume));
     }
     out_.curve(points, kind);
     const double legend = kWidth - kRight - 210;

@@ -113,7 +113,8 @@ Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest
                                          Context* context, const SphereProgress& progress) {
   Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, backend, context, progress);
   if (!levels) return levels.error();
-  return std::move(levels.value().back());
+  SphereSet last = std::move(levels.value().back());
+  return last;
 }
 
 Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereRequest& request, Backend backend,

@@ -61,8 +61,9 @@ void CoverPieces::add_cells(const Solid& solid, unsigned threads) {
   }
   const auto lower_of = [&](std::size_t cell) {
     const auto i = static_cast<int>(cell);
-    return report.lower + side * Point{static_cast<double>(i % count[0]), static_cast<double>(i / count[0] % count[1]),
-                                       static_cast<double>(i / count[0] / count[1])};
+    const int row = i / count[0], layer = row / count[1];
+    return report.lower + side * Point{static_cast<double>(i % count[0]), static_cast<double>(row % count[1]),
+                                       static_cast<double>(layer)};
   };
   const auto all = static_cast<std::size_t>(count[0]) * count[1] * count[2];
   const double reach = side * std::sqrt(0.75);

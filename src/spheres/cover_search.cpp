@@ -94,7 +94,7 @@ void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
 }
 
 void CoverSearch::undo(const std::vector<Saved>& saved) {
-  for (auto at = saved.rbegin(); at != saved.rend(); ++at) replace(at->ball, at->before);
+  for (std::size_t n = saved.size(); n-- > 0;) replace(saved[n].ball, saved[n].before);
 }
 
 std::vector<std::uint32_t> CoverSearch::exclusive(std::uint32_t i) const {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -95,7 +96,7 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
 std::vector<std::uint32_t> CoverSearch::costliest_first() const {
   std::vector<std::pair<double, std::uint32_t>> order;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
-    if (balls_[i].radius > 0) order.push_back({-share(i), i});
+    if (balls_[i].radius > 0) order.emplace_back(-share(i), i);
   }
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> balls;
@@ -154,10 +155,10 @@ std::vector<std::uint32_t> CoverSearch::neighbours(std::uint32_t i, std::size_t 
   std::vector<std::pair<double, std::uint32_t>> near;
   for (std::uint32_t j = 0; j < balls_.size(); ++j) {
     if (j == i || balls_[j].radius == 0) continue;
-    near.push_back({length(balls_[j].centre - balls_[i].centre) - balls_[j].radius, j});
+    near.emplace_back(length(balls_[j].centre - balls_[i].centre) - balls_[j].radius, j);
   }
   count = std::min(count, near.size());
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+  std::partial_sort(near.begin(), std::next(near.begin(), static_cast<std::ptrdiff_t>(count)), near.end());
   std::vector<std::uint32_t> balls;
   for (std::size_t k = 0; k < count; ++k) balls.push_back(near[k].second);
   return balls;
@@ -188,10 +189,10 @@ bool CoverSearch::trade_one(std::uint32_t i) {
     for (std::uint32_t j = 0; j < balls_.size(); ++j) {
       if (j == i || balls_[j].radius == 0) continue;
       const double gap = length(balls_[j].centre - at) - balls_[j].radius;
-      if (gap < 0.3 * whole.radius) takers.push_back({gap, j});
+      if (gap < 0.3 * whole.radius) takers.emplace_back(gap, j);
     }
     const std::size_t count = std::min<std::size_t>(3, takers.size());
-    std::partial_sort(takers.begin(), takers.begin() + static_cast<std::ptrdiff_t>(count), takers.end());
+    std::partial_sort(takers.begin(), std::next(takers.begin(), static_cast<std::ptrdiff_t>(count)), takers.end());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = takers[k].second;
       const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, given));
@@ -241,7 +242,7 @@ bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& 
 void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share) {
   constexpr int kHalvings = 3;
   std::vector<std::pair<double, std::uint32_t>> sorted;
-  for (const std::uint32_t piece : exclusive(wide)) sorted.push_back({length(pieces_.middle(piece) - tip), piece});
+  for (const std::uint32_t piece : exclusive(wide)) sorted.emplace_back(length(pieces_.middle(piece) - tip), piece);
   std::sort(sorted.begin(), sorted.end());
   std::vector<std::uint32_t> part;
   const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -305,8 +306,8 @@ std::size_t CoverSearch::relocate() {
   const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
   std::vector<std::pair<double, std::uint32_t>> free, wide;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
-    wide.push_back({-share(i), i});
-    free.push_back({price_to_leave(i), i});
+    wide.emplace_back(-share(i), i);
+    free.emplace_back(price_to_leave(i), i);
   }
   std::sort(free.begin(), free.end());
   std::sort(wide.begin(), wide.end());

@@ -46,7 +46,9 @@ std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
     const Triangle& triangle = mesh.triangles[k];
     const Point& a = mesh.vertices[triangle[0]];
     const Point ab = mesh.vertices[triangle[1]] - a, ac = mesh.vertices[triangle[2]] - a;
-    for (due += static_cast<double>(kSamples) * areas[k] / total; due >= 1; --due) {
+    due += static_cast<double>(kSamples) * areas[k] / total;
+    while (due >= 1) {
+      --due;
       s = std::fmod(s + 0.7548776662466927, 1);
       t = std::fmod(t + 0.5698402909980532, 1);
       const bool folded = s + t > 1;

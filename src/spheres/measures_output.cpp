@@ -95,7 +95,9 @@ class HistogramDrawing {
 
   void axes() {
     const double step = tick_step(upper_ - lower_);
-    for (double tick = step * std::ceil(lower_ / step); tick <= upper_; tick += step) {
+    const double first = std::ceil(lower_ / step);
+    for (int k = 0; step * (first + k) <= upper_; ++k) {
+      const double tick = step * (first + k);
       out_.line(x(tick), base_, x(tick), base_ + 4, "axis");
       out_.text(x(tick), base_ + 18, "middle", fmt::format("{:.3g}", std::fabs(tick) < 1e-9 * step ? 0.0 : tick));
     }

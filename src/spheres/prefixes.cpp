@@ -40,7 +40,7 @@ Status order_by_share(std::vector<Ball>& balls, unsigned threads) {
   }
   std::vector<Ball> ordered;
   ordered.reserve(balls.size());
-  for (auto number = order.rbegin(); number != order.rend(); ++number) ordered.push_back(balls[*number]);
+  for (std::size_t n = order.size(); n-- > 0;) ordered.push_back(balls[order[n]]);
   balls = std::move(ordered);
   return {};
 }

@@ -3,6 +3,7 @@
 // with every round, so no set of points comes back.
 #include "spheres/smallest_ball.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -49,11 +50,10 @@ Sphere circumsphere(const std::vector<Point>& p) {
 }
 
 bool holds(const Sphere& sphere, const std::vector<Point>& points) {
-  for (const Point& p : points) {
+  return std::ranges::all_of(points, [&](const Point& p) {
     const Point d = p - sphere.centre;
-    if (dot(d, d) > sphere.squared * (1 + 4 * kSlack)) return false;
-  }
-  return true;
+    return dot(d, d) <= sphere.squared * (1 + 4 * kSlack);
+  });
 }
 
 /// Of up to five points, by trying all subsets; `points` becomes the subset that holds the ball up.

@@ -34,6 +34,8 @@ struct SphereRequest {
   std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionParameters; 0: by the count.
   double object_angle = 0.6;     ///< Of the method source.
   unsigned threads = 0;          ///< 0: all. The result does not depend on it.
+
+  bool operator==(const SphereRequest&) const = default;
 };
 
 struct SphereSet {

@@ -1,26 +1,12 @@
 // The command line, its arguments one to a line: options that keep their ranges, or a clear message.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <functional>
 #include <numbers>
 
 #include "cli/options.h"
-#include "fuzz/require.h"
+#include "fuzz/arguments.h"
 
 namespace medial_vk::fuzz {
 namespace {
-
-/// As main() gets them: any bytes but 0, which ends an argument, too.
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> words;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find_first_of(std::string_view("\n\0", 2)));
-    words.emplace_back(word);
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
-  }
-  return words;
-}
 
 void require_in_range(const cli::Options& options) {
   const ExtractionParameters& p = options.parameters;
@@ -45,26 +31,13 @@ void require_in_range(const cli::Options& options) {
   require(options.output != options.report && options.output != options.picture, "results do not replace each other");
 }
 
-/// What one line leaves behind may change the next: now and then (for the same input always, so that findings come
-/// again) the answer is compared with that of a parser that has seen no other line.
-void require_no_trace(const std::vector<std::string>& words, const Result<cli::Options>& options) {
-  if (std::hash<std::string>()(fmt::format("{}", fmt::join(words, " "))) % 64 != 0) return;
-  const Result<cli::Options> fresh = cli::parse_options(words);
-  require(fresh.ok() == options.ok(), "earlier lines do not decide about this one");
-  if (fresh.ok()) {
-    require(fresh.value() == options.value(), "earlier lines do not change the options of this one");
-  } else {
-    require(fresh.error().message == options.error().message, "earlier lines do not change the message for this one");
-  }
-}
-
 }  // namespace
 }  // namespace medial_vk::fuzz
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace medial_vk;
   static cli::OptionParser parser;
-  const std::vector<std::string> words = fuzz::split(fuzz::as_text(data, size));
+  const std::vector<std::string> words = fuzz::arguments(fuzz::as_text(data, size));
   const Result<cli::Options> options = parser.parse(words);
   if (options.ok()) {
     fuzz::require_in_range(options.value());
@@ -72,6 +45,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::require(options.error().code == ErrorCode::kUsage, "what is wrong with a command line is its usage");
     fuzz::require(!options.error().message.empty(), "an error has a message");
   }
-  fuzz::require_no_trace(words, options);
+  if (fuzz::is_sample(words)) fuzz::require_no_trace(options, cli::parse_options(words));
   return 0;
 }

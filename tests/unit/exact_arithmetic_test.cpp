@@ -53,17 +53,23 @@ std::pair<Expansion, ExactNumber> expression(RandomNumbers& random, ExpansionMat
   if (depth == 0) {
     const double a = random.number(40), b = random.number(40);
     switch (random.below(3)) {
-      case 0: return {math.number(a), a};
-      case 1: return {math.difference(a, b), ExactNumber(a) - b};
-      default: return {math.square(a), ExactNumber(a) * a};
+      case 0:
+        return {math.number(a), a};
+      case 1:
+        return {math.difference(a, b), ExactNumber(a) - b};
+      default:
+        return {math.square(a), ExactNumber(a) * a};
     }
   }
   const auto [e, x] = expression(random, math, random.below(depth));
   const auto [f, y] = expression(random, math, random.below(depth));
   switch (random.below(3)) {
-    case 0: return {math.sum(e, f), x + y};
-    case 1: return {math.difference(e, f), x - y};
-    default: return {math.product(e, f), x * y};
+    case 0:
+      return {math.sum(e, f), x + y};
+    case 1:
+      return {math.difference(e, f), x - y};
+    default:
+      return {math.product(e, f), x * y};
   }
 }
 
@@ -158,7 +164,8 @@ TEST(DoubleDouble, DifferencesAndProductsOfTwoDoublesAreCertain) {
     EXPECT_EQ(DoubleDouble::difference(a, b).certain_sign(), a > b ? 1 : a < b ? -1 : 0);
     // a (b + 1 / 2^80) - a b: 27 bits below the last of a double.
     const double tiny = std::ldexp(b, -80);
-    const DoubleDouble more = DoubleDouble(a) * (DoubleDouble(b) + DoubleDouble(tiny)) - DoubleDouble(a) * DoubleDouble(b);
+    const DoubleDouble more =
+        DoubleDouble(a) * (DoubleDouble(b) + DoubleDouble(tiny)) - DoubleDouble(a) * DoubleDouble(b);
     const int truth = a * tiny > 0 ? 1 : a * tiny < 0 ? -1 : 0;
     EXPECT_EQ(more.certain_sign(), truth);
   }

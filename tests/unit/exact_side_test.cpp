@@ -43,9 +43,9 @@ Truth truth(const std::vector<Ball>& balls, const std::vector<Wall>& walls, std:
   std::array<Row, 4> r;
   for (std::size_t k = 0; k < 4; ++k) r[k] = row(balls, walls, i, names[k]);
   const ExactNumber orientation = test::exact_determinant(r[0], r[1], r[2]);
-  const ExactNumber sum =
-      orientation * r[3][3] - test::exact_determinant(r[0], r[1], r[3]) * r[2][3] +
-      test::exact_determinant(r[0], r[2], r[3]) * r[1][3] - test::exact_determinant(r[1], r[2], r[3]) * r[0][3];
+  const ExactNumber sum = orientation * r[3][3] - test::exact_determinant(r[0], r[1], r[3]) * r[2][3] +
+                          test::exact_determinant(r[0], r[2], r[3]) * r[1][3] -
+                          test::exact_determinant(r[1], r[2], r[3]) * r[0][3];
   return {orientation.sign(), sum.sign() * orientation.sign()};
 }
 
@@ -194,8 +194,8 @@ TEST(ExactSide, DecidesTheSameForAllCellsOfFourCoplanarBalls) {
   }
 }
 
-/// However flat a corner is, it is found to a few units in the last place: put into the planes' equations, multiplied out
-/// exactly, it leaves no more than its slack allows.
+/// However flat a corner is, it is found to a few units in the last place: put into the planes' equations, multiplied
+/// out exactly, it leaves no more than its slack allows.
 TEST(ExactSide, MeetsWithinItsSlack) {
   std::mt19937 random(7);
   const std::vector<Wall> no_walls;
@@ -214,8 +214,8 @@ TEST(ExactSide, MeetsWithinItsSlack) {
       // Cramer: coordinate k times the determinant is the one with the offsets as column k.
       std::array<Row, 3> with_offsets = r;
       for (Row& w : with_offsets) w[k] = w[3];
-      const ExactNumber rest = ExactNumber(at[k]) * determinant -
-                               test::exact_determinant(with_offsets[0], with_offsets[1], with_offsets[2]);
+      const ExactNumber rest =
+          ExactNumber(at[k]) * determinant - test::exact_determinant(with_offsets[0], with_offsets[1], with_offsets[2]);
       const ExactNumber allowed = ExactNumber(slack) * determinant;
       EXPECT_LE((rest * rest - allowed * allowed).sign(), 0) << n;
     }

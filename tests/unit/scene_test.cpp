@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <optional>
 
 #include "context_impl.h"
 #include "device_tree.h"
 #include "medial_vk/queries.h"
 #include "spiral.h"
+#include "stop_word.h"
 #include "support/device_test.h"
 #include "support/solids.h"
 #include "tree_queries.h"
@@ -98,6 +101,40 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   EXPECT_EQ(queries.read_unresolved_total().value(), 10u);
   ask({0, 0, 0});
   EXPECT_EQ(queries.read_unresolved_total().value(), 20u);
+}
+
+// What a stop saves is measured by bench/stops.cpp; here, that nothing is written any more. With no tolerance every
+// walk goes to all triangles and gives up.
+TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
+  Context::Impl& context = context_->impl();
+  const Mesh mesh = test::make_sphere(1.0, 20000);
+  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  StopWord stop = StopWord::create(context).value();
+  TreeQueries queries = TreeQueries::create(context, device, 64, stop.range()).value();
+  Arena arena(context);
+  const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
+  const Buffer numbers = arena.create_buffer(64 * 8, MemoryKind::kDevice, "a test").value();
+  const Buffer readback = arena.create_buffer(64 * 8, MemoryKind::kReadback, "a test").value();
+  const std::vector<Texel> middles(64, {0.5f, 0.5f, 0.5f, 3.4e38f});
+  ASSERT_TRUE(upload(context, asked, std::as_bytes(std::span<const Texel>(middles))).ok());
+  const auto ask = [&] {
+    EXPECT_TRUE(run_commands(context, [&](Recorder& r) {
+                  r.fill(numbers, 0, 64 * 8, 0);
+                  r.barrier();
+                  queries.winding(r, QueryCount::of(64), asked.range(), numbers.range(), 0.0f);
+                  r.copy(numbers, 0, readback, 0, 64 * 8);
+                  r.barrier_to_host();
+                  return r.status();
+                }).ok());
+    std::array<float, 2> last;  // the number, and the bound of its error
+    std::memcpy(last.data(), static_cast<const std::byte*>(readback.mapped) + 63 * 8, sizeof(last));
+    return last[0];
+  };
+  EXPECT_NEAR(ask(), 1.0f, 1e-4f);
+  EXPECT_EQ(queries.read_unresolved_total().value(), 64u);
+  stop.raise();
+  EXPECT_EQ(ask(), 0.0f);
+  EXPECT_EQ(queries.read_unresolved_total().value(), 64u);
 }
 
 // One invocation adds up all samples of a sphere; lavapipe would end its loop silently after 65,535 of them.

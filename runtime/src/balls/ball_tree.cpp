@@ -100,7 +100,7 @@ BallTree::BallTree(std::span<const Ball> balls, unsigned threads) : balls_(balls
   std::iota(order_.begin(), order_.end(), 0u);
   const std::size_t blocks = (balls.size() + kLeaf - 1) / kLeaf;
   leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(blocks, 1)));
-  nodes_.resize(2 * std::size_t{leaves_} - 1);
+  nodes_.resize(2 * static_cast<std::size_t>(leaves_) - 1);
   // Level by level; the nodes of a level are independent.
   for (std::uint32_t level = 1; level <= leaves_; level *= 2) {
     const std::size_t span = std::size_t{leaves_ / level} * kLeaf;

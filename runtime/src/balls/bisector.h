@@ -51,7 +51,8 @@ class ExactSide {
   /// True if the plane between i and j, which have the same centre, keeps anything: if i is the larger one, or as large
   /// and named first.
   bool keeps_concentric(std::uint32_t i, std::uint32_t j) const {
-    return balls_[i].radius > balls_[j].radius || (balls_[i].radius == balls_[j].radius && i < j);
+    if (balls_[i].radius != balls_[j].radius) return balls_[i].radius > balls_[j].radius;
+    return i < j;
   }
 
  private:

@@ -175,14 +175,27 @@ std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
           {"--histogram", &options.histogram}};
 }
 
-Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments) {
-  CLI::App app;
-  app.set_help_flag();  // Help is text of our own.
-  app.allow_extras();   // Reported with a suggestion.
+/// The application writes to the others, so they stay together and in place.
+struct SpheresOptionParser::Declared {
+  ReusableApp app;
   SpheresOptions options;
   Given given;
-  declare(app, options, given);
-  if (Status status = parse_arguments(app, arguments, "one mesh or robot at a time"); !status) return status.error();
+};
+
+SpheresOptionParser::SpheresOptionParser() : declared_(std::make_unique<Declared>()) {
+  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.allow_extras();   // Reported with a suggestion.
+  declare(declared_->app, declared_->options, declared_->given);
+}
+
+SpheresOptionParser::~SpheresOptionParser() = default;
+
+Result<SpheresOptions> SpheresOptionParser::parse(const std::vector<std::string>& arguments) {
+  declared_->app.forget();
+  SpheresOptions& options = declared_->options = SpheresOptions();
+  const Given& given = declared_->given = Given();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh or robot at a time"); !status)
+    return status.error();
   if (options.help) return options;
   if (given.object_angle > 0) options.request.object_angle = given.object_angle;
   if (Status status = check_combinations(options, given); !status) return status.error();
@@ -190,6 +203,10 @@ Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arg
   if (Status status = check_goals(options); !status) return status.error();
   if (Status status = complete_files(options, given); !status) return status.error();
   return options;
+}
+
+Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments) {
+  return SpheresOptionParser().parse(arguments);
 }
 
 }  // namespace medial_vk::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,27 @@ struct SpheresOptions {
   bool check = false;
   bool quiet = false;
   bool verbose = false;
+
+  bool operator==(const SpheresOptions&) const = default;
 };
 
 /// `arguments` without the program's name and without "spheres". Errors: kUsage with a message that names the option.
 Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments);
+
+/// The same for many command lines, as OptionParser.
+class SpheresOptionParser {
+ public:
+  SpheresOptionParser();
+  ~SpheresOptionParser();
+  SpheresOptionParser(const SpheresOptionParser&) = delete;
+  SpheresOptionParser& operator=(const SpheresOptionParser&) = delete;
+
+  Result<SpheresOptions> parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct Declared;  // keeps CLI11 out of this header
+  std::unique_ptr<Declared> declared_;
+};
 
 /// Every file that is to be written, with its option.
 std::vector<NamedOutput> outputs_of(const SpheresOptions& options);

@@ -1,0 +1,30 @@
+// What the targets of the command lines share.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/require.h"
+
+namespace medial_vk::fuzz {
+
+/// One to a line, as main() gets them: any bytes but 0, which ends an argument, too.
+std::vector<std::string> arguments(std::string_view text);
+
+/// True for one in 64 lines, for the same line always, so that findings come again.
+bool is_sample(const std::vector<std::string>& arguments);
+
+/// What one line leaves behind may change the next: `options` of a parser that has seen others are compared with those
+/// of a `fresh` one.
+template <class Options>
+void require_no_trace(const Result<Options>& options, const Result<Options>& fresh) {
+  require(fresh.ok() == options.ok(), "earlier lines do not decide about this one");
+  if (fresh.ok()) {
+    require(fresh.value() == options.value(), "earlier lines do not change the options of this one");
+  } else {
+    require(fresh.error().message == options.error().message, "earlier lines do not change the message for this one");
+  }
+}
+
+}  // namespace medial_vk::fuzz

@@ -1,0 +1,72 @@
+// The command line of `medial-vk spheres`, its arguments one to a line: options that keep their ranges and go together,
+// or a clear message.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cli/spheres/spheres_options.h"
+#include "fuzz/arguments.h"
+
+namespace medial_vk::fuzz {
+namespace {
+
+void require_in_range(const SphereRequest& request) {
+  require(request.count <= 1'000'000, "--count keeps its range");
+  require(request.error >= 0 && request.error < 1, "--error keeps its range");
+  require(request.max_gap >= 0 && std::isfinite(request.max_gap), "--max-gap keeps its range");
+  require(request.resolution <= 4096, "--resolution keeps its range");
+  require(request.object_angle > 0 && request.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
+  require(request.threads <= 1024, "--threads keeps its range");
+}
+
+void require_goal(const cli::SpheresOptions& options) {
+  const SphereRequest& request = options.request;
+  const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
+  require(request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
+              request.max_gap > 0 || by_resolution,
+          "there is a goal");
+  require(options.count_per_link <= 1'000'000 && options.total <= 1'000'000, "counts keep their range");
+  require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
+  require(options.is_robot ? request.count == 0 : options.count_per_link == 0 && options.total == 0,
+          "a mesh and a robot have counts of their own");
+  require(request.contract == SphereContract::kInside || (request.error == 0 && request.max_gap == 0),
+          "other contracts have no goals of balls inside");
+}
+
+void require_usable(const cli::SpheresOptions& options) {
+  require_in_range(options.request);
+  require_goal(options);
+  require(!options.input.empty(), "there is an input");
+  require(!options.output.empty(), "there is an output");
+  require(!options.levels || has_levels(options.format), "the format has levels, if they are wanted");
+  require(!(options.quiet && options.verbose), "-q and -v exclude each other");
+  require(!options.check || options.request.contract != SphereContract::kBalanced, "what is checked was promised");
+  require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
+  require(!options.is_robot || options.histogram.empty(), "a histogram is of one mesh");
+  require(std::ranges::any_of(options.view.towards, [](double x) { return x != 0; }), "--view is a direction");
+  for (const cli::NamedOutput& output : cli::outputs_of(options)) {
+    require(*output.file == "-" || *output.file != options.input, "the input is not overwritten");
+    for (const cli::NamedOutput& other : cli::outputs_of(options)) {
+      require(output.file == other.file || output.file->empty() || *output.file != *other.file,
+              "results do not replace each other");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace medial_vk;
+  static cli::SpheresOptionParser parser;
+  const std::vector<std::string> words = fuzz::arguments(fuzz::as_text(data, size));
+  const Result<cli::SpheresOptions> options = parser.parse(words);
+  if (!options.ok()) {
+    fuzz::require(options.error().code == ErrorCode::kUsage, "what is wrong with a command line is its usage");
+    fuzz::require(!options.error().message.empty(), "an error has a message");
+  } else if (!options.value().help) {
+    fuzz::require_usable(options.value());
+  }
+  if (fuzz::is_sample(words)) fuzz::require_no_trace(options, cli::parse_spheres_options(words));
+  return 0;
+}
