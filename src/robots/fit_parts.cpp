@@ -29,6 +29,17 @@ struct Group {
   std::size_t balls = 0;
 };
 
+/// An open mesh has no volume; what its surface encloses with the middle of its box, wherever that is, will do.
+double enclosed_with_middle(const PreparedMesh& mesh) {
+  const Point middle = 0.5 * (mesh.report.lower + mesh.report.upper);
+  double six_times = 0;
+  for (const auto& t : mesh.mesh.triangles) {
+    const Point a = mesh.mesh.vertices[t[0]] - middle, b = mesh.mesh.vertices[t[1]] - middle;
+    six_times += dot(a, cross(b, mesh.mesh.vertices[t[2]] - middle));
+  }
+  return std::fabs(six_times) / 6;
+}
+
 class Fitting {
  public:
   Fitting(std::span<const Part> parts, const FitGoals& goals, Backend backend, Context* context,
@@ -144,9 +155,8 @@ class Fitting {
     const SphereSet& set = sets.value().back();
     const Result<std::vector<double>> volumes = volumes_of(set);
     if (!volumes) return named(part, volumes.error());
-    // An open mesh has no volume; what its surface encloses with the origin will do.
-    const double open = std::fabs(part.mesh.report.signed_volume);
-    const double whole = part.volume.value_or(solid.value().has_volume() ? solid.value().volume() : open);
+    const double whole =
+        part.volume.value_or(solid.value().has_volume() ? solid.value().volume() : enclosed_with_middle(part.mesh));
     for (const double volume : volumes.value()) curve.uncovered.push_back(whole - volume);
     curve.ends = goals_.request.method == SphereMethod::kBest && set.balls.size() < count;
     return curve;
@@ -203,7 +213,9 @@ class Fitting {
     fit.measures = std::move(measured).value();
     if (Status status = check_promise(*fit.measures); !status) return status;
     if (solid.has_volume()) fit.solid_volume = solid.volume();
-    fit.of_shape = part.volume && measure_against(*part.volume, *fit.measures);
+    // Balanced balls are measured by the facets, which are what they were balanced for.
+    fit.of_shape = goals_.request.contract != SphereContract::kBalanced && part.volume &&
+                   measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
     if (goals_.check) fit.certificate = check_by_reference(solid.mesh(), balls);

@@ -34,6 +34,8 @@ constexpr double kAsGood = 0.4;            // of what the best ball adds: one pl
 constexpr std::size_t kMostBalls = 20000;  // if no count is given
 constexpr double kGapTolerance = 0.01;     // of the bounds of the greatest gap, as a share of the one wanted
 
+constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
+
 /// Step lengths of sliding, in radii of the ball.
 constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05, kLongestStep = 0.5, kShortestStep = 1e-3;
 constexpr int kOwnSlides = 3, kSweeps = 6;
@@ -148,6 +150,7 @@ class Placing {
   /// Where much is equally good, as in a plate that is wide for its thickness, distance decides.
   Result<std::optional<Candidates::Choice>> choose() {
     Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
+    if (best && !best.value() && balls_.size() == 0) return first_from_boundary();
     if (!best || balls_.size() == 0) return best;
     const std::optional<Ball> ball = ball_in_widest_gap();
     if (!ball) return best;
@@ -170,12 +173,32 @@ class Placing {
     return ball.radius > 0 && stays_inside(ball) ? std::optional(ball) : std::nullopt;
   }
 
+  /// Where there are no medial points to choose from (that of a ball is its centre, and easily missed): the largest of
+  /// the balls that touch the boundary at its samples.
+  Result<std::optional<Candidates::Choice>> first_from_boundary() {
+    Ball largest = {{0, 0, 0}, 0};
+    for (const GapFinder::Sample& sample : gaps_.samples()) {
+      const std::optional<Point> inside = point_along(sample.at, sample.inward, kFirstDepth * solid_.diagonal());
+      if (!inside) continue;
+      const Ball ball = maximal_ball(solid_, *inside);
+      if (ball.radius > largest.radius && stays_inside(ball)) largest = ball;
+    }
+    if (largest.radius <= 0) return std::optional<Candidates::Choice>();
+    const Result<double> gain = balls_.gain(largest);
+    if (!gain) return gain.error();
+    return std::optional<Candidates::Choice>({largest, gain.value()});
+  }
+
   /// Half way to the balls, or, if that is outside, as far as that goes along the normal.
   std::optional<Point> point_inside(const GapFinder::Gap& gap) const {
     if (solid_.contains(gap.towards_balls)) return gap.towards_balls;
-    double depth = 0.5 * gap.size;
+    return point_along(gap.at, gap.inward, 0.5 * gap.size);
+  }
+
+  /// As far along the normal as is inside: the depth, or half, or a quarter of it ...
+  std::optional<Point> point_along(const Point& at, const Point& inward, double depth) const {
     for (int tries = 0; tries < 16; ++tries, depth /= 2) {
-      const Point inside = gap.at + depth * gap.inward;
+      const Point inside = at + depth * inward;
       if (solid_.contains(inside)) return inside;
     }
     return std::nullopt;

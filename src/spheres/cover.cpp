@@ -131,6 +131,7 @@ std::vector<Ball> Cover::enlarged(double by) const {
 }
 
 /// Vertices of the envelope in the solid border on cavities: a ball must hold those, too.
+/// Balls only grow, and so does their union: CoverFamily counts on it.
 bool Cover::fill(const Envelope& envelope) {
   std::vector<Point> inside;
   for (const EnvelopeVertex& vertex : envelope.vertices()) {
@@ -138,7 +139,6 @@ bool Cover::fill(const Envelope& envelope) {
   }
   if (inside.empty()) return false;
   search_.add(inside);
-  search_.slide();
   return true;
 }
 

@@ -16,21 +16,23 @@ CoverFamily::Answer CoverFamily::certify(const std::vector<Ball>& balls) const {
 }
 
 /// A proof may add to a cover, and then one of fewer balls may be smaller: they are looked at as long as that can be.
-/// No cover of fewer balls has less volume before its proof.
+/// No cover of fewer balls that is not left out has less volume before its proof. Where all are left out, as of a solid
+/// that is nearly a ball, the smallest ball around it is the answer.
 CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, const Cover::Report& report) const {
   if (top == 1) return certify({ball_around(solid_)});
   Cover cover = search_cover(solid_, starts_.at(top), 1, report);
   Answer best;
   for (double last = cover.volume();; cover.shrink()) {
     const bool is_left_out = cover.volume() < last;
-    if (is_left_out) continue;
-    last = cover.volume();
-    if (cover.count() > count) continue;
-    if (!best.balls.empty() && last >= best.volume) return best;
-    Answer next = certify(cover.certified());
-    if (best.balls.empty() || next.volume < best.volume) best = std::move(next);
-    if (cover.count() <= 2) return best;
+    if (!is_left_out) last = cover.volume();
+    if (!is_left_out && cover.count() <= count) {
+      if (!best.balls.empty() && last >= best.volume) return best;
+      Answer next = certify(cover.certified());
+      if (best.balls.empty() || next.volume < best.volume) best = std::move(next);
+    }
+    if (cover.count() <= 2) break;
   }
+  return best.balls.empty() ? certify({ball_around(solid_)}) : best;
 }
 
 std::vector<Ball> CoverFamily::of(std::size_t count) {

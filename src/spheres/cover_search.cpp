@@ -168,7 +168,7 @@ void CoverSearch::restore(std::vector<Ball> balls) {
 void CoverSearch::add(std::span<const Point> points) {
   for (const Point& p : points) {
     pieces_.add({&p, 1});
-    Ball* taker = nullptr;
+    Ball* taker = &balls_.front();
     double least = std::numeric_limits<double>::infinity();
     for (Ball& ball : balls_) {
       const double growth = std::max(0.0, length(p - ball.centre) - ball.radius);

@@ -31,11 +31,14 @@ class GapFinder {
   /// The same among those of one ball; nothing if it has none.
   std::optional<Point> deepest_vertex(std::uint32_t place);
 
- private:
   struct Sample {
     Point at, inward;
-    std::uint32_t place;  // of the ball that was nearest
+    std::uint32_t place;  ///< Of the ball that was nearest.
   };
+  /// The samples of the boundary.
+  const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
   double distance_to(const Point& p, std::uint32_t place) const;
   double refresh(Sample& sample) const;
   const Gap& deepest_at(std::uint32_t place);

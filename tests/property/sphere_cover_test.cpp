@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "cpu_reference/sphere_certificate.h"
 #include "mesh/point_ops.h"
@@ -121,6 +122,23 @@ TEST(SphereCover, MoreBallsAreNeverWorse) {
     const double volume = measure_ball_union(cover.balls).value().volume;
     EXPECT_LE(volume, before * (1 + 1e-12)) << count;
     before = volume;
+  }
+}
+
+/// Every cover by fewer balls is smaller here, so none of those in the family is kept but the smallest ball around all.
+TEST(SphereCover, OfABallIsOneBall) {
+  const PreparedMesh mesh = prepare(make_sphere(1, 320));
+  const Solid solid = std::move(Solid::build(mesh).value());
+  const Ball around = ball_around(solid);
+  for (const std::size_t count : {1u, 2u, 3u, 4u, 7u}) {
+    std::map<std::size_t, std::vector<Ball>> starts;
+    for (std::size_t top = 1; top <= cover_top(count); top = cover_top(top + 1)) {
+      for (std::size_t k = 0; k < top; ++k) starts[top].push_back({{0.01 * static_cast<double>(k), 0, 0}, 0.5});
+    }
+    const SphereSet cover = std::move(cover_by_counts(solid, starts, {count}).value().front());
+    EXPECT_TRUE(prove_cover(solid, cover.balls).value().proved());
+    const double one = 4 * std::numbers::pi / 3 * around.radius * around.radius * around.radius;
+    EXPECT_LE(measure_ball_union(cover.balls).value().volume, one * (1 + 1e-12)) << count;
   }
 }
 
