@@ -19,7 +19,7 @@ void main() {
   bool found = (verdicts[voxel] & kVerdictFound) != 0u;
   bool done = found || (cells[index].flags & kCellEmpty) != 0u;
   uint flags = cells[index].flags;
-  bool last = !kSearchedOnce && (step.gives_up == kGivesUpAll || is_hopeless(flags) || (flags & kCellSettled) != 0u);
+  bool last = !kSearchedOnce && (step.last_level != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
   if (!done && last) atomicOr(verdicts[voxel], kVerdictUndecided);
   states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

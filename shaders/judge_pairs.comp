@@ -32,6 +32,7 @@ layout(set = 0, binding = 7) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 #include "pair_queue.glsl"
 
+const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
 const float kSettleMargin = 0.02;  // above the last level: what is given up is at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
@@ -104,7 +105,7 @@ Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bo
 
 // The part of a cell that is farther than the margin from the faces of its voxel.
 Box inner_part(Cell cell, Box whole, out bool exists) {
-  float margin = step.face_margin;
+  float margin = kFaceMargin * step.voxel_size;
   vec3 corner = finest_voxel_corner(cell);
   vec3 lower = max(whole.centre - whole.half_sides, corner + margin);
   vec3 upper = min(whole.centre + whole.half_sides, corner + step.voxel_size - margin);
@@ -122,7 +123,7 @@ void dismiss(uint index, bool exists, Remains whole) {
 
 // `narrower`: of the inner part at a larger angle; `inside`: of the inner part.
 void classify(uint index, Cell cell, float d0, bool has_inner, Remains narrower, Remains inside, Remains whole) {
-  bool gives_up = step.gives_up == kGivesUpAll || is_hopeless(cell.flags);
+  bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
   float width = whole.decided ? min(bound, whole.width) : bound;
   bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
@@ -138,10 +139,10 @@ void main() {
   uint index = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   bool exists = index < counters[kCells], classifies = step.classifies != 0u;
   Cell cell = cells[exists ? index : 0u];
-  bool gives_up = step.gives_up == kGivesUpAll || is_hopeless(cell.flags);
+  bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
   if (classifies) {
     exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
-             (gives_up || step.gives_up != kGivesUpNothing);
+             (gives_up || step.settles != 0u);
   }
   if (!exists) cell.touching = 0u;
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
@@ -149,17 +150,16 @@ void main() {
   float theta = threshold_angle(d0, whole), margin = gives_up ? kAngleMargin : kSettleMargin;
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
-  Remains narrower = Remains(false, true, 0.0), inside = narrower, last;
-  // The inner part at a larger angle, where that may do; the inner part; the whole cell.
-  uint first = !classifies ? 2u : gives_up || step.gives_up == kGivesUpNearAngle ? 0u : 1u;
-  for (uint k = first;;) {
+  Remains narrower, inside, last;
+  // The inner part at a larger angle; the inner part; the whole cell.
+  for (uint k = classifies ? 0u : 2u;;) {
     Box box = inner;
     if (k == 2u) box = whole;
     last = what_remains(cell, box, k == 0u ? theta + margin : theta, d0, classifies && k == 2u);
     if (k == 0u) narrower = last;
     if (k == 1u) inside = last;
-    bool may_hide_more = has_inner && (!last.decided || last.feasible);
-    if (classifies && !gives_up && k == first && may_hide_more) return;
+    bool may_hide_more = classifies && !gives_up && has_inner && (!narrower.decided || narrower.feasible);
+    if (may_hide_more) return;
     if (++k == 3u) break;
   }
   if (!classifies)

@@ -34,10 +34,6 @@ constexpr double kCentreError = 3e-7;
 // Below the finest voxel, the number of cells along a sheet that runs on a face of its voxel, or whose angle is the
 // threshold, grows fourfold with every level. Those smaller than this that can hide nothing else are not subdivided.
 constexpr double kSettleSize = 1.0 / 4096;
-// Many solids are symmetric, with a sheet exactly on faces. From this depth on cells that can hide nothing farther from a
-// face than that are not subdivided either: sixteen times what a distance may be wrong by, so that it can be proved.
-constexpr std::uint32_t kSettleDepth = 3;
-constexpr double kOnFace = 16.0 * kSlack;
 
 const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
 
@@ -171,13 +167,6 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   return {};
 }
 
-std::uint32_t CertifiedPipeline::given_up(std::uint32_t level) const {
-  if (level + 1 == level_count()) return gpu::kGivesUpAll;
-  if (level <= coarse_levels_) return gpu::kGivesUpNothing;
-  if (cell_size(level) < kSettleSize) return gpu::kGivesUpNearAngle;
-  return level - coarse_levels_ >= kSettleDepth ? gpu::kGivesUpNearFace : gpu::kGivesUpNothing;
-}
-
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
   const double voxel = 1.0 / parameters_.resolution, epsilon = parameters_.epsilon * voxel;
   const double size = cell_size(level);
@@ -207,10 +196,8 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.level = level;
   step.open_edges = mesh_->open_edge_count;
   step.narrowing_steps = narrowing_steps_;
-  step.gives_up = given_up(level);
-  // Above those, where narrower cells may still find what is near a face, only what rounding hardly tells from it.
-  step.face_margin =
-      static_cast<float>(step.gives_up == gpu::kGivesUpNearFace ? std::min(kOnFace, voxel / 64) : voxel / 64);
+  step.settles = below && size < kSettleSize ? 1u : 0u;
+  step.last_level = level + 1 == level_count() ? 1u : 0u;
   step.half_side = static_cast<float>(size / 2 + kCentreError);
   // At the finest level lines are asked among the contacts that touch: they reach 2 epsilon beyond the voxel.
   step.touch_half_side =

@@ -90,8 +90,6 @@ class CertifiedPipeline {
   Status allocate(std::uint64_t memory_budget);
   std::uint32_t clusters_per_round() const;
   gpu::StepConstants level_constants(std::uint32_t level) const;
-  /// Which cells of a level are not subdivided if nothing is found in them (gpu::kGivesUp*).
-  std::uint32_t given_up(std::uint32_t level) const;
 
   void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
   // Of the whole run. With kernel_times every dispatch is a stage of its own instead.

@@ -140,9 +140,9 @@ struct StepConstants {
   uint first_item;              // offset of this dispatch's items
   uint level;                   // index into the statistics
   uint open_edges;              // 0: the mesh is closed; above kMostOpenEdges: they are not listed
-  uint gives_up;                // which cells that are kept now stay undecided: kGivesUp*
+  uint last_level;              // 1: what is kept now stays undecided
   uint narrowing_steps;         // of every line
-  float face_margin;            // what counts as near a face of a voxel
+  uint settles;                 // 1: cells that can only hide what is near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint cluster_count;
@@ -159,13 +159,6 @@ MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children 
 // What became of a finest voxel (bits).
 MEDIAL_VK_GPU_CONSTANT kVerdictFound = 1u;
 MEDIAL_VK_GPU_CONSTANT kVerdictUndecided = 2u;
-
-// Which cells of a level are not subdivided if their search finds nothing: none; those that can only hide what is near a
-// face of their voxel; those that can only hide that or what is near the angle; all.
-MEDIAL_VK_GPU_CONSTANT kGivesUpNothing = 0u;
-MEDIAL_VK_GPU_CONSTANT kGivesUpNearFace = 1u;
-MEDIAL_VK_GPU_CONSTANT kGivesUpNearAngle = 2u;
-MEDIAL_VK_GPU_CONSTANT kGivesUpAll = 3u;
 
 // Arguments of the prefix sums: `items` elements, totals to counters, limits of what may be used.
 struct ScanConstants {
