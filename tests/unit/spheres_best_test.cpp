@@ -175,15 +175,15 @@ TEST(BestMethod, OneBallIsTheLargest) {
   EXPECT_NEAR(set.balls[0].radius, 0.5, 1e-12);
 }
 
-// The medial surface of a ball is a point, which is easily missed; that of a polyhedron that is nearly one, little more.
+// The medial surface of a ball is a point, that of a polyhedron which is nearly one little more: easily missed.
 TEST(BestMethod, NeedsNoMedialPoints) {
   const Shape ball(test::make_sphere(1, 320));
   const Result<SphereSet> found = ball.fit({.count = 3, .resolution = 8});
   ASSERT_TRUE(found.ok()) << found.error().message;
   ASSERT_EQ(found.value().balls.size(), 3u);
   const double deepest = ball.solid.distance({0, 0, 0});
-  // A ball at a facet's middle, e from an edge with the bend b, meets the next facet at the radius e / tan(b / 2), which
-  // is 1 in the limit of small facets: one of half the size cannot be the largest.
+  // A ball at a facet's middle, e from an edge with the bend b, meets the next facet at the radius e / tan(b / 2),
+  // which is 1 in the limit of small facets: one of half the size cannot be the largest.
   EXPECT_GE(found.value().balls.front().radius, 0.5 * deepest);
   for (const Ball& b : found.value().balls) EXPECT_LE(b.radius, ball.solid.distance(b.centre) + ball.solid.rounding());
 }
