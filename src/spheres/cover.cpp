@@ -59,6 +59,7 @@ std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t coun
     }
   }
   std::vector<Ball> balls;
+  balls.reserve(centres.size());
   for (const Point& centre : centres) balls.push_back({centre, 0});
   return balls;
 }

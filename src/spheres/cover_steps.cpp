@@ -100,6 +100,7 @@ std::vector<std::uint32_t> CoverSearch::costliest_first() const {
   }
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> balls;
+  balls.reserve(order.size());
   for (const auto& [cost, i] : order) balls.push_back(i);
   return balls;
 }
@@ -327,7 +328,7 @@ std::size_t CoverSearch::relocate() {
 void CoverSearch::remove_one() {
   constexpr std::size_t kTries = 6;
   std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.push_back({price_to_leave(i), i});
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.emplace_back(price_to_leave(i), i);
   std::sort(order.begin(), order.end());
   std::uint32_t cheapest = order.front().second;
   double least = std::numeric_limits<double>::infinity();
