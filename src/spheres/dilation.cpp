@@ -51,6 +51,7 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
   try {
     CoverFamily family(solid, starts, threads, progress);
     std::vector<SphereSet> covers;
+    covers.reserve(counts.size());
     for (const std::size_t count : counts) covers.push_back({family.of(count)});
     return covers;
   } catch (const CoverInterrupted&) {
