@@ -327,8 +327,8 @@ std::size_t CoverSearch::relocate() {
 
 void CoverSearch::remove_one() {
   constexpr std::size_t kTries = 6;
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t i = 0; i < balls_.size(); ++i) order.emplace_back(price_to_leave(i), i);
+  std::vector<std::pair<double, std::uint32_t>> order(balls_.size());
+  for (std::uint32_t i = 0; i < balls_.size(); ++i) order[i] = {price_to_leave(i), i};
   std::sort(order.begin(), order.end());
   std::uint32_t cheapest = order.front().second;
   double least = std::numeric_limits<double>::infinity();
