@@ -4,46 +4,92 @@
 // to the boundary turns most. (Bisection towards the first change of the nearest point, Algorithm 1, would end at a
 // crease between neighbouring facets.) Directions also flip where the line crosses the boundary itself, and there the
 // distances at the ends of the part add up to no more than its length: such a part is taken only if no other turns
-// enough.
+// enough, and before those that do not.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 4
+#define TRIANGLE_TEXEL_BINDING 5
+#include "in_voxel.glsl"
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 2) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 3) readonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 4) readonly buffer Cells { Cell cells[]; };
+
+const uint kParts = kSectionsPerLine + 1u;
+
+struct End {
+  vec4 point;   // w: distance to the boundary
+  vec4 toward;  // its nearest point
+};
+
+// Between parts k and k + 1 of a line; 0 and kParts are its own ends.
+End end_at(uint line, uint k) {
+  if (k == 0u) return End(lines[line].p, lines[line].toward_p);
+  if (k == kParts) return End(lines[line].q, lines[line].toward_q);
+  vec3 point = mix(lines[line].p.xyz, lines[line].q.xyz, float(k) / float(kParts));
+  vec3 v = vector_to_triangle(point, load_triangle(nearest[kSectionsPerLine * line + k - 1u].y));
+  return End(vec4(point, length(v)), vec4(unit_or_zero(v), 0.0));
+}
+
+float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
+
+bool may_cross_boundary(End a, End b) {
+  return a.point.w + b.point.w <= 1.001 * distance(a.point.xyz, b.point.xyz) + step.slack;
+}
+
+// Whether the growth test holds at either end, as on lines that were narrowed to the end: docs/theory.md, "How far to
+// narrow", with the angle that there is.
+bool is_narrow(End a, End b) {
+  float turn = turn_between(a, b), d = min(a.point.w, b.point.w);
+  float longest = 0.4 * (1.0 - turn) * step.epsilon * d / (d + step.epsilon);
+  return turn <= step.cos_twice_angle && distance(a.point.xyz, b.point.xyz) <= longest;
+}
+
+// A sheet that runs along a face of its voxel, as those of symmetric solids often do, leaves the ends of the best part
+// on the face, or in the next voxel. One of them then moves away from the sheet, into the voxel.
+void move_into_voxel(uint line, Cell cell, uint best, inout End p, inout End q) {
+  for (uint away = 1u; away < kParts; ++away) {
+    if (away < best) {
+      End end = end_at(line, best - 1u - away);
+      if (is_in_voxel(end.point.xyz, cell) && is_narrow(end, q)) {
+        p = end;
+        return;
+      }
+    }
+    if (best + away <= kParts) {
+      End end = end_at(line, best + away);
+      if (is_in_voxel(end.point.xyz, cell) && is_narrow(p, end)) {
+        q = end;
+        return;
+      }
+    }
+  }
+}
 
 void main() {
   uint index = invocation_index();
   if (index >= counters[kLines]) return;
-  vec3 p = lines[index].p.xyz, q = lines[index].q.xyz;
-  vec4 last_point = lines[index].p, last_toward = lines[index].toward_p;
-  vec4 best_p = last_point, best_q = last_point, best_toward_p = last_toward, best_toward_q = last_toward;
-  float best_turn = 4.0;
-  for (uint k = 1; k <= kSectionsPerLine + 1u; ++k) {
-    vec4 point = lines[index].q, toward = lines[index].toward_q;
-    if (k <= kSectionsPerLine) {
-      point.xyz = mix(p, q, float(k) / float(kSectionsPerLine + 1u));
-      vec3 v = vector_to_triangle(point.xyz, load_triangle(nearest[kSectionsPerLine * index + k - 1u].y));
-      point.w = length(v);
-      toward.xyz = unit_or_zero(v);
+  End last = end_at(index, 0u), p = last, q = last;
+  float least = 8.0;
+  uint best = 0u;
+  for (uint k = 1u; k <= kParts; ++k) {
+    End next = end_at(index, k);
+    float turn = turn_between(last, next);
+    turn += turn > step.cos_twice_angle ? 4.0 : may_cross_boundary(last, next) ? 2.0 : 0.0;
+    if (turn < least) {
+      least = turn;
+      best = k;
+      p = last;
+      q = next;
     }
-    float turn = dot(last_toward.xyz, toward.xyz);
-    bool may_cross = last_point.w + point.w <= 1.001 * distance(last_point.xyz, point.xyz) + step.slack;
-    turn += may_cross ? 1.0 + step.cos_twice_angle : 0.0;
-    if (turn < best_turn) {
-      best_turn = turn;
-      best_p = last_point;
-      best_q = point;
-      best_toward_p = last_toward;
-      best_toward_q = toward;
-    }
-    last_point = point;
-    last_toward = toward;
+    last = next;
   }
-  lines[index].p = best_p;
-  lines[index].q = best_q;
-  lines[index].toward_p = best_toward_p;
-  lines[index].toward_q = best_toward_q;
+  Cell cell = cells[lines[index].cell];
+  bool is_outside = !is_in_voxel(p.point.xyz, cell) && !is_in_voxel(q.point.xyz, cell);
+  if (is_outside && distance(p.point.xyz, q.point.xyz) < step.epsilon) move_into_voxel(index, cell, best, p, q);
+  lines[index].p = p.point;
+  lines[index].q = q.point;
+  lines[index].toward_p = p.toward;
+  lines[index].toward_q = q.toward;
 }

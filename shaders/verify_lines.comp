@@ -4,6 +4,7 @@
 // angle (or the radius suffice), and the ball at the accepted end, grown by epsilon away from its contact, must meet
 // the boundary elsewhere (Lemma 2.3). Whether the end lies in the solid is asked afterwards.
 #include "step.glsl"
+#include "in_voxel.glsl"
 
 layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
@@ -15,13 +16,6 @@ layout(set = 0, binding = 4) writeonly buffer Asked { uint asked[]; };  // accep
 const float kGrowthMargin = 0.01;
 // Closer to the boundary than this many rounding errors, directions are noise.
 const float kLeastRadius = 8.0;
-
-// By a hair, so that the point is in the voxel in double precision too.
-bool is_in_voxel(vec3 p, Cell cell) {
-  vec3 x = p - finest_voxel_corner(cell);
-  float margin = 1e-4 * step.voxel_size + 0.25 * step.slack;
-  return all(greaterThan(x, vec3(margin))) && all(lessThan(x, vec3(step.voxel_size - margin)));
-}
 
 bool is_medial(float distance_before, uint grown, float turn) {
   bool deep = distance_before >= step.radius;

@@ -251,7 +251,8 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
     find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
     run(r,
         {"narrow_lines",
-         {mesh_->storage_of(mesh_->triangles), counters_.range(), lines_.range(), nearest_.range()},
+         {mesh_->storage_of(mesh_->triangles), counters_.range(), lines_.range(), nearest_.range(),
+          level.cells->range()},
          Reads::kTriangles},
         {gpu::kLines}, step);
   }

@@ -162,6 +162,30 @@ TEST(CertifiedClusters, AgreesWithTheReferenceWhereListsHoldClusters) {
 }
 
 // A tenth of its triangles are missing, from three places: sides follow from open edges.
+// All sheets of this box lie in faces of voxels, or meet them along edges only. docs/theory.md, "How far to narrow":
+// both voxels beside a face get their point, without cells as small as epsilon.
+TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  const PreparedMesh mesh = test::prepare(test::make_box({2, 1, 0.5}));
+  Context context = test::make_context();
+  for (const std::uint32_t resolution : {32u, 80u}) {
+    for (const double angle : {0.15, 0.3, 0.6}) {
+      ExtractionParameters parameters;
+      parameters.resolution = resolution;
+      parameters.object_angle = angle;
+      const CertifiedExtraction device = test::extract_on_device(context, mesh, parameters);
+      const Extraction reference = from_reference(test::extract_with_reference(mesh, parameters));
+      SCOPED_TRACE(test::describe(device));
+      const ExtractionCounters& c = device.extraction.counters;
+      EXPECT_EQ(c.undecided, 0u);
+      EXPECT_EQ(c.found, reference.spheres.size());
+      const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+      EXPECT_EQ(c.levels[finest + 2].visited, 0u);
+      EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, parameters));
+    }
+  }
+}
+
 Mesh torus_with_holes() {
   Mesh torus = test::make_torus(1.0, 0.4, 16, 32, 0.5);
   std::erase_if(torus.triangles, [i = 0](const Triangle&) mutable { return ++i % 341 < 34; });
