@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostPairLines = 4;
+constexpr std::size_t kMostPairLines = 8;
 constexpr std::size_t kTieContacts = 64;  // contacts that the tie is computed from
 constexpr int kTieSteps = 3;
 
@@ -89,16 +89,40 @@ Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, 
   return x;
 }
 
+// Across the sheet between the two contacts whose directions differ most of those that tie at a point within epsilon,
+// or as good as most: of the directions, the one farthest from the nearest's, and the one farthest from that.
+Vector3d widest_turn(const Tree& tree, const Vector3d& point, double epsilon, std::span<const Contact> contacts) {
+  std::vector<Vector3d> spokes;
+  double least = tree.longest_side();
+  for (const Contact& contact : contacts) {
+    spokes.emplace_back(tree.closest_on(contact.triangle, point).point - point);
+    least = std::min(least, spokes.back().norm());
+  }
+  std::erase_if(spokes, [&](const Vector3d& spoke) { return spoke.norm() > least + epsilon || spoke.norm() == 0; });
+  if (spokes.empty()) return Vector3d::Zero();
+  for (Vector3d& spoke : spokes) spoke.normalize();
+  const auto opposite = [&](const Vector3d& g) {
+    return *std::min_element(spokes.begin(), spokes.end(),
+                             [&](const Vector3d& a, const Vector3d& b) { return a.dot(g) < b.dot(g); });
+  };
+  const Vector3d b = opposite(spokes.front()), across = opposite(b) - b;
+  return across.norm() > 0 ? across.normalized().eval() : Vector3d::Zero().eval();
+}
+
 }  // namespace
 
-// Last the lines along g_0: through the tie, and through the centre, where they hold the deep samples of Section 3.2.
-std::vector<Line> aimed_lines(const Tree& tree, const Box& box, const Closest& nearest,
+// Last the lines through the tie: along g_0, and across the sheet there; and the one along g_0 through the centre,
+// where it holds the deep samples of Section 3.2.
+std::vector<Line> aimed_lines(const Tree& tree, const Box& box, double epsilon, const Closest& nearest,
                               std::span<const Contact> contacts, std::span<const CarrierPair> pairs) {
   std::vector<Line> lines;
   add_pair_lines(box, pairs, lines);
   if (nearest.distance <= 0) return lines;
   const Vector3d inwards = -direction_to(box.centre, nearest);
-  lines.push_back({step_to_tie(tree, box, nearest.distance, contacts), inwards});
+  const Vector3d tie = step_to_tie(tree, box, nearest.distance, contacts);
+  const Vector3d across = widest_turn(tree, box.centre + tie, epsilon, contacts);
+  lines.push_back({tie, inwards});
+  if (!across.isZero()) lines.push_back({tie, across});
   lines.push_back({Vector3d::Zero(), inwards});
   return lines;
 }

@@ -17,7 +17,7 @@ struct Line {
 };
 
 /// The lines that are tried in a box, best first. `contacts` are the box's, `pairs` its salient pairs.
-std::vector<Line> aimed_lines(const Tree& tree, const Box& box, const Closest& nearest,
+std::vector<Line> aimed_lines(const Tree& tree, const Box& box, double epsilon, const Closest& nearest,
                               std::span<const Contact> contacts, std::span<const CarrierPair> pairs);
 
 }  // namespace medial_vk::reference

@@ -94,7 +94,8 @@ Outcome VoxelSearch::search_parts(const Cell& cell, Side where, int depth, const
 
 bool VoxelSearch::aim(const Cell& cell, const BoxTest& test, const ContactList& list, double angle, Side where,
                       Sphere& sphere) {
-  for (const Line& line : aimed_lines(tree_, test.box(), test.nearest(), test.contacts(), test.pairs())) {
+  for (const Line& line :
+       aimed_lines(tree_, test.box(), thresholds_.epsilon, test.nearest(), test.contacts(), test.pairs())) {
     const std::optional<Segment> segment = clip(cell, line);
     if (segment && try_segment(*segment, list, angle, where, sphere)) return true;
   }
@@ -156,7 +157,9 @@ VoxelSearch::End VoxelSearch::look(const Vector3d& p, const ContactList& list) {
   return {p, nearest, direction_to(p, nearest)};
 }
 
-// Bisects towards the larger turn of the gradient until the ends are within h of each other.
+// Bisects towards the larger turn of the gradient until the ends are within h of each other. The gradient flips where
+// the segment crosses the boundary, too, and there the distances at the ends of a half add up to no more than its
+// length: such a half is taken only if the other one does not turn enough.
 //
 // How small h must be for the growth test to hold: let the gradients at p and q turn by 2 phi, |p - q| <= h, let Q be
 // nearest to q, and push p to c = p - epsilon g_p. Then c - Q = (p - q) - (epsilon g_p + D_q g_q), and
@@ -172,12 +175,17 @@ bool VoxelSearch::try_segment(const Segment& segment, const ContactList& list, d
   const double least_turn = std::cos(2 * angle);
   if (p.gradient.dot(q.gradient) > least_turn) return false;
   const double sine = std::sin(angle);
+  const auto rank = [&](const End& a, const End& b) {
+    const double turn = a.gradient.dot(b.gradient);
+    const bool may_cross = a.nearest.distance + b.nearest.distance <= (a.point - b.point).norm() * (1 + 1e-9);
+    return turn + (turn > least_turn ? 4 : may_cross ? 2 : 0);
+  };
   for (int i = 0; i < kMostHalvings; ++i) {
     const double distance = std::min(p.nearest.distance, q.nearest.distance);
     const double h = 0.5 * thresholds_.epsilon * sine * sine * distance / (distance + thresholds_.epsilon);
     if ((p.point - q.point).norm() <= h) break;
     End m = look((p.point + q.point) / 2, list);
-    (p.gradient.dot(m.gradient) < m.gradient.dot(q.gradient) ? q : p) = m;
+    (rank(p, m) < rank(m, q) ? q : p) = m;
   }
   return accept(p, q, list, where, sphere) || accept(q, p, list, where, sphere);
 }

@@ -132,8 +132,7 @@ class Placing {
     ExtractionParameters parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
-    // Every voxel need not have its point: undecided ones, subdivided, can take minutes (sheets that lie in faces of
-    // voxels, as in boxes along the axes).
+    // Every voxel need not have its point.
     parameters.extra_levels = 0;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
@@ -205,7 +204,10 @@ class Placing {
   }
 
   Status place(const Candidates::Choice& choice) {
-    const Result<std::uint32_t> place = balls_.add(choice.ball);
+    // Medial points are within epsilon of a sheet; the maximal ball, which contains the other, touches on both sides.
+    const Ball maximal = maximal_ball(solid_, choice.ball.centre);
+    const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(maximal);
+    const Result<std::uint32_t> place = balls_.add(is_larger ? maximal : choice.ball);
     if (!place) return place.error();
     volume_ = balls_.volume();
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());

@@ -46,7 +46,7 @@ int expect_promises_kept(const reference::Mesh& mesh, const Result& result, doub
   std::mt19937_64 engine(2);
   std::uniform_real_distribution<double> share(0, 1);
   int hidden = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 12000; ++i) {
     const Vector3d where(share(engine), share(engine), share(engine));
     const auto sample = test::medial_sample(tree, tree.lower() + where.cwiseProduct(tree.upper() - tree.lower()));
     if (!sample || sample->object_angle < angle + 1e-4) continue;
