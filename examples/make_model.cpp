@@ -201,7 +201,7 @@ bool write_obj(const Mesh& mesh, const std::string& path) {
 
 int main(int argc, char** argv) {
   const int cells = argc > 2 ? std::atoi(argv[2]) : 72;
-  if (argc < 2 || argc > 3 || cells < 52 || cells > 1024) {
+  if (argc < 2 || argc > 3 || argv[1][0] == '-' || cells < 52 || cells > 1024) {
     std::fprintf(stderr, "usage: make_model FILE.obj [CELLS]   (CELLS 52 to 1024, default 72)\n");
     return 2;
   }
