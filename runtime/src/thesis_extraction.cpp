@@ -22,16 +22,18 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const 
 
 Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline& pipeline, std::uint32_t first,
                  std::uint32_t count, StopWatch& watch, Extraction& extraction) {
-  auto times = run_commands(
-      context, [&](Recorder& r) { return pipeline.record(r, first, count); }, [&] { watch.stopped(); });
-  if (!times.ok()) return times.error();
-  if (watch.stopped()) return StopWatch::error();
+  for (std::uint32_t part = 0; part < pipeline.part_count(); ++part) {
+    auto times = run_commands(
+        context, [&](Recorder& r) { return pipeline.record_part(r, part, first, count); }, [&] { watch.stopped(); });
+    if (!times.ok()) return times.error();
+    if (watch.stopped()) return StopWatch::error();
+    add_times(times.value(), extraction.device_times);
+  }
   const auto counters = pipeline.read_counters();
   auto points = pipeline.read_points(counters[gpu::kThesisFound]);
   if (!points.ok()) return points.error();
   for (const gpu::FoundPoint& point : points.value()) extraction.spheres.push_back(to_input_units(point, mesh));
   add_counters(counters, pipeline, extraction.counters);
-  add_times(times.value(), extraction.device_times);
   return {};
 }
 
@@ -50,7 +52,13 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
       ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, *stop.value());
   if (!created.ok()) return created.error();
   if (watch.stopped()) return StopWatch::error();
-  const auto record_one = [&](Recorder& r) { return created.value().record(r, 0, 1); };
+  const auto record_one = [&](Recorder& r) {
+    Status status;
+    for (std::uint32_t part = 0; part < created.value().part_count() && status.ok(); ++part) {
+      status = created.value().record_part(r, part, 0, 1);
+    }
+    return status;
+  };
   if (Status s = make_programs(context, record_one); !s.ok()) return s.error();
   ThesisPipeline pipeline = std::move(created).value();
   extraction.counters.levels.resize(pipeline.level_count());

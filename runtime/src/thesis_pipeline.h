@@ -1,6 +1,6 @@
-// The published method on the device: one recorded sequence takes a chunk of top cells through the levels of Section
-// 2.3.2 and through Algorithm 2. Nothing is read back in the middle; counters on the device size every dispatch, and
-// the buffers hold the most that a chunk can need.
+// The published method on the device: a recorded sequence, in parts, takes a chunk of top cells through the levels of
+// Section 2.3.2 and through Algorithm 2. Nothing is read back in the middle; counters on the device size every dispatch,
+// and the buffers hold the most that a chunk can need.
 //
 //   for each level, coarse to fine:
 //     centres of the cells -> distance and side -> spheres whose flux is asked -> flux -> cells that are kept
@@ -37,8 +37,10 @@ class ThesisPipeline {
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
   std::uint32_t chunk_size() const { return chunk_; }
 
-  /// Appends everything for top cells [first, first + count).
-  Status record(Recorder& r, std::uint32_t first, std::uint32_t count);
+  /// What is done for top cells [first, first + count) comes in parts, to be run in their order. (After a stop the
+  /// dispatches of a part are empty; those of all parts would still take 0.2 s on lavapipe.)
+  std::uint32_t part_count() const;
+  Status record_part(Recorder& r, std::uint32_t part, std::uint32_t first, std::uint32_t count);
 
   /// After the recorded sequence has run.
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;

@@ -7,18 +7,26 @@ namespace medial_vk {
 
 using namespace gpu;
 
-Status ThesisPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
-  next_argument_ = 0;
-  r.fill(counters_, 0, kCounterCount * 4, 0);
-  r.barrier();
-  r.fill(counters_, kThesisParents * 4, 4, count);
-  r.barrier();
-  for (std::uint32_t level = 0; level < levels_; ++level) record_level(r, level, first);
-  r.begin_stage("retraction");
-  copy_counter(r, kThesisKept, kThesisActive);
-  const std::uint32_t samples_of_voxel = samples(levels_ - 1);
-  for (std::uint32_t s = 0; s < samples_of_voxel; s += kRetractionsPerRound) record_round(r, s);
-  record_result(r);
+std::uint32_t ThesisPipeline::part_count() const {
+  return levels_ + (samples(levels_ - 1) + kRetractionsPerRound - 1) / kRetractionsPerRound;
+}
+
+Status ThesisPipeline::record_part(Recorder& r, std::uint32_t part, std::uint32_t first, std::uint32_t count) {
+  if (part == 0) {
+    next_argument_ = 0;
+    r.fill(counters_, 0, kCounterCount * 4, 0);
+    r.barrier();
+    r.fill(counters_, kThesisParents * 4, 4, count);
+    r.barrier();
+  }
+  if (part < levels_) {
+    record_level(r, part, first);
+  } else {
+    r.begin_stage("retraction");
+    if (part == levels_) copy_counter(r, kThesisKept, kThesisActive);
+    record_round(r, (part - levels_) * kRetractionsPerRound);
+  }
+  if (part + 1 == part_count()) record_result(r);
   return r.status();
 }
 
