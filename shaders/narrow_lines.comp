@@ -20,7 +20,7 @@ const uint kParts = kSectionsPerLine + 1u;
 
 struct End {
   vec4 point;   // w: distance to the boundary
-  vec4 toward;  // its nearest point
+  vec4 toward;  // unit vector to its nearest point
 };
 
 // Between parts k and k + 1 of a line; 0 and kParts are its own ends.
@@ -34,16 +34,51 @@ End end_at(uint line, uint k) {
 
 float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
 
+// By as much as verify_lines.comp asks: less where one of the ends is deep.
+bool turns_enough(End a, End b) {
+  bool deep = max(a.point.w, b.point.w) + step.slack >= step.radius;
+  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
+  return turn_between(a, b) <= threshold;
+}
+
 bool may_cross_boundary(End a, End b) {
   return a.point.w + b.point.w <= 1.001 * distance(a.point.xyz, b.point.xyz) + step.slack;
 }
 
-// Whether the growth test holds at either end, as on lines that were narrowed to the end: docs/theory.md, "How far to
+// The least is best: of the parts that turn enough, then of those of them that may cross the boundary, then of the others
+// the one that turns most.
+float rank(End a, End b) {
+  float turn = turn_between(a, b);
+  return !turns_enough(a, b) ? turn + 4.0 : may_cross_boundary(a, b) ? turn + 2.0 : turn;
+}
+
+// So near to each other that the growth test should hold at both (verify_lines.comp asks): docs/theory.md, "How far to
 // narrow", with the angle that there is.
 bool is_narrow(End a, End b) {
-  float turn = turn_between(a, b), d = min(a.point.w, b.point.w);
-  float longest = 0.4 * (1.0 - turn) * step.epsilon * d / (d + step.epsilon);
-  return turn <= step.cos_twice_angle && distance(a.point.xyz, b.point.xyz) <= longest;
+  float d = min(a.point.w, b.point.w);
+  float longest = 0.4 * (1.0 - turn_between(a, b)) * step.epsilon * d / (d + step.epsilon);
+  return turns_enough(a, b) && distance(a.point.xyz, b.point.xyz) <= longest;
+}
+
+// The part that is best, and its ends: it lies between ends k - 1 and k.
+uint best_part(uint line, out End p, out End q) {
+  float least = 8.0;  // more than any rank
+  uint best = 0u;
+  End last = end_at(line, 0u);
+  p = last;
+  q = last;
+  for (uint k = 1u; k <= kParts; ++k) {
+    End next = end_at(line, k);
+    float now = rank(last, next);
+    if (now < least) {
+      least = now;
+      best = k;
+      p = last;
+      q = next;
+    }
+    last = next;
+  }
+  return best;
 }
 
 // A sheet that runs along a face of its voxel, as those of symmetric solids often do, leaves the ends of the best part
@@ -70,23 +105,11 @@ void move_into_voxel(uint line, Cell cell, uint best, inout End p, inout End q) 
 void main() {
   uint index = invocation_index();
   if (index >= counters[kLines]) return;
-  End last = end_at(index, 0u), p = last, q = last;
-  float least = 8.0;
-  uint best = 0u;
-  for (uint k = 1u; k <= kParts; ++k) {
-    End next = end_at(index, k);
-    float turn = turn_between(last, next);
-    turn += turn > step.cos_twice_angle ? 4.0 : may_cross_boundary(last, next) ? 2.0 : 0.0;
-    if (turn < least) {
-      least = turn;
-      best = k;
-      p = last;
-      q = next;
-    }
-    last = next;
-  }
   Cell cell = cells[lines[index].cell];
+  End p, q;
+  uint best = best_part(index, p, q);
   bool is_outside = !is_in_voxel(p.point.xyz, cell) && !is_in_voxel(q.point.xyz, cell);
+  // Longer parts are never narrow.
   if (is_outside && distance(p.point.xyz, q.point.xyz) < step.epsilon) move_into_voxel(index, cell, best, p, q);
   lines[index].p = p.point;
   lines[index].q = q.point;

@@ -21,7 +21,8 @@ bool is_medial(float distance_before, uint grown, float turn) {
   bool deep = distance_before >= step.radius;
   float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
   float distance_after = sqrt(uintBitsToFloat(nearest[grown].x));
-  return distance_before >= kLeastRadius * step.slack && turn <= threshold && distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
+  return distance_before >= kLeastRadius * step.slack && turn <= threshold &&
+         distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
 }
 
 void main() {

@@ -90,12 +90,13 @@ Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, 
 }
 
 // Across the sheet between the two contacts whose directions differ most of those that tie at a point within epsilon,
-// or as good as most: of the directions, the one farthest from the nearest's, and the one farthest from that.
+// or as good as most: of the directions, the one farthest from the first's, and the one farthest from that.
 Vector3d widest_turn(const Tree& tree, const Vector3d& point, double epsilon, std::span<const Contact> contacts) {
+  const std::size_t stride = 1 + contacts.size() / kTieContacts;
   std::vector<Vector3d> spokes;
   double least = tree.longest_side();
-  for (const Contact& contact : contacts) {
-    spokes.emplace_back(tree.closest_on(contact.triangle, point).point - point);
+  for (std::size_t i = 0; i < contacts.size(); i += stride) {
+    spokes.emplace_back(tree.closest_on(contacts[i].triangle, point).point - point);
     least = std::min(least, spokes.back().norm());
   }
   std::erase_if(spokes, [&](const Vector3d& spoke) { return spoke.norm() > least + epsilon || spoke.norm() == 0; });

@@ -16,7 +16,8 @@ struct Line {
   Eigen::Vector3d direction;  // unit
 };
 
-/// The lines that are tried in a box, best first. `contacts` are the box's, `pairs` its salient pairs.
+/// The lines that are tried in a box, best first. `contacts` are the box's, `pairs` its salient pairs; contacts tie if
+/// their distances differ by less than `epsilon`.
 std::vector<Line> aimed_lines(const Tree& tree, const Box& box, double epsilon, const Closest& nearest,
                               std::span<const Contact> contacts, std::span<const CarrierPair> pairs);
 

@@ -132,7 +132,7 @@ class Placing {
     ExtractionParameters parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
-    // Every voxel need not have its point.
+    // Not every voxel needs its point: what parts of voxels are searched for is little, and takes time.
     parameters.extra_levels = 0;
     const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<CertifiedExtraction> found =
@@ -207,13 +207,14 @@ class Placing {
     // Medial points are within epsilon of a sheet; the maximal ball, which contains the other, touches on both sides.
     const Ball maximal = maximal_ball(solid_, choice.ball.centre);
     const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(maximal);
-    const Result<std::uint32_t> place = balls_.add(is_larger ? maximal : choice.ball);
+    const Ball ball = is_larger ? maximal : choice.ball;
+    const Result<std::uint32_t> place = balls_.add(ball);
     if (!place) return place.error();
     volume_ = balls_.volume();
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
     note_change();
     steps_.resize(balls_.places());
-    steps_[place.value()] = kFirstStep * choice.ball.radius;
+    steps_[place.value()] = kFirstStep * ball.radius;
     for (int i = 0; i < kOwnSlides; ++i) {
       if (Result<double> gain = slide(place.value()); !gain) return gain.error();
     }
