@@ -42,7 +42,7 @@ inline ExtractionParameters small_job(Mode mode) {
   parameters.mode = mode;
   parameters.resolution = mode == Mode::kThesis ? 12 : 8;
   parameters.extra_levels = 1;
-  parameters.samples = {60, 50, 40, 30};
+  parameters.samples = {60, 50, 40, 20};  // two rounds
   parameters.memory_budget = 32u << 20;
   return parameters;
 }
