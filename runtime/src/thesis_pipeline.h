@@ -1,6 +1,6 @@
 // The published method on the device: a recorded sequence, in parts, takes a chunk of top cells through the levels of
-// Section 2.3.2 and through Algorithm 2. Nothing is read back in the middle; counters on the device size every dispatch,
-// and the buffers hold the most that a chunk can need.
+// Section 2.3.2 and through Algorithm 2. Nothing is read back in the middle; counters on the device size every
+// dispatch, and the buffers hold the most that a chunk can need.
 //
 //   for each level, coarse to fine:
 //     centres of the cells -> distance and side -> spheres whose flux is asked -> flux -> cells that are kept
