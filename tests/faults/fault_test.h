@@ -40,9 +40,9 @@ inline PreparedMesh small_box() {
 inline ExtractionParameters small_job(Mode mode) {
   ExtractionParameters parameters;
   parameters.mode = mode;
-  parameters.resolution = mode == Mode::kThesis ? 12 : 8;
+  parameters.resolution = mode == Mode::kThesis ? 16 : 8;
   parameters.extra_levels = 1;
-  parameters.samples = {60, 50, 40, 20};  // two rounds
+  parameters.samples = {60, 50, 40, 10};  // one round of retractions
   parameters.memory_budget = 32u << 20;
   return parameters;
 }

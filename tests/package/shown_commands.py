@@ -18,7 +18,7 @@ import tempfile
 
 # What a command begins with, and why it is not run.
 NOT_RUN = {
-    r"scripts/(run$|run MESH|test|fuzz|soak)": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"scripts/(run$|run MESH|test|fuzz|soak|lint)": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
     r"scripts/install-dependencies": "installs packages",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
     r"cmake ": "has configured and built this test; package.consumer installs",
