@@ -37,7 +37,7 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
     case SphereContract::kCover:
       return cover_solid(solid, std::move(inside), request.threads, progress);
     case SphereContract::kBalanced:
-      return balance(solid, std::move(inside), request.threads);
+      return dilate_to_boundary(solid, std::move(inside), request.threads);
   }
   return inside;
 }
@@ -74,11 +74,28 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereReque
   return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
 }
 
+/// Every level is what the method has when it has so many balls.
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                             Backend backend, Context* context, const SphereProgress& progress) {
+  Result<SphereSet> found = best_spheres(solid, request, backend, context, progress);
+  if (!found) return found.error();
+  SphereSet& last = found.value();
+  std::vector<SphereSet> levels;
+  for (auto& [count, balls] : last.stages) {
+    if (all_levels && count < last.balls.size()) levels.push_back({std::move(balls)});
+  }
+  levels.push_back({std::move(last.balls)});
+  return levels;
+}
+
 Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
                                          Backend backend, Context* context, const SphereProgress& progress) {
   if (Status status = check_request(solid, request); !status) return status.error();
   if (request.contract == SphereContract::kCover && request.method == SphereMethod::kBest) {
     return best_covers(solid, request, all_levels, backend, context, progress);
+  }
+  if (request.contract == SphereContract::kBalanced && request.method == SphereMethod::kBest) {
+    return best_balanced(solid, request, all_levels, backend, context, progress);
   }
   Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
   if (!inside) return inside.error();

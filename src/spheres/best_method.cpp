@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "mesh/point_ops.h"
+#include "spheres/ball_steps.h"
 #include "spheres/candidates.h"
 #include "spheres/cover_family.h"
 #include "spheres/envelope_distance.h"
 #include "spheres/gaps.h"
 #include "spheres/maximal_ball.h"
 #include "spheres/prefixes.h"
-#include "spheres/slide.h"
 
 namespace medial_vk {
 namespace {
@@ -37,7 +38,7 @@ constexpr double kGapTolerance = 0.01;     // of the bounds of the greatest gap,
 constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
 
 /// Step lengths of sliding, in radii of the ball.
-constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05, kLongestStep = 0.5, kShortestStep = 1e-3;
+constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05;
 constexpr int kOwnSlides = 3, kSweeps = 6;
 constexpr double kEnough = 2e-3;  // of what the new ball added: a sweep that gains less is the last
 
@@ -51,8 +52,8 @@ class Placing {
         context_(context),
         progress_(progress),
         balls_(std::move(balls)),
-        slider_(solid),
-        gaps_(solid, balls_),
+        moves_(request.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
+        gaps_(solid, balls_, request.contract == SphereContract::kBalanced),
         sampled_gap_(request.max_gap) {}
 
   Result<SphereSet> run() {
@@ -68,7 +69,7 @@ class Placing {
       if (!choice.value()) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
       volumes_.push_back(volume_);
-      if (cover_top(balls_.size()) == balls_.size()) stages_[balls_.size()] = all_balls();
+      if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
       if (progress_ && !progress_("spheres", share_done(most))) return Error{ErrorCode::kInterrupted, "stopped"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
@@ -77,6 +78,13 @@ class Placing {
   }
 
  private:
+  /// Covers begin with balls inside; balanced sets of smaller numbers are levels.
+  bool is_stage(std::size_t count, std::size_t most) const {
+    if (request_.contract == SphereContract::kInside) return cover_top(count) == count;
+    const std::vector<std::size_t> levels = level_counts(most);
+    return std::binary_search(levels.begin(), levels.end(), count);
+  }
+
   bool has_goals() const { return request_.error > 0 || request_.max_gap > 0; }
   double uncovered() const { return 1 - volume_ / solid_.volume(); }
 
@@ -140,7 +148,7 @@ class Placing {
     if (!found) return found.error();
     std::vector<Ball> balls;
     for (const MedialSphere& s : found.value().extraction.spheres) {
-      if (const Ball ball = {s.centre, s.radius}; stays_inside(ball)) balls.push_back(ball);
+      if (const Ball ball = {s.centre, s.radius}; stays_inside(solid_, ball)) balls.push_back(ball);
     }
     candidates_.add(balls);
     return {};
@@ -169,7 +177,7 @@ class Placing {
     const std::optional<Point> inside = outer.size > inner.size ? point_inside(outer) : inner.at;
     if (!inside) return std::nullopt;
     const Ball ball = maximal_ball(solid_, *inside);
-    return ball.radius > 0 && stays_inside(ball) ? std::optional(ball) : std::nullopt;
+    return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
   }
 
   /// Where there are no medial points to choose from (that of a ball is its centre, and easily missed): the largest of
@@ -180,7 +188,7 @@ class Placing {
       const std::optional<Point> inside = point_along(sample.at, sample.inward, kFirstDepth * solid_.diagonal());
       if (!inside) continue;
       const Ball ball = maximal_ball(solid_, *inside);
-      if (ball.radius > largest.radius && stays_inside(ball)) largest = ball;
+      if (ball.radius > largest.radius && stays_inside(solid_, ball)) largest = ball;
     }
     if (largest.radius <= 0) return std::optional<Candidates::Choice>();
     const Result<double> gain = balls_.gain(largest);
@@ -206,7 +214,7 @@ class Placing {
   Status place(const Candidates::Choice& choice) {
     // Medial points are within epsilon of a sheet; the maximal ball, which contains the other, touches on both sides.
     const Ball maximal = maximal_ball(solid_, choice.ball.centre);
-    const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(maximal);
+    const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(solid_, maximal);
     const Ball ball = is_larger ? maximal : choice.ball;
     const Result<std::uint32_t> place = balls_.add(ball);
     if (!place) return place.error();
@@ -216,13 +224,13 @@ class Placing {
     steps_.resize(balls_.places());
     steps_[place.value()] = kFirstStep * ball.radius;
     for (int i = 0; i < kOwnSlides; ++i) {
-      if (Result<double> gain = slide(place.value()); !gain) return gain.error();
+      if (Result<double> gain = move(place.value()); !gain) return gain.error();
     }
     for (const std::uint32_t p : around) steps_[p] = std::max(steps_[p], kLeastFirstStep * balls_.ball(p).radius);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       double sum = 0;
       for (const std::uint32_t p : around) {
-        Result<double> gain = slide(p);
+        Result<double> gain = move(p);
         if (!gain) return gain.error();
         sum += gain.value();
       }
@@ -239,42 +247,19 @@ class Placing {
       const std::optional<Point> vertex = gaps_.deepest_vertex(place);
       if (!vertex) continue;
       const Ball ball = maximal_ball(solid_, *vertex);
-      if (ball.radius > 0 && stays_inside(ball)) balls.push_back(ball);
+      if (ball.radius > 0 && stays_inside(solid_, ball)) balls.push_back(ball);
     }
     candidates_.add(balls);
   }
 
-  /// One step, taken if the union grows, and by how much.
-  Result<double> slide(std::uint32_t place) {
-    double& step = steps_[place];
-    const Ball ball = balls_.ball(place);
-    if (step < kShortestStep * ball.radius) return 0.0;
-    const Point move = slider_.direction(ball, balls_.exposure(place), step);
-    if (move == Point{}) {
-      step /= 4;
-      return 0.0;
-    }
-    const Ball moved = maximal_ball(solid_, ball.centre + move);
-    if (!(moved.radius > 0) || !stays_inside(moved)) {
-      step /= 2;
-      return 0.0;
-    }
-    if (Status status = balls_.move(place, moved); !status.ok()) return status.error();
-    const double gain = balls_.volume() - volume_;
-    if (!(gain > 0)) {
-      balls_.undo();
-      step /= 2;
-      return 0.0;
-    }
-    volume_ += gain;
+  /// One step of one ball: what it gained.
+  Result<double> move(std::uint32_t place) {
+    Result<double> gain = moves_->take(balls_, place, steps_[place]);
+    if (!gain || gain.value() == 0) return gain;
+    volume_ = balls_.volume();
     note_change();
-    step = std::min(1.3 * step, kLongestStep * moved.radius);
     return gain;
   }
-
-  /// Without a hole in the boundary, growing and sliding within empty balls leads nowhere else; near a hole the winding
-  /// number decides, and every evaluation has its own rounding.
-  bool stays_inside(const Ball& ball) const { return solid_.mesh().report.closed || solid_.contains(ball.centre); }
 
   void note_change() {
     for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
@@ -288,7 +273,7 @@ class Placing {
 
   Result<SphereSet> result() const {
     SphereSet set = {all_balls(), volumes_, stages_};
-    set.stages[cover_top(balls_.size())] = set.balls;
+    if (request_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
     if (Status status = order_by_share(set.balls, request_.threads); !status.ok()) return status.error();
     return set;
   }
@@ -300,7 +285,7 @@ class Placing {
   const SphereProgress& progress_;
   DynamicUnion balls_;
   Candidates candidates_;
-  Slider slider_;
+  std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
   std::size_t levels_ = 0;
   double volume_ = 0;

@@ -1,4 +1,4 @@
-// Balls inside a solid, grown and moved until they cover it, or until their envelope is near its boundary.
+// Balls inside a solid, grown and moved until they cover it, or grown until they reach its boundary.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +34,6 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
 /// that is most across the circle's own.) Order and centres stay, so prefixes of `inside` give prefixes of other sets.
 /// What is guaranteed: a ball reaches no farther beyond the boundary than it grew; how far that is and how much is
 /// uncovered is for measure_distances() to say. Does not throw. Errors: those of measure_ball_union().
-Result<SphereSet> balance(const Solid& solid, SphereSet inside, unsigned threads = 0);
+Result<SphereSet> dilate_to_boundary(const Solid& solid, SphereSet inside, unsigned threads = 0);
 
 }  // namespace medial_vk

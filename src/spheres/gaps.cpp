@@ -60,7 +60,8 @@ std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
 
 }  // namespace
 
-GapFinder::GapFinder(const Solid& solid, const DynamicUnion& balls) : solid_(solid), balls_(balls) {
+GapFinder::GapFinder(const Solid& solid, const DynamicUnion& balls, bool reach_out)
+    : solid_(solid), balls_(balls), reach_out_(reach_out) {
   for (const BoundarySample& sample : sample_boundary(solid.mesh().mesh)) {
     samples_.push_back({sample.at, sample.inward, 0});
   }
@@ -114,7 +115,8 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   if (!vertices) throw std::bad_alloc();  // its only error for a ball that is there
   for (const Point& vertex : vertices.value()) {
     const double depth = solid_.distance(vertex);
-    if (depth > deepest.size) deepest = {.at = vertex, .size = depth};
+    if (!(depth > deepest.size) || (reach_out_ && !solid_.contains(vertex))) continue;
+    deepest = {.at = vertex, .size = depth};
   }
   known_[place] = 1;
   return deepest;

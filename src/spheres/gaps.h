@@ -13,8 +13,8 @@ namespace medial_vk {
 /// Among samples of the boundary and the vertices of the union's envelope: for choosing balls, not for promises.
 class GapFinder {
  public:
-  /// Keeps references to both.
-  GapFinder(const Solid& solid, const DynamicUnion& balls);
+  /// Keeps references to both. `reach_out`: balls may, so vertices of the envelope that are outside are left out.
+  GapFinder(const Solid& solid, const DynamicUnion& balls, bool reach_out = false);
 
   struct Gap {
     Point at = {0, 0, 0};
@@ -26,7 +26,7 @@ class GapFinder {
   void forget(std::uint32_t place);
   /// The point of the boundary that is farthest from the balls.
   Gap widest_on_boundary();
-  /// The vertex of the envelope that is farthest from the boundary.
+  /// The vertex of the envelope inside the solid that is farthest from the boundary.
   Gap deepest_vertex();
   /// The same among those of one ball; nothing if it has none.
   std::optional<Point> deepest_vertex(std::uint32_t place);
@@ -45,6 +45,7 @@ class GapFinder {
 
   const Solid& solid_;
   const DynamicUnion& balls_;
+  bool reach_out_;
   std::vector<Sample> samples_;
   std::vector<Gap> deepest_;         // by place
   std::vector<std::uint8_t> known_;  // by place

@@ -13,7 +13,8 @@ namespace medial_vk {
 namespace {
 
 /// Cells of a grid over the solid's box, at most so many along a side, in each of which two samples are taken.
-constexpr std::size_t kStrata = 44;
+constexpr std::size_t kStrata = 96;
+constexpr std::size_t kBlock = 4;  // cells along the side of a block
 /// On each sphere, as cuRobo takes them.
 constexpr std::size_t kSpherePoints = 200;
 constexpr std::size_t kBins = 48;
@@ -27,50 +28,114 @@ double random_number(std::uint64_t seed, std::uint64_t number) {
   return static_cast<double>(x >> 11) * 0x1p-53;
 }
 
-struct Estimate {
-  double value = 0, variance = 0;
-};
+/// Which side of the boundary a box lies on.
+enum class Side : std::uint8_t { kInside, kOutside, kBoth };
 
-/// The integrals over a box of as many functions as `sample(point)` has values: two points in each cell of a grid; the
-/// squares of their differences add up to the variance.
-template <std::size_t N, class Sample>
-std::array<Estimate, N> integrate(const Point& lower, const Point& upper, std::uint64_t seed, unsigned threads,
-                                  Sample sample) {
-  const Point size = upper - lower;
-  const double side = std::max({size[0], size[1], size[2]}) / static_cast<double>(kStrata);
-  std::array<std::size_t, 3> count;
-  Point cell;
-  for (std::size_t k = 0; k < 3; ++k) {
-    count[k] = static_cast<std::size_t>(std::clamp(std::ceil(size[k] / side), 1.0, static_cast<double>(kStrata)));
-    cell[k] = size[k] / static_cast<double>(count[k]);
-  }
-  const std::size_t all = count[0] * count[1] * count[2];
-  std::vector<std::array<std::array<double, N>, 2>> values(all);
-  for_all(all, 64, threads, [&](std::size_t i) {
-    const std::array<std::size_t, 3> at = {i % count[0], i / count[0] % count[1], i / count[0] / count[1]};
-    for (std::size_t s = 0; s < 2; ++s) {
-      Point p;
-      for (std::size_t k = 0; k < 3; ++k) {
-        p[k] = lower[k] + cell[k] * (static_cast<double>(at[k]) + random_number(seed, 6 * i + 3 * s + k));
-      }
-      values[i][s] = sample(p);
-    }
-  });
-  const double volume = cell[0] * cell[1] * cell[2];
-  std::array<Estimate, N> out;
-  for (const auto& pair : values) {
-    for (std::size_t n = 0; n < N; ++n) {
-      const double difference = pair[0][n] - pair[1][n];
-      out[n].value += volume * (pair[0][n] + pair[1][n]) / 2;
-      out[n].variance += volume * volume * difference * difference / 4;
-    }
-  }
-  return out;
+/// Of an open mesh winding numbers pass 1/2 anywhere.
+Side side_of(const Solid& solid, const Point& lower, const Point& size) {
+  if (!solid.mesh().report.closed) return Side::kBoth;
+  const Point centre = lower + 0.5 * size;
+  if (solid.distance(centre) <= 0.5 * length(size) + solid.rounding()) return Side::kBoth;
+  return solid.contains(centre) ? Side::kInside : Side::kOutside;
 }
+
+/// Two volumes, by two points in each cell of a grid: the squares of their differences add up to the variance. Most
+/// cells lie on one side of the boundary, and whole blocks of them; only in the others is the solid asked for points.
+class VolumeSampler {
+ public:
+  struct Estimate {
+    double value = 0, variance = 0;
+
+    void add(const Estimate& other) {
+      value += other.value;
+      variance += other.variance;
+    }
+    void add(const std::array<bool, 2>& pair, double volume) {
+      value += volume * ((pair[0] ? 0.5 : 0.0) + (pair[1] ? 0.5 : 0.0));
+      if (pair[0] != pair[1]) variance += volume * volume / 4;
+    }
+  };
+  struct Volumes {
+    Estimate uncovered, solid;
+  };
+
+  VolumeSampler(const Solid& solid, const NearestBallTree& balls, std::uint64_t seed)
+      : solid_(solid), balls_(balls), seed_(seed), lower_(solid.mesh().report.lower) {
+    const Point size = solid.mesh().report.upper - lower_;
+    const double side = std::max({size[0], size[1], size[2]}) / static_cast<double>(kStrata);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto most = static_cast<double>(kStrata);
+      count_[k] = static_cast<std::size_t>(std::clamp(std::ceil(size[k] / side), 1.0, most));
+      cell_[k] = size[k] / static_cast<double>(count_[k]);
+      blocks_[k] = (count_[k] + kBlock - 1) / kBlock;
+    }
+  }
+
+  Volumes run(unsigned threads) const {
+    std::vector<Volumes> parts(blocks_[0] * blocks_[1] * blocks_[2]);
+    for_all(parts.size(), 4, threads, [&](std::size_t i) {
+      parts[i] = in_block({i % blocks_[0], i / blocks_[0] % blocks_[1], i / blocks_[0] / blocks_[1]});
+    });
+    Volumes all;
+    for (const Volumes& part : parts) {
+      all.uncovered.add(part.uncovered);
+      all.solid.add(part.solid);
+    }
+    return all;
+  }
+
+ private:
+  using Cell = std::array<std::size_t, 3>;
+
+  Point corner(const Cell& cell) const {
+    Point at = lower_;
+    for (std::size_t k = 0; k < 3; ++k) at[k] += cell_[k] * static_cast<double>(cell[k]);
+    return at;
+  }
+
+  Volumes in_block(const Cell& block) const {
+    Cell from, to;
+    for (std::size_t k = 0; k < 3; ++k) {
+      from[k] = kBlock * block[k];
+      to[k] = std::min(from[k] + kBlock, count_[k]);
+    }
+    const Side side = side_of(solid_, corner(from), corner(to) - corner(from));
+    Volumes sum;
+    if (side == Side::kOutside) return sum;
+    for (std::size_t z = from[2]; z < to[2]; ++z) {
+      for (std::size_t y = from[1]; y < to[1]; ++y) {
+        for (std::size_t x = from[0]; x < to[0]; ++x) add_cell({x, y, z}, side, sum);
+      }
+    }
+    return sum;
+  }
+
+  void add_cell(const Cell& cell, Side side, Volumes& sum) const {
+    const Point lower = corner(cell);
+    if (side == Side::kBoth) side = side_of(solid_, lower, cell_);
+    if (side == Side::kOutside) return;
+    const std::size_t number = cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]);
+    std::array<bool, 2> in_solid, uncovered;
+    for (std::size_t n = 0; n < 2; ++n) {
+      Point at = lower;
+      for (std::size_t k = 0; k < 3; ++k) at[k] += cell_[k] * random_number(seed_, 6 * number + 3 * n + k);
+      in_solid[n] = side == Side::kInside || solid_.contains(at);
+      uncovered[n] = in_solid[n] && !balls_.holds(at);
+    }
+    const double volume = cell_[0] * cell_[1] * cell_[2];
+    sum.solid.add(in_solid, volume);
+    sum.uncovered.add(uncovered, volume);
+  }
+
+  const Solid& solid_;
+  const NearestBallTree& balls_;
+  std::uint64_t seed_;
+  Point lower_, cell_;
+  Cell count_, blocks_;
+};
 
 VolumeError measure_volume(const Solid& solid, const Envelope& envelope, bool is_inside, bool is_cover,
                            const MeasureOptions& options) {
-  const MeshReport& report = solid.mesh().report;
   VolumeError error;
   error.balls = envelope.measured().volume;
   const bool known = solid.has_volume();
@@ -83,18 +148,12 @@ VolumeError measure_volume(const Solid& solid, const Envelope& envelope, bool is
     error.outside = std::max(0.0, error.balls - error.solid);
     return error;
   }
-  const NearestBallTree& tree = envelope.tree();
-  const auto sampled = integrate<2>(report.lower, report.upper, options.seed, options.threads, [&](const Point& p) {
-    const bool in_balls = tree.holds(p);
-    // Where the solid's volume is known, only what is in no ball must be looked at.
-    const bool in_solid = (!known || !in_balls) && solid.contains(p);
-    return std::array<double, 2>{in_solid && !in_balls ? 1.0 : 0.0, in_solid ? 1.0 : 0.0};
-  });
-  error.uncovered = sampled[0].value;
-  error.standard_error = std::sqrt(sampled[0].variance);
+  const VolumeSampler::Volumes sampled = VolumeSampler(solid, envelope.tree(), options.seed).run(options.threads);
+  error.uncovered = sampled.uncovered.value;
+  error.standard_error = std::sqrt(sampled.uncovered.variance);
   if (!known) {
-    error.solid = sampled[1].value;
-    error.standard_error = std::sqrt(sampled[0].variance) + std::sqrt(sampled[1].variance);
+    error.solid = sampled.solid.value;
+    error.standard_error += std::sqrt(sampled.solid.variance);
   }
   if (is_inside) {
     error.uncovered = std::max(0.0, error.solid - error.balls);

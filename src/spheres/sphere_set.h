@@ -16,11 +16,11 @@ namespace medial_vk {
 enum class SphereContract {
   kInside,    ///< No point of a ball lies outside the solid.
   kCover,     ///< No point of the solid lies outside the balls.
-  kBalanced,  ///< Grown a little from inside, towards the boundary nearby (S. Stolpner, 2011, Section 8.2).
+  kBalanced,  ///< None; as little volume as possible between balls and solid, on both sides of the boundary.
 };
 
 enum class SphereMethod {
-  kBest,    ///< Chosen and moved for the least volume that is left uncovered.
+  kBest,    ///< Chosen and moved for what the contract asks for.
   kSource,  ///< One ball per voxel, the largest voxels that give no more balls than wanted (Section 7.3.2).
 };
 
@@ -44,7 +44,8 @@ struct SphereSet {
   /// Of the method best, balls inside: volume of the union when there were 1, 2, 3 ... balls, which is the same for
   /// every number wanted. (Not that of the first balls here: balls move while others come.)
   std::vector<double> volumes = {};
-  /// Likewise, the balls when there were 1, 4, 16, 64, 128, 256 ... of them, by that number, and all that there are.
+  /// Likewise, the balls when there were 1, 4, 16, 64, 128, 256 ... of them, by that number, and all that there are; of
+  /// the method best, balanced: when there were as many as a level has.
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };
 

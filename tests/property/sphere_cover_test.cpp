@@ -210,19 +210,19 @@ TEST(SphereCover, OfAnOpenMeshTheSurface) {
   EXPECT_FALSE(proof.proved());
 }
 
-TEST(Balance, ReachesTheBoundaryAtVerticesAndOnLoneCircles) {
+TEST(Dilation, ReachesTheBoundaryAtVerticesAndOnLoneCircles) {
   // Two balls on the axis of a capsule: one circle, no vertex. It grows to the wall.
   const PreparedMesh mesh = prepare(make_capsule(1, 2, 64));
   const Solid solid = std::move(Solid::build(mesh).value());
   const SphereSet inside = {{{{0, 0, -0.5}, 0.99}, {{0, 0, 0.5}, 0.99}}};
-  const SphereSet grown = balance(solid, inside).value();
+  const SphereSet grown = dilate_to_boundary(solid, inside).value();
   ASSERT_EQ(grown.balls.size(), 2u);
   for (const Ball& ball : grown.balls) EXPECT_NEAR(ball.radius, std::hypot(1, 0.5), 0.01);
   // Balls of a box: each vertex of the envelope's nearest boundary point is held by those that make the vertex.
   const PreparedMesh box = prepare(make_box({2, 1, 1}));
   const Solid block = std::move(Solid::build(box).value());
   const SphereSet balls = {spread_balls(box, 12)};
-  const SphereSet more = balance(block, balls).value();
+  const SphereSet more = dilate_to_boundary(block, balls).value();
   BallUnionOptions options;
   options.complex = true;
   const BallUnion before = measure_ball_union(balls.balls, options).value();

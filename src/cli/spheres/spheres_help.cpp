@@ -35,10 +35,12 @@ How many spheres (goals that are given together must all be met):
 
 What they promise:
       --contract WHAT   inside: no sphere sticks out (default); cover: nothing
-                        of the solid is left out, for safety; balanced: between
-      --method HOW      best: chosen and moved for the least volume uncovered
-                        (default); source: one sphere per voxel, the largest
-                        voxels with no more than N (Stolpner 2011, 7.3.2)
+                        of the solid is left out, for safety; balanced: no
+                        promise, the least volume between spheres and solid
+      --method HOW      best: chosen and moved for the least volume uncovered, or
+                        whatever the contract asks for (default); source: one
+                        sphere per voxel, the largest voxels with no more than N
+                        (Stolpner 2011, 7.3.2)
       --resolution N    voxels along the longest side for the spheres to choose
                         from, 1 to 4096 (default: by the count); with --method
                         source it stands for the count

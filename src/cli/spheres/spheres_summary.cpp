@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cli/numbers.h"
@@ -40,7 +41,7 @@ std::string promise(SphereContract contract) {
     case SphereContract::kBalanced:
       break;
   }
-  return "balanced";
+  return "balanced: as near on both sides as the spheres get";
 }
 
 /// What is proved of every set, whose proofs fit_parts() has demanded.
@@ -79,6 +80,21 @@ std::string gap_text(const SpheresRecord& record) {
     share = std::max(share, fit.measures->distances.boundary_to_balls.upper / fit.measures->diagonal);
   }
   return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
+}
+
+/// Of a balanced set: the volume between its spheres and the solids, over that of the solids; nothing if unknown.
+std::optional<std::string> difference_text(const SpheresRecord& record) {
+  double solid = 0, difference = 0, variance = 0;
+  for (const PartFit& fit : record.fits) {
+    if (!fit.measures) continue;  // a ball, exactly
+    const VolumeError& volume = fit.measures->volume;
+    solid += volume.solid;
+    difference += volume.uncovered + volume.outside;
+    variance += 4 * volume.standard_error * volume.standard_error;
+  }
+  if (!(solid > 0)) return std::nullopt;
+  return fmt::format("{:.3g} % of the volume, uncovered or sticking out (+- {:.2g} %, standard error)",
+                     100 * difference / solid, 100 * std::sqrt(variance) / solid);
 }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "-"; }
@@ -172,6 +188,9 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   text += line("certified", certificate_text(request.contract, record));
   if (const std::optional<double> error = uncovered_share(record, request.contract)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
+  }
+  if (request.contract == SphereContract::kBalanced) {
+    if (const std::optional<std::string> difference = difference_text(record)) text += line("error", *difference);
   }
   const auto facets = std::ranges::max(record.parts, {}, &Part::facet_share).facet_share;
   if (facets > 0) {

@@ -58,7 +58,7 @@ std::set<std::array<std::uint32_t, 2>> edges_of(const std::vector<std::array<std
 
 }  // namespace
 
-Result<SphereSet> balance(const Solid& solid, SphereSet inside, unsigned threads) {
+Result<SphereSet> dilate_to_boundary(const Solid& solid, SphereSet inside, unsigned threads) {
   try {
     const Result<BallUnion> measured = measure_ball_union(inside.balls, {threads, true});
     if (!measured) return measured.error();

@@ -1,0 +1,51 @@
+// Parallel lines along the three axes, and where they run inside a solid (dexels; T. Van Hook, "Real-time shaded NC
+// milling display", 1986): integrals over space become sums over lines, exact along each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/solid.h"
+
+namespace medial_vk {
+
+/// Safe to share between threads.
+class SolidLines {
+ public:
+  /// The solid's box in squares, `per_side` along its longest side, and a line through each, for every axis. Throws
+  /// std::bad_alloc.
+  SolidLines(const Solid& solid, std::size_t per_side);
+
+  struct Stretch {
+    double from, to;  ///< Coordinates along the line.
+  };
+  /// The lines along one axis.
+  struct Bundle {
+    std::array<std::size_t, 2> across;    ///< The other axes, in cyclic order.
+    std::array<double, 2> first;          ///< Coordinates of the first line on those.
+    std::array<std::ptrdiff_t, 2> count;  ///< Of lines along those.
+    std::vector<std::size_t> starts;      ///< By line: its first stretch, and one more.
+    std::vector<Stretch> inside;          ///< Of all lines, in ascending order on each.
+
+    /// Of the line of these numbers along `across`; none beyond the box.
+    std::span<const Stretch> stretches(std::ptrdiff_t i, std::ptrdiff_t j) const {
+      if (i < 0 || j < 0 || i >= count[0] || j >= count[1]) return {};
+      const auto line = static_cast<std::size_t>(j * count[0] + i);
+      return {inside.data() + starts[line], starts[line + 1] - starts[line]};
+    }
+  };
+  const Bundle& along(std::size_t axis) const { return bundles_[axis]; }
+  /// From one line to the next.
+  double spacing() const { return spacing_; }
+
+ private:
+  Bundle make_bundle(const Solid& solid, std::size_t axis) const;
+
+  double spacing_;
+  std::array<Bundle, 3> bundles_;
+};
+
+}  // namespace medial_vk
