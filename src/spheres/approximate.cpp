@@ -54,23 +54,55 @@ Status check_request(const Solid& solid, const SphereRequest& request) {
   if (request.max_gap > 0 && request.max_gap < 16 * solid.rounding()) {
     return usage("so small a gap is below the rounding of distances");
   }
-  if (request.contract != SphereContract::kInside && (request.error > 0 || request.max_gap > 0)) {
-    return usage("an error or a gap is a goal for balls inside; for the other contracts say how many");
+  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+    return usage("balls that cover leave no gap; give an error, or how many");
+  }
+  const bool has_goal = request.error > 0 || request.max_gap > 0;
+  if (has_goal && request.contract != SphereContract::kInside && request.method == SphereMethod::kSource) {
+    return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
   }
   return {};
 }
 
-/// From balls inside, more than are wanted: how many depends on the next number that covers are searched for.
-Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                           Backend backend, Context* context, const SphereProgress& progress) {
-  if (request.count == 0) return usage("say how many balls shall cover the solid");
+/// Balls inside that covers of `count` balls begin with: more, by the next number that covers are searched for.
+Result<SphereSet> cover_starts(const Solid& solid, const SphereRequest& request, std::size_t count, Backend backend,
+                               Context* context, const SphereProgress& progress) {
   SphereRequest start = request;
   start.contract = SphereContract::kInside;
-  start.count = cover_top(request.count);
-  const Result<SphereSet> inside = best_spheres(solid, start, backend, context, progress);
+  start.error = 0;
+  start.count = cover_top(count);
+  return best_spheres(solid, start, backend, context, progress);
+}
+
+/// A cover that adds no more than the error: by the numbers that covers are searched for, one after the other, then by
+/// fewer.
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+                                  const SphereProgress& progress) {
+  const std::size_t most = request.count > 0 ? request.count : kMostBalls;
+  const double volume = (1 + request.error) * solid.volume();
+  for (std::size_t top = 1;; top = cover_top(top + 1)) {
+    const std::size_t count = std::min(top, most);
+    const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+    if (!inside) return inside.error();
+    Result<SphereSet> cover = cover_by_volume(solid, inside.value().stages, count, volume, request.threads, progress);
+    if (!cover || !cover.value().balls.empty()) return cover;
+    if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
+  }
+}
+
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                           Backend backend, Context* context, const SphereProgress& progress) {
+  std::size_t count = request.count;
+  if (request.error > 0) {
+    Result<SphereSet> cover = cover_for_error(solid, request, backend, context, progress);
+    if (!cover) return cover.error();
+    if (!all_levels) return std::vector<SphereSet>{std::move(cover).value()};
+    count = cover.value().balls.size();
+  }
+  if (count == 0) return usage("say how many balls shall cover the solid");
+  const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
   if (!inside) return inside.error();
-  const std::vector<std::size_t> counts =
-      all_levels ? level_counts(request.count) : std::vector<std::size_t>{request.count};
+  const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
   return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
 }
 

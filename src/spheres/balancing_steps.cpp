@@ -91,9 +91,17 @@ class BalancingSteps : public BallSteps {
       return 0.0;
     }
     if (Status status = balls.move(place, *moved); !status.ok()) return status.error();
+    gained_ += gain;
     step = std::min(1.3 * step, kLongestStep * moved->radius);
     return gain;
   }
+
+  void came(const DynamicUnion& balls, std::uint32_t place) override {
+    find_others(balls, place, 0);
+    gained_ -= difference_.change(balls.ball(place), others_);
+  }
+
+  double error(const DynamicUnion& /*balls*/) const override { return 1 - gained_ / solid_.volume(); }
 
  private:
   /// Those that meet the ball, or would if it moved so far; those that hold most of it first.
@@ -158,6 +166,7 @@ class BalancingSteps : public BallSteps {
 
   const Solid& solid_;
   SymmetricDifference difference_;
+  double gained_ = 0;  // by the estimate; with no balls all of the solid is left
   std::vector<Ball> others_;
   std::vector<Height> heights_;
 };

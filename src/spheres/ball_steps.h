@@ -15,6 +15,10 @@ class BallSteps {
   /// Moves the ball at `place` about as far as `step`, if that gains anything, and says how much (mesh units cubed); 0:
   /// it is where it was. `step` becomes the length to try next. Errors: those of DynamicUnion::move().
   virtual Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step) = 0;
+  /// To be called for each ball that was added.
+  virtual void came(const DynamicUnion& balls, std::uint32_t place) = 0;
+  /// Share of the solid's volume that is to become small.
+  virtual double error(const DynamicUnion& balls) const = 0;
 };
 
 /// A ball that is smaller than `step` allows, in radii, is where it should be.

@@ -29,11 +29,10 @@ constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096
 // Balls of smaller object angles fill the edges; below, their number grows and what they add does not.
 constexpr double kObjectAngle = 0.3;
 
-constexpr std::size_t kGapPeriod = 8;      // of so many balls one is placed for its distance, not its volume
-constexpr std::size_t kFirstGap = 16;      // not while the rough shape is missing
-constexpr double kAsGood = 0.4;            // of what the best ball adds: one placed for its distance is then preferred
-constexpr std::size_t kMostBalls = 20000;  // if no count is given
-constexpr double kGapTolerance = 0.01;     // of the bounds of the greatest gap, as a share of the one wanted
+constexpr std::size_t kGapPeriod = 8;   // of so many balls one is placed for its distance, not its volume
+constexpr std::size_t kFirstGap = 16;   // not while the rough shape is missing
+constexpr double kAsGood = 0.4;         // of what the best ball adds: one placed for its distance is then preferred
+constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the one wanted
 
 constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
 
@@ -86,11 +85,10 @@ class Placing {
   }
 
   bool has_goals() const { return request_.error > 0 || request_.max_gap > 0; }
-  double uncovered() const { return 1 - volume_ / solid_.volume(); }
 
   Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
-    if (request_.error > 0 && !(uncovered() <= request_.error)) return false;
+    if (request_.error > 0 && !(moves_->error(balls_) <= request_.error)) return false;
     return request_.max_gap > 0 ? gap_met() : true;
   }
 
@@ -110,14 +108,16 @@ class Placing {
   double share_done(std::size_t most) {
     if (request_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
     double share = 1;
-    if (request_.error > 0) share = std::min(share, request_.error / uncovered());
+    if (request_.error > 0) share = std::min(share, request_.error / moves_->error(balls_));
     if (request_.max_gap > 0) share = std::min(share, request_.max_gap / gaps_.widest_on_boundary().size);
     return share;
   }
 
   Error unmet() {
     std::string left;
-    if (request_.error > 0) left = fmt::format("{:.3g} of the volume uncovered", uncovered());
+    if (request_.error > 0)
+      left = fmt::format("{:.3g} of the volume {}", moves_->error(balls_),
+                         request_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
     if (request_.max_gap > 0) {
       left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
     }
@@ -219,6 +219,7 @@ class Placing {
     const Result<std::uint32_t> place = balls_.add(ball);
     if (!place) return place.error();
     volume_ = balls_.volume();
+    moves_->came(balls_, place.value());
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
     note_change();
     steps_.resize(balls_.places());

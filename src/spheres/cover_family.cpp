@@ -1,6 +1,7 @@
 #include "spheres/cover_family.h"
 
 #include <algorithm>
+#include <deque>
 #include <mutex>
 #include <utility>
 
@@ -35,7 +36,7 @@ CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, 
   return best.balls.empty() ? certify({ball_around(solid_)}) : best;
 }
 
-std::vector<Ball> CoverFamily::of(std::size_t count) {
+CoverFamily::Answer CoverFamily::of(std::size_t count) {
   // The most work first, each on one thread.
   struct Job {
     std::size_t top, count;
@@ -66,7 +67,33 @@ std::vector<Ball> CoverFamily::of(std::size_t count) {
   for (const auto& [top, answer] : tops_) {
     if (top <= count && (best == nullptr || answer.volume < best->volume)) best = &answer;
   }
-  return best->balls;
+  return *best;
+}
+
+/// Balls are taken away while the volume allows it. What a proof adds may be too much: then that of some more balls.
+std::vector<Ball> CoverFamily::few(std::size_t count, double volume) {
+  constexpr std::size_t kKept = 8;
+  Answer most = of(count);
+  if (most.volume > volume) return {};
+  const std::size_t top = cover_top(count);
+  if (top == 1) return most.balls;
+  const Cover::Report report = [&](double) {
+    if (progress_ && !progress_("cover", 1)) throw CoverInterrupted();
+  };
+  Cover cover = search_cover(solid_, starts_.at(std::min(top, starts_.rbegin()->first)), threads_, report);
+  std::deque<Cover> kept;
+  for (double last = cover.volume(); cover.volume() <= volume; cover.shrink()) {
+    const bool is_left_out = cover.volume() < last;
+    if (!is_left_out) last = cover.volume();
+    if (!is_left_out && cover.count() < most.balls.size()) kept.push_back(cover);
+    if (kept.size() > kKept) kept.pop_front();
+    if (cover.count() <= 2) break;
+  }
+  for (; !kept.empty(); kept.pop_back()) {
+    Answer fewer = certify(kept.back().certified());
+    if (fewer.volume <= volume) return std::move(fewer.balls);
+  }
+  return std::move(most.balls);
 }
 
 }  // namespace medial_vk

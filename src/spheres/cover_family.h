@@ -29,14 +29,17 @@ class CoverFamily {
               const SphereProgress& progress)
       : solid_(solid), starts_(starts), threads_(threads), progress_(progress) {}
 
-  /// Proved. Throws std::bad_alloc, and CoverInterrupted where progress says stop.
-  std::vector<Ball> of(std::size_t count);
-
- private:
   struct Answer {
     std::vector<Ball> balls;
-    double volume = 0;
+    double volume = 0;  ///< Of their union.
   };
+  /// All are proved. Throw std::bad_alloc, and CoverInterrupted where progress says stop.
+  Answer of(std::size_t count);
+  /// Of no more balls than `count`, but more than the top before: with few balls, of no more than this volume; none if
+  /// that for `count` is larger.
+  std::vector<Ball> few(std::size_t count, double volume);
+
+ private:
   Answer certify(const std::vector<Ball>& balls) const;
   Answer best_below(std::size_t top, std::size_t count, const Cover::Report& report) const;
 

@@ -52,8 +52,19 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
     CoverFamily family(solid, starts, threads, progress);
     std::vector<SphereSet> covers;
     covers.reserve(counts.size());
-    for (const std::size_t count : counts) covers.push_back({family.of(count)});
+    for (const std::size_t count : counts) covers.push_back({family.of(count).balls});
     return covers;
+  } catch (const CoverInterrupted&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
+  }
+}
+
+Result<SphereSet> cover_by_volume(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts,
+                                  std::size_t count, double volume, unsigned threads, const SphereProgress& progress) {
+  try {
+    return SphereSet{CoverFamily(solid, starts, threads, progress).few(count, volume)};
   } catch (const CoverInterrupted&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {

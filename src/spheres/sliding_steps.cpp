@@ -37,6 +37,10 @@ class SlidingSteps : public BallSteps {
     return gain;
   }
 
+  void came(const DynamicUnion& /*balls*/, std::uint32_t /*place*/) override {}
+
+  double error(const DynamicUnion& balls) const override { return 1 - balls.volume() / solid_.volume(); }
+
  private:
   const Solid& solid_;
   Slider slider_;

@@ -28,8 +28,10 @@ enum class SphereMethod {
 struct SphereRequest {
   SphereMethod method = SphereMethod::kBest;
   SphereContract contract = SphereContract::kInside;
-  std::size_t count = 0;         ///< At most so many; 0: as many as the other goals take, which must be given then.
-  double error = 0;              ///< Uncovered share of the solid's volume; 0: no such goal.
+  std::size_t count = 0;  ///< At most so many; 0: as many as the other goals take, which must be given then.
+  /// Share of the solid's volume that is uncovered; kCover: that is added; kBalanced: both, by an estimate. 0: no such
+  /// goal.
+  double error = 0;
   double max_gap = 0;            ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
   std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionParameters; 0: by the count.
   double object_angle = 0.6;     ///< Of the method source.
@@ -37,6 +39,9 @@ struct SphereRequest {
 
   bool operator==(const SphereRequest&) const = default;
 };
+
+/// Where no count is given.
+constexpr std::size_t kMostBalls = 20000;
 
 struct SphereSet {
   /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).

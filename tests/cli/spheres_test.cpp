@@ -118,6 +118,18 @@ TEST_F(SpheresCommand, LevelsAreBeginningsOfEachOther) {
   }
 }
 
+/// Read again, its spheres are themselves.
+TEST_F(SpheresCommand, AMeshBecomesARobotOfOneLink) {
+  ASSERT_EQ(best({"part.obj", "--count", "9", "-q", "-o", "part.urdf"}).exit_code, 0);
+  ASSERT_EQ(best({"part.obj", "--count", "9", "-q", "-o", "part.json"}).exit_code, 0);
+  const ToolResult again = best({"part.urdf", "--count-per-link", "9", "-q", "-o", "again.json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const json spheres = json::parse(read_file(path("part.json")))["spheres"];
+  const json links = json::parse(read_file(path("again.json")))["links"];
+  ASSERT_EQ(links.size(), 1u);
+  EXPECT_EQ(links.begin().value().size(), spheres.size());
+}
+
 TEST_F(SpheresCommand, StreamsGoThrough) {
   test::ToolCall call{
       {"spheres", "-", "--method", "source", "--backend", "cpu", "--count", "20", "-o", "-", "--format", "json"},
@@ -340,13 +352,33 @@ TEST_F(SpheresCommand, ErrorAndGapAreMetTogether) {
   EXPECT_EQ(best({"part.obj", "--error", "0.01", "--count", "4", "-q"}).exit_code, 2);
 }
 
-TEST_F(SpheresCommand, GoalsOfBallsInsideAreRefusedForOthers) {
+TEST_F(SpheresCommand, CoversAndBalancedSetsMeetGoals) {
+  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "1", "-q"}).exit_code, 2);  // a share below 1
+  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.9", "-q"}).exit_code, 0);
+  const int covering = report()["num_spheres"];
+  const auto solid = measures()["volume"]["solid"].get<double>();
+  EXPECT_LE(measures()["volume"]["outside"], 0.9 * solid);
+  EXPECT_EQ(measures()["volume"]["standard_error"], 0);
+  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.6", "-q"}).exit_code, 0);
+  EXPECT_LE(measures()["volume"]["outside"], 0.6 * solid);
+  EXPECT_GT(report()["num_spheres"], covering);
+  EXPECT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.1", "--count", "4"}).exit_code, 2);
+
+  ASSERT_EQ(best({"part.obj", "--contract", "balanced", "--error", "0.25", "-q"}).exit_code, 0);
+  const int balanced = report()["num_spheres"];
+  ASSERT_EQ(best({"part.obj", "--contract", "balanced", "--error", "0.25", "--max-gap", "0.1", "-q"}).exit_code, 0);
+  EXPECT_GE(report()["num_spheres"], balanced);
+  EXPECT_LE(measures()["distances"]["boundary_to_balls"]["lower"], 0.1);
+}
+
+TEST_F(SpheresCommand, GoalsThatMeanNothingAreRefused) {
+  const ToolResult gap = best({"part.obj", "--contract", "cover", "--max-gap", "0.3"});
+  EXPECT_EQ(gap.exit_code, 2);
+  EXPECT_THAT(gap.err, HasSubstr("cover leave no gap"));
   for (const char* contract : {"cover", "balanced"}) {
-    for (const auto& [goal, number] : {std::pair{"--error", "0.3"}, {"--max-gap", "0.3"}}) {
-      const ToolResult result = best({"part.obj", "--contract", contract, goal, number});
-      EXPECT_EQ(result.exit_code, 2) << contract << goal;
-      EXPECT_THAT(result.err, HasSubstr("for the other contracts say how many"));
-    }
+    const ToolResult result = best({"part.obj", "--method", "source", "--contract", contract, "--error", "0.3"});
+    EXPECT_EQ(result.exit_code, 2) << contract;
+    EXPECT_THAT(result.err, HasSubstr("with --method source for --contract inside only"));
   }
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
 }

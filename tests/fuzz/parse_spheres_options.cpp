@@ -29,8 +29,9 @@ void require_goal(const cli::SpheresOptions& options) {
   require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
   require(options.is_robot ? request.count == 0 : options.count_per_link == 0 && options.total == 0,
           "a mesh and a robot have counts of their own");
-  require(request.contract == SphereContract::kInside || (request.error == 0 && request.max_gap == 0),
-          "other contracts have no goals of balls inside");
+  const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
+  require(!by_source || (request.error == 0 && request.max_gap == 0), "the source has goals of balls inside only");
+  require(request.contract != SphereContract::kCover || request.max_gap == 0, "covers leave no gap");
 }
 
 void require_usable(const cli::SpheresOptions& options) {

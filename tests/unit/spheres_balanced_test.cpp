@@ -189,6 +189,23 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
   EXPECT_EQ(numbers_of(levels[3].balls), numbers_of(shape.balanced(8).back().balls));
 }
 
+/// Balls come and move, and what is left is kept count of: as if it were added up anew.
+TEST(BalancedSpheres, MeetAnErrorByTheEstimateAndWithNoBallTooMany) {
+  const Shape shape(test::make_l_shape(2.0, 0.6, 0.8));
+  const auto left = [&](const std::vector<Ball>& balls) {
+    SymmetricDifference difference(shape.solid);
+    double sum = shape.solid.volume();
+    for (std::size_t k = 0; k < balls.size(); ++k) sum += difference.change(balls[k], {balls.data(), k});
+    return sum / shape.solid.volume();
+  };
+  SphereRequest request;
+  request.contract = SphereContract::kBalanced;
+  request.error = 0.15;
+  const std::vector<Ball> balls = approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).value().balls;
+  EXPECT_LE(left(balls), 0.15 + 1e-9);
+  EXPECT_GT(left(shape.balanced(balls.size() - 1).back().balls), 0.15 - 1e-9);
+}
+
 TEST(BalancedSpheres, OfAnOpenMeshAreBallsToo) {
   Mesh open = test::make_box({1, 1, 1});
   open.triangles.pop_back();

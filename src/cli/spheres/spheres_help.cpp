@@ -26,8 +26,8 @@ How many spheres (goals that are given together must all be met):
                         geometries by need
       --total N         at most N for the whole robot, shared among its links so
                         that the least volume is left uncovered
-      --error E         as many as leave no more than E of the volume uncovered,
-                        between 0 and 1
+      --error E         as many as leave no more than E of the volume uncovered
+                        (cover: add so much; balanced: both), between 0 and 1
       --max-gap G       as many as leave no point of the surface farther than G
                         from the spheres, in units of the mesh (robot: metres)
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time

@@ -103,8 +103,12 @@ Status check_goals(const SpheresOptions& options) {
   if (options.count_per_link > 0 && options.total > 0) {
     return usage_error("--count-per-link and --total cannot be used together");
   }
-  if (request.contract != SphereContract::kInside && (request.error > 0 || request.max_gap > 0)) {
-    return usage_error("--error and --max-gap are goals of balls inside; for the other contracts say how many");
+  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+    return usage_error("--max-gap: spheres that cover leave no gap; say --error E, or how many");
+  }
+  const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
+  if (by_source && (request.error > 0 || request.max_gap > 0)) {
+    return usage_error("--error and --max-gap: with --method source for --contract inside only; say how many");
   }
   const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
   const bool any = request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||

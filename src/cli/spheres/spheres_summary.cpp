@@ -82,8 +82,8 @@ std::string gap_text(const SpheresRecord& record) {
   return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
 }
 
-/// Of a balanced set: the volume between its spheres and the solids, over that of the solids; nothing if unknown.
-std::optional<std::string> difference_text(const SpheresRecord& record) {
+/// The volume between spheres and solids, over that of the solids; nothing if unknown.
+std::optional<std::string> difference_text(SphereContract contract, const SpheresRecord& record) {
   double solid = 0, difference = 0, variance = 0;
   for (const PartFit& fit : record.fits) {
     if (!fit.measures) continue;  // a ball, exactly
@@ -93,6 +93,10 @@ std::optional<std::string> difference_text(const SpheresRecord& record) {
     variance += 4 * volume.standard_error * volume.standard_error;
   }
   if (!(solid > 0)) return std::nullopt;
+  if (variance == 0) {
+    return fmt::format("{:.3g} % of the volume is {}", 100 * difference / solid,
+                       contract == SphereContract::kCover ? "added" : "uncovered or sticks out");
+  }
   return fmt::format("{:.3g} % of the volume, uncovered or sticking out (+- {:.2g} %, standard error)",
                      100 * difference / solid, 100 * std::sqrt(variance) / solid);
 }
@@ -189,8 +193,9 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   if (const std::optional<double> error = uncovered_share(record, request.contract)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
   }
-  if (request.contract == SphereContract::kBalanced) {
-    if (const std::optional<std::string> difference = difference_text(record)) text += line("error", *difference);
+  if (request.contract != SphereContract::kInside) {
+    const std::optional<std::string> difference = difference_text(request.contract, record);
+    if (difference) text += line("error", *difference);
   }
   const auto facets = std::ranges::max(record.parts, {}, &Part::facet_share).facet_share;
   if (facets > 0) {
