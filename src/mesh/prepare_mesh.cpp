@@ -1,6 +1,7 @@
 // From any triangles to a mesh with a defined inside, and an account of what that took.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -15,6 +16,12 @@ namespace medial_vk {
 namespace {
 
 Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
+
+/// Of a coordinate: areas, and what decides whether there are any, are products of two lengths, and squares of these.
+constexpr double kLargest = 1e70;
+/// Of a coordinate, over the longest side: rounding a centre to a double then moves it by 2e-7 of that side at most, a
+/// tenth of what the certificate allows.
+constexpr double kFarthest = 0x1p30;
 
 Status check_input(const Mesh& mesh) {
   constexpr std::size_t kMostTriangles = 0xffffffffu / 3;  // corners are numbered with 32 bits
@@ -33,6 +40,12 @@ Status check_input(const Mesh& mesh) {
       if (v >= mesh.vertices.size()) {
         return invalid(fmt::format("face {} uses vertex {} of {}", i, v, mesh.vertices.size()));
       }
+      for (const double x : mesh.vertices[v]) {
+        if (!(std::fabs(x) <= kLargest)) {
+          return invalid(
+              fmt::format("vertex {} has the coordinate {:g}; up to {:g} can be worked with", v, x, kLargest));
+        }
+      }
     }
   }
   return {};
@@ -43,8 +56,16 @@ Status check_input(const Mesh& mesh) {
 Status check_extent(const MeshReport& report) {
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, report.upper[k] - report.lower[k]);
-  if (longest >= 1e-50 && longest <= 1e50) return {};
-  return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be worked with", longest));
+  if (!(longest >= 1e-50 && longest <= 1e50)) {
+    return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be worked with", longest));
+  }
+  double farthest = 0;
+  for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
+  if (farthest <= kFarthest * longest) return {};
+  return invalid(
+      fmt::format("the mesh is {:g} units long and lies {:g} from the origin, where its points can hardly be "
+                  "told apart (double precision); move it closer",
+                  longest, farthest));
 }
 
 /// A normal is relied on only if it is known this well, in radians: far below the angles that matter, far above the

@@ -111,6 +111,10 @@ Result<std::string> find_mesh(const std::string& uri, const MeshPlaces& places) 
   if (uri.find('\0') != std::string::npos) return invalid("a file name has a zero byte");
   Result<fs::path> path = path_of(uri, places);
   if (!path) return path.error();
+  std::error_code ignored;
+  if (fs::is_directory(path.value(), ignored)) {
+    return invalid(fmt::format("the mesh {} is a folder", medial_vk::quoted(uri)));
+  }
   if (!is_file(path.value())) return invalid(fmt::format("the mesh {} is not there", medial_vk::quoted(uri)));
   return path.value().string();
 }

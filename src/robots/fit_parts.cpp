@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -171,14 +172,17 @@ class Fitting {
   Result<std::vector<SphereSet>> approximate(const Part& part, const Solid& solid, SphereRequest request,
                                              std::size_t count, bool levels) {
     request.count = count;
-    const SphereProgress on_progress = [&](const char*, double done) {
-      return !progress_ ||
-             progress_(part, std::min(1.0, (static_cast<double>(done_) + done) / static_cast<double>(steps_)));
-    };
+    const SphereProgress on_progress = [&](const char*, double done) { return report(part, done); };
     if (levels) return approximate_in_levels(solid, request, backend_, context_, on_progress);
     Result<SphereSet> set = approximate_by_spheres(solid, request, backend_, context_, on_progress);
     if (!set) return set.error();
     return std::vector<SphereSet>{std::move(set).value()};
+  }
+
+  /// False: stop.
+  bool report(const Part& part, double done) const {
+    const double share = (static_cast<double>(done_) + done) / static_cast<double>(steps_);
+    return !progress_ || progress_(FitStage::kSpheres, part, std::min(1.0, share));
   }
 
   Status fit_part(std::size_t number, std::size_t count) {
@@ -196,6 +200,7 @@ class Fitting {
     Stopwatch stopwatch;
     const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
     if (!solid) return named(part, solid.error());
+    if (Status status = check_place(part, solid.value()); !status) return named(part, status.error());
     Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), goals_.request, count, goals_.levels);
     if (!sets) return named(part, sets.error());
     ++done_;
@@ -205,10 +210,30 @@ class Fitting {
     return {};
   }
 
+  /// What radii may lose, or gain, where spheres are moved to the frame of the link. What was measured before is then
+  /// still true to the digits that are shown.
+  static Status check_place(const Part& part, const Solid& solid) {
+    constexpr double kMost = 1e-6;  // of the diagonal
+    const MeshReport& report = part.mesh.report;
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      reach = std::max({reach, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
+    }
+    if (placement_rounding(part.pose, 2 * reach) <= kMost * solid.diagonal()) return {};
+    return Error{ErrorCode::kInvalidMesh,
+                 "it lies so far from the origin of its link that its spheres can hardly be placed there (double "
+                 "precision); move it closer"};
+  }
+
   /// In the frame of the part, where what the contract says is proved.
   Status measure(const Part& part, const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
     const std::vector<Ball>& balls = sets.back().balls;
-    Result<SphereMeasures> measured = measure_spheres(solid, balls, {.threads = goals_.request.threads});
+    std::mutex mutex;
+    const auto goes_on = [&] {
+      const std::lock_guard lock(mutex);
+      return report(part, 1);
+    };
+    Result<SphereMeasures> measured = measure_spheres(solid, balls, {.threads = {goals_.request.threads, goes_on}});
     if (!measured) return measured.error();
     fit.measures = std::move(measured).value();
     if (Status status = check_promise(*fit.measures); !status) return status;
@@ -218,7 +243,10 @@ class Fitting {
                    measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
-    if (goals_.check) fit.certificate = check_by_reference(solid.mesh(), balls);
+    if (goals_.check) {
+      if (progress_ && !progress_(FitStage::kCheck, part, 1)) return Error{ErrorCode::kInterrupted, "interrupted"};
+      fit.certificate = check_by_reference(solid.mesh(), balls);
+    }
     for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
     return {};
   }

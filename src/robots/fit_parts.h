@@ -39,8 +39,14 @@ struct PartFit {
   double seconds = 0;
 };
 
-/// Called with the share done of all and the part that is worked at; return false to stop.
-using FitProgress = std::function<bool(const Part& part, double done)>;
+enum class FitStage {
+  kSpheres,  ///< Found, proved and measured.
+  kCheck,    ///< By the reference, which cannot be stopped half-way; nothing is lost by ending the process.
+};
+
+/// Called with the stage and the part that is worked at, and the share done of all; return false to stop. Calls come
+/// one at a time, from any thread.
+using FitProgress = std::function<bool(FitStage stage, const Part& part, double done)>;
 
 /// `contract` inside: no ball is outside its part, even by the rounding of its pose. A goal that is shared out is so by
 /// need (robots/share_out.h): error against count is that of balls inside, whatever the contract. With the method best

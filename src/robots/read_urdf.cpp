@@ -19,12 +19,48 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+/// The parser looks for each attribute among those before it. A URDF's elements have six at most.
+constexpr std::size_t kMostAttributes = 1000;
+
+/// Where what begins at `from` has ended, or the end of the bytes.
+std::size_t after(std::string_view bytes, std::string_view end, std::size_t from) {
+  const std::size_t found = bytes.find(end, from);
+  return found == std::string_view::npos ? bytes.size() : found + end.size();
+}
+
+/// Values in quotes in one tag; comments and the like are passed over as the parser does.
+bool has_too_many_attributes(std::string_view bytes) {
+  for (std::size_t i = bytes.find('<'); i < bytes.size(); i = bytes.find('<', i)) {
+    const std::string_view rest = bytes.substr(i);
+    if (rest.starts_with("<!--")) {
+      i = after(bytes, "-->", i + 4);
+    } else if (rest.starts_with("<![CDATA[")) {
+      i = after(bytes, "]]>", i);
+    } else if (rest.starts_with("<?")) {
+      i = after(bytes, "?>", i);
+    } else if (rest.starts_with("<!")) {
+      i = after(bytes, ">", i);
+    } else {
+      std::size_t attributes = 0;
+      for (++i; i < bytes.size() && bytes[i] != '>'; ++i) {
+        if (bytes[i] != '"' && bytes[i] != '\'') continue;
+        if (++attributes > kMostAttributes) return true;
+        i = after(bytes, bytes.substr(i, 1), i + 1) - 1;
+      }
+    }
+  }
+  return false;
+}
+
 /// One reading: the first fault ends it.
 class UrdfReader {
  public:
   explicit UrdfReader(const std::string& name) : name_(name) {}
 
   Result<Robot> read(std::string_view bytes) {
+    if (has_too_many_attributes(bytes)) {
+      return file_error(name_, fmt::format("this is no URDF: an element has more than {} attributes", kMostAttributes));
+    }
     tinyxml2::XMLDocument document;
     if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) return no_xml(document);
     const XMLElement* root = document.RootElement();
@@ -48,6 +84,10 @@ class UrdfReader {
     std::string words = document.ErrorName();
     if (words.starts_with("XML_")) words.erase(0, 4);
     if (words.starts_with("ERROR_")) words.erase(0, 6);
+    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+      return line_error(name_, static_cast<std::uint64_t>(std::max(document.ErrorLineNum(), 0)),
+                        "this is no URDF: its elements are nested too deeply");
+    }
     for (char& c : words) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto line = static_cast<std::uint64_t>(std::max(document.ErrorLineNum(), 0));
     return line_error(name_, line, fmt::format("this is no well-formed XML: {}", words));
@@ -129,7 +169,8 @@ class UrdfReader {
     for (std::size_t i = 0; i < count; ++i) {
       // Beyond these, squares and cubes leave the range of a double.
       if (numbers[i] >= 1e-50 && numbers[i] <= 1e50) continue;
-      return at(element, fmt::format("the {} of a <{}> is not above zero: {}", attribute, element.Name(), numbers[i]));
+      const char* why = numbers[i] > 0 ? "not between 1e-50 and 1e50" : "not above zero";
+      return at(element, fmt::format("the {} of a <{}> is {}: {}", attribute, element.Name(), why, numbers[i]));
     }
     return {};
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "mesh/point_ops.h"
@@ -98,11 +100,19 @@ class Placing {
     if (!(sampled <= sampled_gap_)) return false;
     const double tolerance = kGapTolerance * request_.max_gap / solid_.diagonal();
     const Result<Bounds> gap =
-        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = request_.threads});
+        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = {request_.threads, goes_on()}});
     if (!gap) return gap.error();
     if (gap.value().upper <= request_.max_gap) return true;
     sampled_gap_ = std::min(sampled, sampled * request_.max_gap / gap.value().upper);
     return false;
+  }
+
+  /// For loops on several threads.
+  std::function<bool()> goes_on() const {
+    return [&, mutex = std::make_shared<std::mutex>()] {
+      const std::lock_guard lock(*mutex);
+      return !progress_ || progress_("spheres", 0);
+    };
   }
 
   double share_done(std::size_t most) {

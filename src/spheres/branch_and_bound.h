@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/parallel_for.h"
+#include "spheres/threads.h"
 
 namespace medial_vk {
 
@@ -27,15 +27,8 @@ struct CellBounds {
 struct SearchLimits {
   double tolerance = 0;           ///< The bounds that are returned differ by no more ...
   std::size_t cells = 2'000'000;  ///< ... unless so many cells were not enough.
-  unsigned threads = 0;           ///< 1: no others.
+  Threads threads = {};
 };
-
-/// parallel_for(), or a plain loop for one thread.
-template <class Body>
-void for_all(std::size_t count, std::size_t block, unsigned threads, Body body) {
-  if (threads != 1) return parallel_for(count, block, body);
-  for (std::size_t i = 0; i < count; ++i) body(i);
-}
 
 /// `lower` is known to be reached. `evaluate(cell, lower)` gives CellBounds: values that are not above `lower` need not
 /// be told. `split(cell, children)` appends parts that cover the cell, for which its bound holds as well. The result

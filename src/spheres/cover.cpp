@@ -24,7 +24,7 @@ std::size_t pieces_for(std::size_t balls) {
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
 }
 
-CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, unsigned threads) {
+CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, const Threads& threads) {
   CoverPieces pieces(solid, pieces_for(balls.size()), threads);
   return {std::move(pieces), std::move(balls), 0.1 * solid.diagonal(), threads};
 }
@@ -67,7 +67,14 @@ std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t coun
 }  // namespace
 
 Cover::Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report)
-    : solid_(solid), threads_(threads), report_(report), search_(search_for(solid, std::move(balls), threads)) {}
+    : solid_(solid),
+      threads_(threads,
+               [&report] {
+                 report(0);
+                 return true;
+               }),
+      report_(report),
+      search_(search_for(solid, std::move(balls), threads_)) {}
 
 void Cover::search(double from, double until) {
   keep();
@@ -93,7 +100,7 @@ void Cover::shrink() {
 }
 
 double Cover::measure() const {
-  const Result<BallUnion> measured = measure_ball_union(search_.balls(), {threads_, false});
+  const Result<BallUnion> measured = measure_ball_union(search_.balls(), {threads_.count, false});
   if (!measured) throw std::bad_alloc();  // The balls are finite, so memory it is.
   return measured.value().volume;
 }
@@ -150,9 +157,10 @@ std::vector<Ball> Cover::certified() const {
   for (int attempt = 0;; ++attempt) {
     report_(0.95 + 0.05 * std::min(1.0, attempt / 60.0));
     std::vector<Ball> balls = filled.enlarged(by);
-    const Result<Envelope> envelope = Envelope::build(balls, threads_);
+    const Result<Envelope> envelope = Envelope::build(balls, threads_.count);
     if (!envelope) throw std::bad_alloc();
     const Result<CoverProof> proof = prove_cover(solid_, envelope.value(), threads_);
+    if (!proof && proof.error().code == ErrorCode::kInterrupted) throw Stopped();
     if (!proof) throw std::bad_alloc();
     if (proof.value().surface_proved() && proof.value().inside == 0) return balls;
     if (proof.value().surface_proved() && attempt < kFillings && filled.fill(envelope.value())) continue;

@@ -13,7 +13,7 @@ namespace medial_vk {
 /// Deterministic. Throws std::bad_alloc, and what `report` throws.
 class Cover {
  public:
-  /// Called with the share done.
+  /// Called with the share done, from any thread at any time; a smaller one than before is no news. May throw Stopped.
   using Report = std::function<void(double)>;
 
   /// Balls grow from these. Keeps references to the solid and to what `report` is.
@@ -40,7 +40,7 @@ class Cover {
   bool fill(const Envelope& envelope);
 
   const Solid& solid_;
-  unsigned threads_;
+  Threads threads_;
   const Report& report_;
   CoverSearch search_;
   std::vector<Ball> best_;

@@ -55,8 +55,8 @@ CoverFamily::Answer CoverFamily::of(std::size_t count) {
     const Cover::Report report = [&, k](double done) {
       if (!progress_) return;
       const std::lock_guard lock(mutex);
-      if (k == 0) shown = done;
-      if (!progress_("cover", shown)) throw CoverInterrupted();
+      if (k == 0) shown = std::max(shown, done);
+      if (!progress_("cover", shown)) throw Stopped();
     };
     answers[k] = best_below(jobs[k].top, jobs[k].count, report);
   });
@@ -77,8 +77,10 @@ std::vector<Ball> CoverFamily::few(std::size_t count, double volume) {
   if (most.volume > volume) return {};
   const std::size_t top = cover_top(count);
   if (top == 1) return most.balls;
+  std::mutex mutex;
   const Cover::Report report = [&](double) {
-    if (progress_ && !progress_("cover", 1)) throw CoverInterrupted();
+    const std::lock_guard lock(mutex);
+    if (progress_ && !progress_("cover", 1)) throw Stopped();
   };
   Cover cover = search_cover(solid_, starts_.at(std::min(top, starts_.rbegin()->first)), threads_, report);
   std::deque<Cover> kept;

@@ -33,7 +33,7 @@ class CoverFamily {
     std::vector<Ball> balls;
     double volume = 0;  ///< Of their union.
   };
-  /// All are proved. Throw std::bad_alloc, and CoverInterrupted where progress says stop.
+  /// All are proved. Throw std::bad_alloc, and Stopped where progress says stop.
   Answer of(std::size_t count);
   /// Of no more balls than `count`, but more than the top before: with few balls, of no more than this volume; none if
   /// that for `count` is larger.
@@ -49,8 +49,5 @@ class CoverFamily {
   const SphereProgress& progress_;
   std::map<std::size_t, Answer> tops_;  // for as many balls as the top has
 };
-
-/// Thrown where progress says stop.
-struct CoverInterrupted {};
 
 }  // namespace medial_vk

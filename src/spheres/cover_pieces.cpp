@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "mesh/point_ops.h"
-#include "spheres/branch_and_bound.h"
 
 namespace medial_vk {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::uint32_t kLeaf = 12;
 
 }  // namespace
 
-CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, unsigned threads) {
+CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, const Threads& threads) {
   const Mesh& mesh = solid.mesh().mesh;
   double area = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -51,7 +50,7 @@ void CoverPieces::add_triangle(const Point& a, const Point& b, const Point& c, d
   }
 }
 
-void CoverPieces::add_cells(const Solid& solid, unsigned threads) {
+void CoverPieces::add_cells(const Solid& solid, const Threads& threads) {
   const MeshReport& report = solid.mesh().report;
   double side = 0;
   std::array<int, 3> count{};

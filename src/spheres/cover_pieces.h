@@ -7,6 +7,7 @@
 
 #include "medial_vk/queries.h"
 #include "mesh/solid.h"
+#include "spheres/threads.h"
 
 namespace medial_vk {
 
@@ -14,7 +15,7 @@ namespace medial_vk {
 class CoverPieces {
  public:
   /// About `pieces` pieces of the boundary (no fewer than it has triangles) and cells of a grid inside.
-  CoverPieces(const Solid& solid, std::size_t pieces, unsigned threads);
+  CoverPieces(const Solid& solid, std::size_t pieces, const Threads& threads);
 
   std::size_t size() const { return first_.size() - 1; }
   std::span<const Point> points(std::uint32_t piece) const {
@@ -36,7 +37,7 @@ class CoverPieces {
 
  private:
   void add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth);
-  void add_cells(const Solid& solid, unsigned threads);
+  void add_cells(const Solid& solid, const Threads& threads);
   /// Puts neighbours into a tree of boxes, so that a ball is told from most pieces by few of them.
   void arrange();
   void arrange(std::uint32_t first, std::uint32_t count);

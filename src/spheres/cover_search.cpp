@@ -4,15 +4,14 @@
 #include <limits>
 #include <utility>
 
-#include "spheres/branch_and_bound.h"
 #include "spheres/cover_column.h"
 #include "spheres/nearest_ball_tree.h"
 #include "spheres/smallest_ball.h"
 
 namespace medial_vk {
 
-CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, unsigned threads)
-    : pieces_(std::move(pieces)), balls_(std::move(balls)), ease_(ease), threads_(threads) {
+CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, Threads threads)
+    : pieces_(std::move(pieces)), balls_(std::move(balls)), ease_(ease), threads_(std::move(threads)) {
   const NearestBallTree tree(balls_);
   std::vector<std::uint32_t> owner(pieces_.size());
   for_all(pieces_.size(), 64, threads_, [&](std::size_t piece) {

@@ -18,7 +18,7 @@ class CoverSearch {
  public:
   /// Every ball grows until it holds the pieces that are nearest to it. `ease` is a length: columns shorter than this
   /// count as if they were straight, longer ones as if they spread.
-  CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, unsigned threads);
+  CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, Threads threads);
 
   /// Each ball in turn moves, and shrinks around the pieces that no other holds.
   void slide();
@@ -92,7 +92,7 @@ class CoverSearch {
   CoverPieces pieces_;
   std::vector<Ball> balls_;
   double ease_;
-  unsigned threads_;
+  Threads threads_;
   std::vector<std::vector<std::uint32_t>> touched_;  // by ball: pieces whose middles it holds
   std::vector<std::vector<Holder>> holders_;         // by piece
   std::vector<Highest> highest_;                     // by piece

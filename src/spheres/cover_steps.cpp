@@ -166,6 +166,7 @@ std::vector<std::uint32_t> CoverSearch::neighbours(std::uint32_t i, std::size_t 
 }
 
 bool CoverSearch::trade_one(std::uint32_t i) {
+  threads_.check();
   const std::vector<std::uint32_t> alone = exclusive(i);
   const Ball whole = balls_[i];
   std::uint32_t support = 0;
@@ -219,6 +220,7 @@ std::size_t CoverSearch::trade() {
 
 /// What only ball i holds goes to the neighbour that must grow least for it, which is not `but`.
 bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved) {
+  threads_.check();
   const std::vector<std::uint32_t> left = exclusive(i);
   if (!left.empty()) {
     std::uint32_t taker = i;

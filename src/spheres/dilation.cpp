@@ -1,6 +1,8 @@
 #include "spheres/dilation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <new>
 #include <numbers>
 #include <string>
@@ -28,8 +30,12 @@ Status check(const std::vector<Ball>& balls) {
 Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned threads, const SphereProgress& progress) {
   if (Status status = check(inside.balls); !status.ok()) return status.error();
   try {
+    std::mutex mutex;
+    double shown = 0;
     const Cover::Report report = [&](double done) {
-      if (progress && !progress("cover", done)) throw CoverInterrupted();
+      const std::lock_guard lock(mutex);
+      shown = std::max(shown, done);
+      if (progress && !progress("cover", shown)) throw Stopped();
     };
     SphereSet cover = {search_cover(solid, std::move(inside.balls), threads, report).certified()};
     const Ball one = ball_around(solid);
@@ -37,7 +43,7 @@ Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned thr
     if (!measured) return measured.error();
     const bool is_smaller = 4 * std::numbers::pi / 3 * one.radius * one.radius * one.radius < measured.value().volume;
     return is_smaller ? SphereSet{{one}} : cover;
-  } catch (const CoverInterrupted&) {
+  } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
@@ -54,7 +60,7 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
     covers.reserve(counts.size());
     for (const std::size_t count : counts) covers.push_back({family.of(count).balls});
     return covers;
-  } catch (const CoverInterrupted&) {
+  } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
@@ -65,7 +71,7 @@ Result<SphereSet> cover_by_volume(const Solid& solid, const std::map<std::size_t
                                   std::size_t count, double volume, unsigned threads, const SphereProgress& progress) {
   try {
     return SphereSet{CoverFamily(solid, starts, threads, progress).few(count, volume)};
-  } catch (const CoverInterrupted&) {
+  } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};

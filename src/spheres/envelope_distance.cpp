@@ -142,6 +142,7 @@ class Measure {
   Bounds balls_to_solid() const {
     std::vector<Ball> others;
     for (const Ball& ball : tree_.balls()) {
+      limits_.threads.check();
       if (ball.radius > solid_.distance(ball.centre) || !solid_.contains(ball.centre)) others.push_back(ball);
     }
     if (others.empty()) return {};
@@ -236,6 +237,7 @@ Bounds EnvelopeDistances::between_surfaces() const { return greater(boundary_to_
 
 namespace {
 
+const Error kStopped = {ErrorCode::kInterrupted, "interrupted"};
 const Error kNoMemory = {ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
 
 }  // namespace
@@ -245,16 +247,20 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
   if (envelope.tree().balls().empty()) return Error{ErrorCode::kUsage, "no balls to measure the distance of"};
   try {
     return Measure(solid, envelope, options).all();
+  } catch (const Stopped&) {
+    return kStopped;
   } catch (const std::bad_alloc&) {
     return kNoMemory;
   }
 }
 
 Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const DistanceOptions& options) {
-  const Result<Envelope> envelope = Envelope::build(balls, options.threads);
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
   if (!envelope) return envelope.error();
   try {
     return Measure(solid, envelope.value(), options).boundary_to_balls();
+  } catch (const Stopped&) {
+    return kStopped;
   } catch (const std::bad_alloc&) {
     return kNoMemory;
   }

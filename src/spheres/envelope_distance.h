@@ -24,15 +24,15 @@ struct EnvelopeDistances {
 struct DistanceOptions {
   double tolerance = 1e-3;        ///< Of the diagonal of the solid's box: how far apart the bounds may be.
   std::size_t cells = 2'000'000;  ///< For each supremum; if that is not enough the bounds stay farther apart.
-  unsigned threads = 0;           ///< 0: all. The result does not depend on it.
-  bool known_inside = false;      ///< Certified: the balls lie inside the solid.
-  bool known_cover = false;       ///< Certified: the balls cover the solid.
+  Threads threads = {};
+  bool known_inside = false;  ///< Certified: the balls lie inside the solid.
+  bool known_cover = false;   ///< Certified: the balls cover the solid.
 };
 
 /// By branch and bound on functions that change no faster than the point moves (docs/theory.md, "Tight spheres"). Where
 /// the mesh is open, the surface that closes the solid is no part of the boundary: solid_to_balls then cannot leave out
 /// cells outside, so its bounds may stay far apart, and balls_to_solid takes a cell's side from its middle. Does not
-/// throw. Errors: kUsage (no balls), kOutOfMemory.
+/// throw. Errors: kUsage (no balls), kOutOfMemory, kInterrupted (`threads` does not go on).
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options = {});
 

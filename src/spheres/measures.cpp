@@ -71,10 +71,10 @@ class VolumeSampler {
     }
   }
 
-  Volumes run(unsigned threads) const {
+  Volumes run(const Threads& threads) const {
     std::vector<Volumes> parts(blocks_[0] * blocks_[1] * blocks_[2]);
     for_all(parts.size(), 4, threads, [&](std::size_t i) {
-      parts[i] = in_block({i % blocks_[0], i / blocks_[0] % blocks_[1], i / blocks_[0] / blocks_[1]});
+      parts[i] = in_block({i % blocks_[0], i / blocks_[0] % blocks_[1], i / blocks_[0] / blocks_[1]}, threads);
     });
     Volumes all;
     for (const Volumes& part : parts) {
@@ -93,7 +93,7 @@ class VolumeSampler {
     return at;
   }
 
-  Volumes in_block(const Cell& block) const {
+  Volumes in_block(const Cell& block, const Threads& threads) const {
     Cell from, to;
     for (std::size_t k = 0; k < 3; ++k) {
       from[k] = kBlock * block[k];
@@ -104,6 +104,7 @@ class VolumeSampler {
     if (side == Side::kOutside) return sum;
     for (std::size_t z = from[2]; z < to[2]; ++z) {
       for (std::size_t y = from[1]; y < to[1]; ++y) {
+        threads.check();
         for (std::size_t x = from[0]; x < to[0]; ++x) add_cell({x, y, z}, side, sum);
       }
     }
@@ -180,12 +181,13 @@ double p95_of(std::vector<double> values) {
 }
 
 /// Distances to the boundary of those points of all spheres that are outside the solid.
-std::vector<double> protruding(const Solid& solid, std::span<const Ball> balls, unsigned threads) {
+std::vector<double> protruding(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
   std::vector<std::vector<double>> by_ball(balls.size());
   for_all(balls.size(), 4, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
     if (ball.radius <= solid.distance(ball.centre) && solid.contains(ball.centre)) return;
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
+      if (k % 8 == 0) threads.check();
       const Point at = ball.centre + ball.radius * spiral_point(k, kSpherePoints);
       if (!solid.contains(at)) by_ball[i].push_back(solid.distance(at));
     }
@@ -279,7 +281,7 @@ double VolumeError::normalized_lower_bound() const { return solid > 0 ? std::fab
 Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball> balls, const MeasureOptions& options) {
   if (balls.empty()) return Error{ErrorCode::kUsage, "no balls to measure"};
   try {
-    Result<Envelope> envelope = Envelope::build(balls, options.threads);
+    Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
     if (!envelope) return envelope.error();
     SphereMeasures measures;
     measures.diagonal = solid.diagonal();
@@ -301,6 +303,8 @@ Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball>
     measures.metrics = fit_metrics(solid, envelope.value(), surface, measures, options);
     measures.histograms = histograms_of(solid, envelope.value(), surface, options);
     return measures;
+  } catch (const Stopped&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to measure the balls"};
   }

@@ -131,7 +131,7 @@ double magnitude_of(const MeshReport& report) {
   return magnitude;
 }
 
-void test_surface(const Solid& solid, const NearestBallTree& tree, unsigned threads, CoverProof& proof) {
+void test_surface(const Solid& solid, const NearestBallTree& tree, const Threads& threads, CoverProof& proof) {
   const Mesh& mesh = solid.mesh().mesh;
   const std::size_t count = mesh.triangles.size();
   const double magnitude = magnitude_of(solid.mesh().report);
@@ -142,6 +142,7 @@ void test_surface(const Solid& solid, const NearestBallTree& tree, unsigned thre
     TriangleCover cover(tree, magnitude);
     for (std::size_t t = block * kBlock; t < std::min(count, (block + 1) * kBlock); ++t) {
       const Triangle& corners = mesh.triangles[t];
+      threads.check();
       covers[t] =
           cover.run({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, places[t]);
     }
@@ -154,7 +155,7 @@ void test_surface(const Solid& solid, const NearestBallTree& tree, unsigned thre
   }
 }
 
-void test_vertices(const Solid& solid, const Envelope& envelope, unsigned threads, CoverProof& proof) {
+void test_vertices(const Solid& solid, const Envelope& envelope, const Threads& threads, CoverProof& proof) {
   const std::vector<EnvelopeVertex>& vertices = envelope.vertices();
   std::vector<std::uint8_t> is_inside(vertices.size());
   for_all(vertices.size(), 64, threads, [&](std::size_t i) {
@@ -170,7 +171,7 @@ void test_vertices(const Solid& solid, const Envelope& envelope, unsigned thread
 
 }  // namespace
 
-InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, unsigned threads) {
+InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
   std::vector<double> excess(balls.size());
   for_all(balls.size(), 16, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
@@ -188,20 +189,22 @@ InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, unsign
   return proof;
 }
 
-Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, unsigned threads) {
+Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, const Threads& threads) {
   try {
     CoverProof proof;
     proof.closed = solid.mesh().report.closed;
     test_surface(solid, envelope.tree(), threads, proof);
     test_vertices(solid, envelope, threads, proof);
     return proof;
+  } catch (const Stopped&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to prove that the balls cover the solid"};
   }
 }
 
-Result<CoverProof> prove_cover(const Solid& solid, std::span<const Ball> balls, unsigned threads) {
-  Result<Envelope> envelope = Envelope::build(balls, threads);
+Result<CoverProof> prove_cover(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
+  Result<Envelope> envelope = Envelope::build(balls, threads.count);
   if (!envelope) return envelope.error();
   return prove_cover(solid, envelope.value(), threads);
 }

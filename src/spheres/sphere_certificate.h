@@ -7,6 +7,7 @@
 
 #include "mesh/solid.h"
 #include "spheres/envelope.h"
+#include "spheres/threads.h"
 
 namespace medial_vk {
 
@@ -35,11 +36,12 @@ struct CoverProof {
   bool proved() const { return closed && surface_proved() && inside == 0; }
 };
 
-InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, unsigned threads = 0);
+/// Throws Stopped if `threads` does not go on.
+InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});
 
-/// Error: kOutOfMemory.
-Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, unsigned threads = 0);
+/// Errors: kOutOfMemory, kInterrupted (`threads` does not go on).
+Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, const Threads& threads = {});
 /// The same for balls, at least one. Errors: also those of measure_ball_union().
-Result<CoverProof> prove_cover(const Solid& solid, std::span<const Ball> balls, unsigned threads = 0);
+Result<CoverProof> prove_cover(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});
 
 }  // namespace medial_vk

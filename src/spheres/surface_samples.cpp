@@ -51,7 +51,7 @@ Point spiral_point(std::size_t k, std::size_t count) {
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 
-std::vector<WeightedPoint> sample_envelope(const Envelope& envelope, std::size_t count, unsigned threads) {
+std::vector<WeightedPoint> sample_envelope(const Envelope& envelope, std::size_t count, const Threads& threads) {
   const std::vector<Ball>& balls = envelope.tree().balls();
   const BallUnion& measured = envelope.measured();
   std::vector<std::vector<WeightedPoint>> parts(balls.size());

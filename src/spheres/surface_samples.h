@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.h"
 #include "spheres/envelope.h"
+#include "spheres/threads.h"
 
 namespace medial_vk {
 
@@ -24,6 +25,6 @@ struct WeightedPoint {
 
 /// About `count` points of the envelope: on each sphere evenly, those in other balls left out, those that are left
 /// standing for that ball's share of the envelope, which is exact.
-std::vector<WeightedPoint> sample_envelope(const Envelope& envelope, std::size_t count, unsigned threads);
+std::vector<WeightedPoint> sample_envelope(const Envelope& envelope, std::size_t count, const Threads& threads);
 
 }  // namespace medial_vk

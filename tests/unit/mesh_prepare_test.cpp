@@ -96,6 +96,28 @@ TEST(Prepare, ScaleAndPlaceDoNotMatter) {
   EXPECT_THAT(refusal(huge), HasSubstr("the mesh is 1e+60 units long"));
 }
 
+TEST(Prepare, FarFromTheOriginIsRefusedWhereDoublesEnd) {
+  Mesh near = make_box({1, 1, 1}), far = near;
+  translate(near, {0x1p30 - 1, 0, 0});
+  EXPECT_TRUE(prepare(near).report.closed);
+  translate(far, {0x1p30, 0, 0});
+  EXPECT_THAT(refusal(far), HasSubstr("the mesh is 1 units long and lies 1.07374e+09 from the origin"));
+}
+
+TEST(Prepare, CoordinatesWhoseProductsOverflowAreRefused) {
+  for (const double x : {1e71, -1e160, 1e300}) {
+    Mesh mesh = make_box({1, 1, 1});
+    mesh.vertices[3][1] = x;
+    EXPECT_THAT(refusal(mesh), HasSubstr("vertex 3 has the coordinate"));
+    mesh.vertices.push_back(mesh.vertices[3]);
+    mesh.vertices[3] = make_box({1, 1, 1}).vertices[3];
+    EXPECT_TRUE(prepare(mesh).report.closed);  // a vertex of no face does not matter
+  }
+  Mesh mesh = make_box({1, 1, 1});
+  mesh.vertices[3][1] = 1e70;
+  EXPECT_THAT(refusal(mesh), HasSubstr("the mesh is 1e+70 units long"));
+}
+
 TEST(Prepare, EqualVerticesBecomeOne) {
   const PreparedMesh prepared = prepare(exploded(make_box({1, 2, 3})));
   EXPECT_TRUE(prepared.report.closed);

@@ -143,9 +143,47 @@ TEST_F(FitParts, FaultsNameLinkAndPart) {
 TEST_F(FitParts, StopsWhenAsked) {
   goals_.total = 50;
   const Result<std::vector<PartFit>> fits =
-      fit_parts(parts_, goals_, Backend::kCpu, nullptr, [](const Part&, double) { return false; });
+      fit_parts(parts_, goals_, Backend::kCpu, nullptr, [](FitStage, const Part&, double) { return false; });
   ASSERT_FALSE(fits.ok());
   EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
+}
+
+/// Wherever it is: at every so many-th question.
+TEST_F(FitParts, StopsWhereverItIsAsked) {
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 20;
+  goals_.check = true;
+  const std::vector<Part> one = {parts_[0]};
+  for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover, SphereContract::kBalanced}) {
+    goals_.request.contract = contract;
+    goals_.check = contract != SphereContract::kBalanced;
+    goals_.count_per_link = 6;
+    const auto run = [&](std::size_t most, std::size_t& asked) {
+      asked = 0;
+      return fit_parts(one, goals_, Backend::kCpu, nullptr,
+                       [&](FitStage, const Part&, double) { return asked++ < most; });
+    };
+    std::size_t all = 0, asked = 0;
+    ASSERT_TRUE(run(~std::size_t{0}, all).ok());
+    ASSERT_GT(all, 100u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t most = all / 2 * k / 4;  // how many there are depends on the threads a little
+      const Result<std::vector<PartFit>> fits = run(most, asked);
+      ASSERT_FALSE(fits.ok()) << most << " of " << all;
+      EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
+      EXPECT_LE(asked, most + 16);  // others may have asked meanwhile
+    }
+  }
+}
+
+TEST_F(FitParts, FarFromTheOriginOfTheLinkIsRefused) {
+  goals_.count_per_link = 10;
+  parts_ = {parts_[0]};
+  parts_[0].pose = make_pose({1e6, 0, 0}, {0.3, 0, 0});
+  EXPECT_TRUE(fit().ok());
+  parts_[0].pose = make_pose({1e18, 0, 0}, {0.3, 0, 0});
+  EXPECT_EQ(fit().error().code, ErrorCode::kInvalidMesh);
+  EXPECT_THAT(fit().error().message, HasSubstr("so far from the origin of its link"));
 }
 
 }  // namespace

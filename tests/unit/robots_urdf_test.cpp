@@ -116,7 +116,19 @@ TEST(Urdf, WhatIsNoRobotIsSaidSo) {
 TEST(Urdf, NestingWithoutEndIsNoCrash) {
   std::string text = "<robot>";
   for (int i = 0; i < 100'000; ++i) text += "<link>";
-  EXPECT_THAT(message_of(text), HasSubstr("no well-formed XML"));
+  EXPECT_THAT(message_of(text), HasSubstr("its elements are nested too deeply"));
+}
+
+/// The parser takes quadratic time in the number of an element's attributes.
+TEST(Urdf, AttributesWithoutEndAreRefused) {
+  const auto box_with = [](std::size_t count) {
+    std::string text = "<robot name='r'><!-- <a b='\" --><link name='a'><collision><geometry><box size='1 1 1'";
+    for (std::size_t i = 1; i < count; ++i) text += " a" + std::to_string(i) + "=\"<>='\"";
+    return text + "/></geometry></collision></link></robot>";
+  };
+  EXPECT_TRUE(read_urdf(box_with(1000), "r.urdf").ok());
+  EXPECT_THAT(message_of(box_with(1001)), HasSubstr("an element has more than 1000 attributes"));
+  EXPECT_THAT(message_of(box_with(2'000'000)), HasSubstr("an element has more than 1000 attributes"));
 }
 
 TEST(Urdf, GeometryIsChecked) {

@@ -102,8 +102,10 @@ class SpheresRun {
   Status fit() {
     Stopwatch stopwatch;
     const FitGoals goals = {options_.request, options_.count_per_link, options_.total, options_.levels, options_.check};
-    const FitProgress on_progress = [this](const Part&, double done) {
-      progress_.update("spheres", done);
+    std::optional<EndAtOnce> while_checked;
+    const FitProgress on_progress = [&](FitStage stage, const Part&, double done) {
+      stage == FitStage::kCheck ? void(while_checked.emplace()) : while_checked.reset();
+      progress_.update(stage == FitStage::kCheck ? "check" : "spheres", done);
       return !interrupted();
     };
     Result<std::vector<PartFit>> fits =
