@@ -324,7 +324,9 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
   return {shader, std::move(buffers), Reads::kTree};
 }
 
-void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
+void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
+                                    std::uint32_t first, std::uint32_t limit) {
+  step.first_item = first;
   run(r,
       {"judge_pairs",
        {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
@@ -334,7 +336,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, const gpu::StepConstants& step,
        {},
        kEightLanes,
        Lanes::kEight},
-      {gpu::kCells, kEightLanes}, step);
+      {gpu::kCells, kEightLanes, 1, first * kEightLanes, limit * kEightLanes}, step);
 }
 
 void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,

@@ -150,8 +150,9 @@ class CertifiedPipeline {
                   std::uint32_t entries = gpu::kEntriesPerRound);
   // A kernel that asks winding numbers: the tree comes before its own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
-  // The pairs of carriers of every cell, before its search or after (step.classifies).
-  void judge_pairs(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  // The pairs of carriers of cells from `first` on, before their search or after (step.classifies).
+  void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,
+                   std::uint32_t limit);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   void scan(Recorder& r, const gpu::ScanConstants& constants);

@@ -199,7 +199,7 @@ void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   begin_stage(r, "pairs");
-  judge_pairs(r, step, level);
+  judge_pairs(r, step, level, 0, capacity_.cells);
   begin_stage(r, "search");
   run(r,
       {"propose_lines",
@@ -271,7 +271,9 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.classifies = 1;
-  judge_pairs(r, step, level);
+  // Where nothing is subdivided these are many, with long lists; a stop waits for one block.
+  constexpr uint kBlock = 4096;
+  for (uint first = 0; first < capacity_.cells; first += kBlock) judge_pairs(r, step, level, first, kBlock);
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
