@@ -124,9 +124,10 @@ SolidLines::Bundle SolidLines::make_bundle(const Solid& solid, std::size_t axis)
     bundle.starts.push_back(bundle.inside.size());
     const auto end = std::find_if(begin, crossings.end(),
                                   [&](const Crossing& c) { return static_cast<std::ptrdiff_t>(c.line) != line; });
+    const std::ptrdiff_t j = line / bundle.count[0], i = line - j * bundle.count[0];
     Point at;
-    at[bundle.across[0]] = bundle.first[0] + spacing_ * static_cast<double>(line % bundle.count[0]);
-    at[bundle.across[1]] = bundle.first[1] + spacing_ * static_cast<double>(line / bundle.count[0]);
+    at[bundle.across[0]] = bundle.first[0] + spacing_ * static_cast<double>(i);
+    at[bundle.across[1]] = bundle.first[1] + spacing_ * static_cast<double>(j);
     const std::vector<Stretch> inside = inside_of(solid, {begin, end}, at, axis);
     bundle.inside.insert(bundle.inside.end(), inside.begin(), inside.end());
     begin = end;

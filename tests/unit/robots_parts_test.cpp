@@ -162,7 +162,7 @@ TEST_F(RobotFiles, MeshesAreFoundWhereverTheyMayBe) {
 
 TEST_F(RobotFiles, WhatIsNotFoundIsNamed) {
   EXPECT_THAT(found("../meshes/none.obj"), HasSubstr("none.obj\" is not there"));
-  EXPECT_THAT(found("package://arm"), HasSubstr("is not there"));
+  EXPECT_THAT(found("package://arm"), HasSubstr("\"package://arm\" is a folder"));
   EXPECT_THAT(found("package://"), HasSubstr("names no package"));
   EXPECT_THAT(found("package://../x.obj"), HasSubstr("names no package"));
   EXPECT_THAT(found("http://host/x.obj"), HasSubstr("neither package:// nor file:///"));
