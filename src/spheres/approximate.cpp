@@ -57,8 +57,12 @@ Status check_request(const Solid& solid, const SphereRequest& request) {
   if (request.contract == SphereContract::kCover && request.max_gap > 0) {
     return usage("balls that cover leave no gap; give an error, or how many");
   }
+  const bool is_best = request.method == SphereMethod::kBest;
+  if (request.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
+    return usage("balanced balls need a mesh without open edges; take the contract inside, or the method source");
+  }
   const bool has_goal = request.error > 0 || request.max_gap > 0;
-  if (has_goal && request.contract != SphereContract::kInside && request.method == SphereMethod::kSource) {
+  if (has_goal && request.contract != SphereContract::kInside && !is_best) {
     return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
   }
   return {};
@@ -80,24 +84,42 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& reque
                                   const SphereProgress& progress) {
   const std::size_t most = request.count > 0 ? request.count : kMostBalls;
   const double volume = (1 + request.error) * solid.volume();
+  std::map<std::size_t, std::vector<Ball>> starts;
+  CoverFamily family(solid, starts, request.threads, progress);
   for (std::size_t top = 1;; top = cover_top(top + 1)) {
     const std::size_t count = std::min(top, most);
-    const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+    Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
     if (!inside) return inside.error();
-    Result<SphereSet> cover = cover_by_volume(solid, inside.value().stages, count, volume, request.threads, progress);
-    if (!cover || !cover.value().balls.empty()) return cover;
+    starts = std::move(inside.value().stages);  // the same as before, and one more
+    if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
     if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
   }
 }
 
+/// The smaller levels of a cover, and itself.
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                            SphereSet cover, Backend backend, Context* context,
+                                            const SphereProgress& progress) {
+  std::vector<SphereSet> levels;
+  if (const std::size_t next = cover.balls.size() / 2; all_levels && next > 0) {
+    const Result<SphereSet> inside = cover_starts(solid, request, next, backend, context, progress);
+    if (!inside) return inside.error();
+    Result<std::vector<SphereSet>> smaller =
+        cover_by_counts(solid, inside.value().stages, level_counts(next), request.threads, progress);
+    if (!smaller) return smaller.error();
+    levels = std::move(smaller).value();
+  }
+  levels.push_back(std::move(cover));
+  return levels;
+}
+
 Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
                                            Backend backend, Context* context, const SphereProgress& progress) {
-  std::size_t count = request.count;
+  const std::size_t count = request.count;
   if (request.error > 0) {
     Result<SphereSet> cover = cover_for_error(solid, request, backend, context, progress);
     if (!cover) return cover.error();
-    if (!all_levels) return std::vector<SphereSet>{std::move(cover).value()};
-    count = cover.value().balls.size();
+    return levels_below(solid, request, all_levels, std::move(cover).value(), backend, context, progress);
   }
   if (count == 0) return usage("say how many balls shall cover the solid");
   const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
@@ -110,6 +132,13 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereReque
 Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereRequest& request, bool all_levels,
                                              Backend backend, Context* context, const SphereProgress& progress) {
   Result<SphereSet> found = best_spheres(solid, request, backend, context, progress);
+  if (found && all_levels && (request.error > 0 || request.max_gap > 0)) {
+    // Only now it is known which numbers the levels have.
+    SphereRequest again = request;
+    again.count = found.value().balls.size();
+    again.error = again.max_gap = 0;
+    found = best_spheres(solid, again, backend, context, progress);
+  }
   if (!found) return found.error();
   SphereSet& last = found.value();
   std::vector<SphereSet> levels;
@@ -149,6 +178,8 @@ Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereRe
                                               Backend backend, Context* context, const SphereProgress& progress) {
   try {
     return levels_of(solid, request, all_levels, backend, context, progress);
+  } catch (const Stopped&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
   } catch (const std::exception& error) {

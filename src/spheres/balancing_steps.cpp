@@ -101,7 +101,9 @@ class BalancingSteps : public BallSteps {
     gained_ -= difference_.change(balls.ball(place), others_);
   }
 
-  double error(const DynamicUnion& /*balls*/) const override { return 1 - gained_ / solid_.volume(); }
+  double error(const DynamicUnion& /*balls*/) const override {
+    return (difference_.of_none() - gained_) / solid_.volume();
+  }
 
  private:
   /// Those that meet the ball, or would if it moved so far; those that hold most of it first.
@@ -166,7 +168,7 @@ class BalancingSteps : public BallSteps {
 
   const Solid& solid_;
   SymmetricDifference difference_;
-  double gained_ = 0;  // by the estimate; with no balls all of the solid is left
+  double gained_ = 0;
   std::vector<Ball> others_;
   std::vector<Height> heights_;
 };

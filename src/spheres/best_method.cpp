@@ -17,6 +17,7 @@
 #include "spheres/envelope_distance.h"
 #include "spheres/gaps.h"
 #include "spheres/maximal_ball.h"
+#include "spheres/measures.h"
 #include "spheres/prefixes.h"
 
 namespace medial_vk {
@@ -55,6 +56,7 @@ class Placing {
         balls_(std::move(balls)),
         moves_(request.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
         gaps_(solid, balls_, request.contract == SphereContract::kBalanced),
+        estimated_error_(request.error),
         sampled_gap_(request.max_gap) {}
 
   Result<SphereSet> run() {
@@ -90,8 +92,24 @@ class Placing {
 
   Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
-    if (request_.error > 0 && !(moves_->error(balls_) <= request_.error)) return false;
+    if (request_.error > 0) {
+      const Result<bool> met = error_met();
+      if (!met || !met.value()) return met;
+    }
     return request_.max_gap > 0 ? gap_met() : true;
+  }
+
+  /// What is reported is measured otherwise than by the steps of balanced balls, which say when to measure it.
+  Result<bool> error_met() {
+    const double error = moves_->error(balls_);
+    if (!(error <= estimated_error_)) return false;
+    if (request_.contract != SphereContract::kBalanced) return true;
+    const Result<VolumeError> measured =
+        estimate_volume_error(solid_, all_balls(), {.threads = {request_.threads, goes_on()}});
+    if (!measured) return measured.error();
+    if (measured.value().normalized() <= request_.error) return true;
+    estimated_error_ = 0.999 * std::min(error, error * request_.error / measured.value().normalized());
+    return false;
   }
 
   /// Samples say when to ask for a proof; one that fails says how much lower they must be.
@@ -302,6 +320,7 @@ class Placing {
   double volume_ = 0;
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
+  double estimated_error_;     // what the steps must show before it is measured
   double sampled_gap_;         // what samples must show before a proof is tried
   std::vector<double> steps_;  // by place
 };

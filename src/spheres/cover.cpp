@@ -69,7 +69,7 @@ std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t coun
 Cover::Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report)
     : solid_(solid),
       threads_(threads,
-               [&report] {
+               [report] {
                  report(0);
                  return true;
                }),

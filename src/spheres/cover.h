@@ -16,7 +16,7 @@ class Cover {
   /// Called with the share done, from any thread at any time; a smaller one than before is no news. May throw Stopped.
   using Report = std::function<void(double)>;
 
-  /// Balls grow from these. Keeps references to the solid and to what `report` is.
+  /// Balls grow from these. Keeps a reference to the solid.
   Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report);
 
   /// Steps until they gain little, between two shares of the work; then also with finer pieces.
@@ -41,7 +41,7 @@ class Cover {
 
   const Solid& solid_;
   Threads threads_;
-  const Report& report_;
+  Report report_;
   CoverSearch search_;
   std::vector<Ball> best_;
   double volume_ = 0;

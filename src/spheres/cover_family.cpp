@@ -19,9 +19,11 @@ CoverFamily::Answer CoverFamily::certify(const std::vector<Ball>& balls) const {
 /// A proof may add to a cover, and then one of fewer balls may be smaller: they are looked at as long as that can be.
 /// No cover of fewer balls that is not left out has less volume before its proof. Where all are left out, as of a solid
 /// that is nearly a ball, the smallest ball around it is the answer.
-CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, const Cover::Report& report) const {
+CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, const Cover::Report& report,
+                                            std::optional<Cover>& found) const {
   if (top == 1) return certify({ball_around(solid_)});
   Cover cover = search_cover(solid_, starts_.at(top), 1, report);
+  found.emplace(cover);
   Answer best;
   for (double last = cover.volume();; cover.shrink()) {
     const bool is_left_out = cover.volume() < last;
@@ -34,6 +36,16 @@ CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, 
     if (cover.count() <= 2) break;
   }
   return best.balls.empty() ? certify({ball_around(solid_)}) : best;
+}
+
+/// `shown`: it says how far all are.
+Cover::Report CoverFamily::report(bool shown) {
+  return [this, shown](double done) {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    if (shown) shown_ = std::max(shown_, done);
+    if (!progress_("cover", shown_)) throw Stopped();
+  };
 }
 
 CoverFamily::Answer CoverFamily::of(std::size_t count) {
@@ -49,17 +61,14 @@ CoverFamily::Answer CoverFamily::of(std::size_t count) {
   const std::size_t last = std::min(greatest, cover_top(count));
   if (last > count || (last == count && tops_.count(last) == 0)) jobs.insert(jobs.begin(), {last, count});
   std::vector<Answer> answers(jobs.size());
-  std::mutex mutex;
-  double shown = 0;  // that of the first
-  for_all(jobs.size(), 1, threads_, [&](std::size_t k) {
-    const Cover::Report report = [&, k](double done) {
-      if (!progress_) return;
-      const std::lock_guard lock(mutex);
-      if (k == 0) shown = std::max(shown, done);
-      if (!progress_("cover", shown)) throw Stopped();
-    };
-    answers[k] = best_below(jobs[k].top, jobs[k].count, report);
-  });
+  std::vector<std::optional<Cover>> found(jobs.size());
+  shown_ = 0;
+  for_all(jobs.size(), 1, threads_,
+          [&](std::size_t k) { answers[k] = best_below(jobs[k].top, jobs[k].count, report(k == 0), found[k]); });
+  if (!jobs.empty()) {
+    found_.clear();
+    if (found.front()) found_.emplace(jobs.front().top, *found.front());
+  }
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     if (jobs[k].count >= jobs[k].top) tops_[jobs[k].top] = answers[k];
   }
@@ -77,12 +86,9 @@ std::vector<Ball> CoverFamily::few(std::size_t count, double volume) {
   if (most.volume > volume) return {};
   const std::size_t top = cover_top(count);
   if (top == 1) return most.balls;
-  std::mutex mutex;
-  const Cover::Report report = [&](double) {
-    const std::lock_guard lock(mutex);
-    if (progress_ && !progress_("cover", 1)) throw Stopped();
-  };
-  Cover cover = search_cover(solid_, starts_.at(std::min(top, starts_.rbegin()->first)), threads_, report);
+  const std::size_t start = std::min(top, starts_.rbegin()->first);
+  const auto found = found_.find(start);
+  Cover cover = found != found_.end() ? found->second : search_cover(solid_, starts_.at(start), 1, report(true));
   std::deque<Cover> kept;
   for (double last = cover.volume(); cover.volume() <= volume; cover.shrink()) {
     const bool is_left_out = cover.volume() < last;

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "spheres/cover.h"
@@ -24,7 +26,7 @@ constexpr std::size_t cover_top(std::size_t count) {
 /// and others, so it is never larger.
 class CoverFamily {
  public:
-  /// By top: balls inside, T of them, or fewer for the greatest. Keeps references.
+  /// By top: balls inside, T of them, or fewer for the greatest; more may come later. Keeps references.
   CoverFamily(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts, unsigned threads,
               const SphereProgress& progress)
       : solid_(solid), starts_(starts), threads_(threads), progress_(progress) {}
@@ -41,13 +43,17 @@ class CoverFamily {
 
  private:
   Answer certify(const std::vector<Ball>& balls) const;
-  Answer best_below(std::size_t top, std::size_t count, const Cover::Report& report) const;
+  Answer best_below(std::size_t top, std::size_t count, const Cover::Report& report, std::optional<Cover>& found) const;
+  Cover::Report report(bool shown);
 
   const Solid& solid_;
   const std::map<std::size_t, std::vector<Ball>>& starts_;
   unsigned threads_;
   const SphereProgress& progress_;
   std::map<std::size_t, Answer> tops_;  // for as many balls as the top has
+  std::map<std::size_t, Cover> found_;  // of the last search, by top
+  std::mutex mutex_;                    // of progress_, and
+  double shown_ = 0;                    // the share of the search that takes longest
 };
 
 }  // namespace medial_vk

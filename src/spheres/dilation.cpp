@@ -67,15 +67,4 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
   }
 }
 
-Result<SphereSet> cover_by_volume(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts,
-                                  std::size_t count, double volume, unsigned threads, const SphereProgress& progress) {
-  try {
-    return SphereSet{CoverFamily(solid, starts, threads, progress).few(count, volume)};
-  } catch (const Stopped&) {
-    return Error{ErrorCode::kInterrupted, "interrupted"};
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
-  }
-}
-
 }  // namespace medial_vk

@@ -28,12 +28,6 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
                                                const std::vector<std::size_t>& counts, unsigned threads = 0,
                                                const SphereProgress& progress = {});
 
-/// A cover of no larger volume, by few balls, no more than `count` and more than the next lower number that covers are
-/// searched for; of no balls if that by `count` of them is larger. Starts and the rest as cover_by_counts().
-Result<SphereSet> cover_by_volume(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts,
-                                  std::size_t count, double volume, unsigned threads = 0,
-                                  const SphereProgress& progress = {});
-
 /// S_D+ of Section 8.2: every ball grows until it holds, for each vertex of the envelope that it makes, the point of
 /// the boundary nearest to that vertex, and for each arc of two balls that no third one touches, those nearest to two
 /// opposite points of the circle. (The source picks the two at random; here one lies farthest along the coordinate axis

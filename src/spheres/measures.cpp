@@ -13,7 +13,7 @@ namespace medial_vk {
 namespace {
 
 /// Cells of a grid over the solid's box, at most so many along a side, in each of which two samples are taken.
-constexpr std::size_t kStrata = 96;
+constexpr std::size_t kStrata = 96, kLeastStrata = 24;
 constexpr std::size_t kBlock = 4;  // cells along the side of a block
 /// On each sphere, as cuRobo takes them.
 constexpr std::size_t kSpherePoints = 200;
@@ -64,8 +64,8 @@ class VolumeSampler {
     const Point size = solid.mesh().report.upper - lower_;
     const double side = std::max({size[0], size[1], size[2]}) / static_cast<double>(kStrata);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto most = static_cast<double>(kStrata);
-      count_[k] = static_cast<std::size_t>(std::clamp(std::ceil(size[k] / side), 1.0, most));
+      const auto least = static_cast<double>(kLeastStrata), most = static_cast<double>(kStrata);
+      count_[k] = static_cast<std::size_t>(std::clamp(std::ceil(size[k] / side), least, most));
       cell_[k] = size[k] / static_cast<double>(count_[k]);
       blocks_[k] = (count_[k] + kBlock - 1) / kBlock;
     }
@@ -156,7 +156,7 @@ VolumeError measure_volume(const Solid& solid, const Envelope& envelope, bool is
     error.solid = sampled.solid.value;
     error.standard_error += std::sqrt(sampled.solid.variance);
   }
-  if (is_inside) {
+  if (is_inside && solid.mesh().report.closed) {
     error.uncovered = std::max(0.0, error.solid - error.balls);
     return error;
   }
@@ -185,7 +185,8 @@ std::vector<double> protruding(const Solid& solid, std::span<const Ball> balls, 
   std::vector<std::vector<double>> by_ball(balls.size());
   for_all(balls.size(), 4, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
-    if (ball.radius <= solid.distance(ball.centre) && solid.contains(ball.centre)) return;
+    const bool closed = solid.mesh().report.closed;  // else balls may reach through holes
+    if (closed && ball.radius <= solid.distance(ball.centre) && solid.contains(ball.centre)) return;
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       if (k % 8 == 0) threads.check();
       const Point at = ball.centre + ball.radius * spiral_point(k, kSpherePoints);
@@ -275,6 +276,13 @@ DistanceHistograms histograms_of(const Solid& solid, const Envelope& envelope, c
 }
 
 }  // namespace
+
+Result<VolumeError> estimate_volume_error(const Solid& solid, std::span<const Ball> balls,
+                                          const MeasureOptions& options) {
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
+  if (!envelope) return envelope.error();
+  return measure_volume(solid, envelope.value(), false, false, options);
+}
 
 double VolumeError::normalized_lower_bound() const { return solid > 0 ? std::fabs(balls - solid) / solid : 0; }
 

@@ -76,6 +76,11 @@ struct MeasureOptions {
 Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball> balls,
                                        const MeasureOptions& options = {});
 
+/// measure_spheres().volume alone, of balls that are neither all inside nor a cover. Throws Stopped. Errors: those of
+/// measure_ball_union().
+Result<VolumeError> estimate_volume_error(const Solid& solid, std::span<const Ball> balls,
+                                          const MeasureOptions& options = {});
+
 /// The volume of a shape that facets stand for, from within (of balls proved to lie inside these) or from without (of
 /// balls proved to cover them), takes the place of the facets' own: the error is then exactly that of the shape. Other
 /// balls keep the facets for their measure; returns whether anything changed.

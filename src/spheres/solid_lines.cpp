@@ -21,19 +21,17 @@ class Shadow {
       : mesh_(mesh), axis_(axis), across_(across) {}
 
   /// Appends a crossing for every line of the bundle that passes the triangle.
-  void cross(const Triangle& triangle, const SolidLines::Bundle& bundle, double spacing,
-             std::vector<Crossing>& crossings) const {
+  void cross(const Triangle& triangle, const SolidLines::Bundle& bundle, std::vector<Crossing>& crossings) const {
     std::array<std::ptrdiff_t, 2> begin, end;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto [least, greatest] = std::minmax({flat(triangle[0], k), flat(triangle[1], k), flat(triangle[2], k)});
-      begin[k] = index(std::ceil((least - bundle.first[k]) / spacing), bundle.count[k]);
-      end[k] = index(std::floor((greatest - bundle.first[k]) / spacing) + 1, bundle.count[k]);
+      begin[k] = index(std::ceil((least - bundle.first[k]) / bundle.spacing[k]), bundle.count[k]);
+      end[k] = index(std::floor((greatest - bundle.first[k]) / bundle.spacing[k]) + 1, bundle.count[k]);
     }
     for (std::ptrdiff_t j = begin[1]; j < end[1]; ++j) {
       for (std::ptrdiff_t i = begin[0]; i < end[0]; ++i) {
-        const std::array<double, 2> at = {bundle.first[0] + spacing * static_cast<double>(i),
-                                          bundle.first[1] + spacing * static_cast<double>(j)};
-        cross_one(triangle, at, static_cast<std::uint32_t>(j * bundle.count[0] + i), crossings);
+        cross_one(triangle, {bundle.at(0, i), bundle.at(1, j)}, static_cast<std::uint32_t>(j * bundle.count[0] + i),
+                  crossings);
       }
     }
   }
@@ -75,17 +73,13 @@ class Shadow {
   std::array<std::size_t, 2> across_;
 };
 
-/// Of a closed mesh crossings tell the winding number; of another one the solid is asked, between them.
-std::vector<SolidLines::Stretch> inside_of(const Solid& solid, std::span<const Crossing> crossings, Point at,
-                                           std::size_t axis) {
+std::vector<SolidLines::Stretch> inside_of(std::span<const Crossing> crossings) {
   std::vector<SolidLines::Stretch> inside;
   int winding = 0;
   for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
     winding += crossings[k].turns;
     const double from = crossings[k].at, to = crossings[k + 1].at;
-    if (from == to) continue;
-    at[axis] = from + 0.5 * (to - from);
-    if (!(solid.mesh().report.closed ? winding > 0 : solid.contains(at))) continue;
+    if (from == to || winding <= 0) continue;
     if (!inside.empty() && inside.back().to == from) {
       inside.back().to = to;
     } else {
@@ -95,27 +89,20 @@ std::vector<SolidLines::Stretch> inside_of(const Solid& solid, std::span<const C
   return inside;
 }
 
-}  // namespace
-
-SolidLines::SolidLines(const Solid& solid, std::size_t per_side) {
-  const Point size = solid.mesh().report.upper - solid.mesh().report.lower;
-  spacing_ = std::max({size[0], size[1], size[2]}) / static_cast<double>(per_side);
-  for (std::size_t axis = 0; axis < 3; ++axis) bundles_[axis] = make_bundle(solid, axis);
-}
-
-SolidLines::Bundle SolidLines::make_bundle(const Solid& solid, std::size_t axis) const {
+SolidLines::Bundle make_bundle(const Solid& solid, std::size_t axis, double spacing, std::size_t least) {
   const Point &lower = solid.mesh().report.lower, &upper = solid.mesh().report.upper;
-  Bundle bundle;
+  SolidLines::Bundle bundle;
   bundle.across = {(axis + 1) % 3, (axis + 2) % 3};
   for (std::size_t k = 0; k < 2; ++k) {
     const double width = upper[bundle.across[k]] - lower[bundle.across[k]];
-    bundle.count[k] = std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(std::ceil(width / spacing_)));
-    const double rest = width - spacing_ * static_cast<double>(bundle.count[k] - 1);
-    bundle.first[k] = lower[bundle.across[k]] + 0.5 * rest;
+    const double count = std::max(static_cast<double>(least), std::ceil(width / spacing));
+    bundle.count[k] = static_cast<std::ptrdiff_t>(count);
+    bundle.spacing[k] = width / count;
+    bundle.first[k] = lower[bundle.across[k]] + 0.5 * bundle.spacing[k];
   }
   const Shadow shadow(solid.mesh().mesh, axis, bundle.across);
   std::vector<Crossing> crossings;
-  for (const Triangle& triangle : solid.mesh().mesh.triangles) shadow.cross(triangle, bundle, spacing_, crossings);
+  for (const Triangle& triangle : solid.mesh().mesh.triangles) shadow.cross(triangle, bundle, crossings);
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     return a.line != b.line ? a.line < b.line : a.at != b.at ? a.at < b.at : a.turns > b.turns;
   });
@@ -124,16 +111,30 @@ SolidLines::Bundle SolidLines::make_bundle(const Solid& solid, std::size_t axis)
     bundle.starts.push_back(bundle.inside.size());
     const auto end = std::find_if(begin, crossings.end(),
                                   [&](const Crossing& c) { return static_cast<std::ptrdiff_t>(c.line) != line; });
-    const std::ptrdiff_t j = line / bundle.count[0], i = line - j * bundle.count[0];
-    Point at;
-    at[bundle.across[0]] = bundle.first[0] + spacing_ * static_cast<double>(i);
-    at[bundle.across[1]] = bundle.first[1] + spacing_ * static_cast<double>(j);
-    const std::vector<Stretch> inside = inside_of(solid, {begin, end}, at, axis);
+    const std::vector<SolidLines::Stretch> inside = inside_of({begin, end});
     bundle.inside.insert(bundle.inside.end(), inside.begin(), inside.end());
     begin = end;
   }
   bundle.starts.push_back(bundle.inside.size());
   return bundle;
+}
+
+}  // namespace
+
+SolidLines::SolidLines(const Solid& solid, std::size_t per_side, std::size_t least) {
+  const Point size = solid.mesh().report.upper - solid.mesh().report.lower;
+  const double spacing = std::max({size[0], size[1], size[2]}) / static_cast<double>(per_side);
+  for (std::size_t axis = 0; axis < 3; ++axis) bundles_[axis] = make_bundle(solid, axis, spacing, least);
+}
+
+double SolidLines::volume() const {
+  double sum = 0;
+  for (const Bundle& bundle : bundles_) {
+    CompensatedSum lengths;
+    for (const Stretch& part : bundle.inside) lengths.add(part.to - part.from);
+    sum += lengths.value() * bundle.spacing[0] * bundle.spacing[1];
+  }
+  return sum / 3;
 }
 
 }  // namespace medial_vk

@@ -15,9 +15,9 @@ namespace medial_vk {
 /// Safe to share between threads.
 class SolidLines {
  public:
-  /// The solid's box in squares, `per_side` along its longest side, and a line through each, for every axis. Throws
-  /// std::bad_alloc.
-  SolidLines(const Solid& solid, std::size_t per_side);
+  /// Lines through the middles of equal rectangles that fill the solid's box, `per_side` along its longest side, as
+  /// close along the others, but at least `least`; for every axis. The mesh is closed. Throws std::bad_alloc.
+  SolidLines(const Solid& solid, std::size_t per_side, std::size_t least);
 
   struct Stretch {
     double from, to;  ///< Coordinates along the line.
@@ -26,10 +26,15 @@ class SolidLines {
   struct Bundle {
     std::array<std::size_t, 2> across;    ///< The other axes, in cyclic order.
     std::array<double, 2> first;          ///< Coordinates of the first line on those.
+    std::array<double, 2> spacing;        ///< From one line to the next.
     std::array<std::ptrdiff_t, 2> count;  ///< Of lines along those.
     std::vector<std::size_t> starts;      ///< By line: its first stretch, and one more.
     std::vector<Stretch> inside;          ///< Of all lines, in ascending order on each.
 
+    /// Coordinate of the lines of that number along across[k].
+    double at(std::size_t k, std::ptrdiff_t number) const {
+      return first[k] + spacing[k] * static_cast<double>(number);
+    }
     /// Of the line of these numbers along `across`; none beyond the box.
     std::span<const Stretch> stretches(std::ptrdiff_t i, std::ptrdiff_t j) const {
       if (i < 0 || j < 0 || i >= count[0] || j >= count[1]) return {};
@@ -38,13 +43,10 @@ class SolidLines {
     }
   };
   const Bundle& along(std::size_t axis) const { return bundles_[axis]; }
-  /// From one line to the next.
-  double spacing() const { return spacing_; }
+  /// Of the solid, as the mean over the axes.
+  double volume() const;
 
  private:
-  Bundle make_bundle(const Solid& solid, std::size_t axis) const;
-
-  double spacing_;
   std::array<Bundle, 3> bundles_;
 };
 

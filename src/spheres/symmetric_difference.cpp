@@ -1,13 +1,14 @@
 #include "spheres/symmetric_difference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace medial_vk {
 namespace {
 
-/// Along the longest side of the solid.
-constexpr std::size_t kLines = 160;
+/// Along the longest side of the solid, and along others at least.
+constexpr std::size_t kLines = 160, kLeastLines = 32;
 
 double overlap(const SolidLines::Stretch& a, const SolidLines::Stretch& b) {
   return std::max(0.0, std::min(a.to, b.to) - std::max(a.from, b.from));
@@ -15,12 +16,15 @@ double overlap(const SolidLines::Stretch& a, const SolidLines::Stretch& b) {
 
 }  // namespace
 
-SymmetricDifference::SymmetricDifference(const Solid& solid) : lines_(solid, kLines) {}
+SymmetricDifference::SymmetricDifference(const Solid& solid) : lines_(solid, kLines, kLeastLines) {}
 
 double SymmetricDifference::change(const Ball& ball, std::span<const Ball> others) {
   double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) sum += change_along(ball, others, axis);
-  return sum / 3 * lines_.spacing() * lines_.spacing();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::array<double, 2>& spacing = lines_.along(axis).spacing;
+    sum += spacing[0] * spacing[1] * change_along(ball, others, axis);
+  }
+  return sum / 3;
 }
 
 SymmetricDifference::Disc SymmetricDifference::slice(const Ball& ball, std::size_t axis, std::size_t across,
@@ -34,7 +38,7 @@ double SymmetricDifference::change_along(const Ball& ball, std::span<const Ball>
   const auto [u, v] = bundle.across;
   double sum = 0;
   for (std::ptrdiff_t j = first_line(bundle, 1, ball.centre[v] - ball.radius);; ++j) {
-    const double y = bundle.first[1] + lines_.spacing() * static_cast<double>(j);
+    const double y = bundle.at(1, j);
     const Disc disc = slice(ball, axis, u, y - ball.centre[v]);
     if (y >= ball.centre[v] + ball.radius) break;
     if (disc.squared <= 0) continue;  // by rounding
@@ -44,7 +48,7 @@ double SymmetricDifference::change_along(const Ball& ball, std::span<const Ball>
     }
     const double half = std::sqrt(disc.squared);
     for (std::ptrdiff_t i = first_line(bundle, 0, disc.across - half);; ++i) {
-      const double x = bundle.first[0] + lines_.spacing() * static_cast<double>(i);
+      const double x = bundle.at(0, i);
       if (x >= disc.across + half) break;
       find_left(disc, x);
       for (const Stretch& part : left_) {
@@ -56,8 +60,8 @@ double SymmetricDifference::change_along(const Ball& ball, std::span<const Ball>
   return sum;
 }
 
-std::ptrdiff_t SymmetricDifference::first_line(const SolidLines::Bundle& bundle, std::size_t k, double from) const {
-  return static_cast<std::ptrdiff_t>(std::ceil((from - bundle.first[k]) / lines_.spacing()));
+std::ptrdiff_t SymmetricDifference::first_line(const SolidLines::Bundle& bundle, std::size_t k, double from) {
+  return static_cast<std::ptrdiff_t>(std::ceil((from - bundle.first[k]) / bundle.spacing[k]));
 }
 
 /// Where the line at x of the row is in the ball and in no other.

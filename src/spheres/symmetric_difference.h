@@ -13,7 +13,11 @@ namespace medial_vk {
 /// for the balls that there are then: it does not drift. For one thread.
 class SymmetricDifference {
  public:
+  /// Of a closed mesh. Throws std::bad_alloc.
   explicit SymmetricDifference(const Solid& solid);
+
+  /// Of no balls: that of the solid.
+  double of_none() const { return lines_.volume(); }
 
   /// Of a union of these balls, one more than of `others`: the volume of what only this one holds outside the solid,
   /// less that inside. Mesh units cubed.
@@ -28,7 +32,7 @@ class SymmetricDifference {
   };
   static Disc slice(const Ball& ball, std::size_t axis, std::size_t across, double off);
   double change_along(const Ball& ball, std::span<const Ball> others, std::size_t axis);
-  std::ptrdiff_t first_line(const SolidLines::Bundle& bundle, std::size_t k, double from) const;
+  static std::ptrdiff_t first_line(const SolidLines::Bundle& bundle, std::size_t k, double from);
   void find_left(const Disc& ball, double x);
   void take_away(const Stretch& taken);
 

@@ -49,9 +49,10 @@ std::vector<std::array<double, 4>> numbers_of(const std::vector<Ball>& balls) {
 double volume_of(const Ball& ball) { return 4 * kPi / 3 * ball.radius * ball.radius * ball.radius; }
 
 double volume_along(const SolidLines& lines, std::size_t axis) {
+  const SolidLines::Bundle& bundle = lines.along(axis);
   double sum = 0;
-  for (const SolidLines::Stretch& part : lines.along(axis).inside) sum += part.to - part.from;
-  return sum * lines.spacing() * lines.spacing();
+  for (const SolidLines::Stretch& part : bundle.inside) sum += part.to - part.from;
+  return sum * bundle.spacing[0] * bundle.spacing[1];
 }
 
 /// A sum of lengths instead of their integral: the length changes by at most its greatest value, up and down again,
@@ -60,16 +61,19 @@ double volume_along(const SolidLines& lines, std::size_t axis) {
 double line_error(double area, double spacing) { return 4 * spacing * area; }
 
 TEST(SolidLines, HaveTheVolumeOfABoxExactlyAlongEachAxis) {
-  const Shape box(test::make_box({2, 1, 0.5}));
-  const SolidLines lines(box.solid, 64);
+  const Point size = {2, 1, 0.003};  // of the last side less than a spacing
+  const Shape box(test::make_box(size));
+  const SolidLines lines(box.solid, 64, 8);
+  const double whole = size[0] * size[1] * size[2];
+  EXPECT_NEAR(lines.volume(), whole, 1e-12 * whole);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const SolidLines::Bundle& bundle = lines.along(axis);
     for (const SolidLines::Stretch& part : bundle.inside) {
-      EXPECT_EQ(part.from, box.mesh.report.lower[axis]);
-      EXPECT_EQ(part.to, box.mesh.report.upper[axis]);
+      // Three quotients, three products and two sums, each rounded by half a unit of at most the greatest coordinate.
+      EXPECT_NEAR(part.from, box.mesh.report.lower[axis], 8 * 0x1p-53 * size[axis]);
+      EXPECT_NEAR(part.to, box.mesh.report.upper[axis], 8 * 0x1p-53 * size[axis]);
     }
-    const double across = 1 / (box.mesh.report.upper[axis] - box.mesh.report.lower[axis]);
-    EXPECT_NEAR(volume_along(lines, axis), 1, lines.spacing() * 2 * (2 + 1) * across + 1e-12);
+    EXPECT_NEAR(volume_along(lines, axis), whole, 1e-12 * whole);
   }
 }
 
@@ -77,14 +81,14 @@ TEST(SolidLines, PassEdgesAndVerticesOnce) {
   // Lines through the middles of the squares meet the diagonals of the faces, and vertices of a grid of triangles.
   for (const std::size_t per_side : {16u, 32u, 33u}) {
     const Shape torus(test::make_torus(1, 0.4, 32, 16));
-    const SolidLines lines(torus.solid, per_side);
+    const SolidLines lines(torus.solid, per_side, 4);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const SolidLines::Bundle& bundle = lines.along(axis);
       for (std::ptrdiff_t j = 0; j < bundle.count[1]; ++j) {
         for (std::ptrdiff_t i = 0; i < bundle.count[0]; ++i) {
           Point at{};
-          at[bundle.across[0]] = bundle.first[0] + lines.spacing() * static_cast<double>(i);
-          at[bundle.across[1]] = bundle.first[1] + lines.spacing() * static_cast<double>(j);
+          at[bundle.across[0]] = bundle.at(0, i);
+          at[bundle.across[1]] = bundle.at(1, j);
           for (const SolidLines::Stretch& part : bundle.stretches(i, j)) {
             at[axis] = 0.5 * (part.from + part.to);
             EXPECT_TRUE(torus.solid.contains(at));
@@ -107,16 +111,17 @@ TEST(SolidLines, LeaveCavitiesOut) {
   for (const Triangle& t : cavity.triangles) shells.triangles.push_back({first + t[0], first + t[2], first + t[1]});
   const Shape shape(std::move(shells));
   ASSERT_TRUE(shape.solid.has_volume());
-  const SolidLines lines(shape.solid, 60);
+  const SolidLines lines(shape.solid, 60, 4);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(volume_along(lines, axis), 26, line_error(9 + 1, lines.spacing()) * 3);
+    EXPECT_NEAR(volume_along(lines, axis), 26, line_error(9 + 1, 3.0 / 60) * 3);
   }
 }
 
 TEST(SymmetricDifference, CountsABallInsideDownAndOneOutsideUp) {
   const Shape box(test::make_box({1, 1, 1}));
   SymmetricDifference difference(box.solid);
-  const double spacing = SolidLines(box.solid, 160).spacing();
+  const double spacing = 1.0 / 160;
+  EXPECT_NEAR(difference.of_none(), 1, 1e-12);
   const Ball inside = {{0.4, 0.5, 0.55}, 0.3};
   EXPECT_NEAR(difference.change(inside, {}), -volume_of(inside), line_error(kPi * 0.09, spacing));
   // Half of it outside: nothing is gained and nothing lost.
@@ -155,7 +160,7 @@ TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
     const double h = std::max(0.0, r - 0.5);
     return 1 - 4 * kPi / 3 * r * r * r + 12 * kPi * h * h * (3 * r - h) / 3;
   };
-  const double estimate_error = line_error(kPi * 0.36, SolidLines(cube.solid, 160).spacing());
+  const double estimate_error = line_error(kPi * 0.36, 1.0 / 160);
   EXPECT_LE(difference(ball.radius), difference(0.6) + 2 * estimate_error);
   EXPECT_NEAR(ball.radius, 0.6, 0.04);  // where that holds
 }
@@ -189,30 +194,50 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
   EXPECT_EQ(numbers_of(levels[3].balls), numbers_of(shape.balanced(8).back().balls));
 }
 
-/// Balls come and move, and what is left is kept count of: as if it were added up anew.
-TEST(BalancedSpheres, MeetAnErrorByTheEstimateAndWithNoBallTooMany) {
-  const Shape shape(test::make_l_shape(2.0, 0.6, 0.8));
-  const auto left = [&](const std::vector<Ball>& balls) {
-    SymmetricDifference difference(shape.solid);
-    double sum = shape.solid.volume();
-    for (std::size_t k = 0; k < balls.size(); ++k) sum += difference.change(balls[k], {balls.data(), k});
-    return sum / shape.solid.volume();
-  };
-  SphereRequest request;
-  request.contract = SphereContract::kBalanced;
-  request.error = 0.15;
-  const std::vector<Ball> balls = approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).value().balls;
-  EXPECT_LE(left(balls), 0.15 + 1e-9);
-  EXPECT_GT(left(shape.balanced(balls.size() - 1).back().balls), 0.15 - 1e-9);
+/// A box that is thinner than a spacing of lines, too.
+TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
+  for (const Point& size : {Point{1, 0.8, 0.6}, Point{1, 0.02, 0.006}}) {
+    const Shape box(test::make_box(size));
+    SphereRequest request;
+    request.contract = SphereContract::kBalanced;
+    request.error = 0.25;
+    const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, Backend::kCpu, nullptr).value().balls;
+    MeasureOptions other;
+    other.seed = 7;  // other samples than those that the search has seen
+    const VolumeError error = estimate_volume_error(box.solid, balls, other).value();
+    EXPECT_LE(error.normalized(), 0.25 + 8 * error.normalized_standard_error());
+    EXPECT_LE(measure_spheres(box.solid, balls).value().volume.normalized(), 0.25);  // as it is reported
+    request.count = balls.size();
+    request.error = 0;
+    request.contract = SphereContract::kInside;
+    const SphereSet inside = approximate_by_spheres(box.solid, request, Backend::kCpu, nullptr).value();
+    EXPECT_GT(measure_spheres(box.solid, inside.balls).value().volume.normalized(), 0.25);
+  }
 }
 
-TEST(BalancedSpheres, OfAnOpenMeshAreBallsToo) {
+TEST(BalancedSpheres, LevelsOfAnErrorAreHalves) {
+  const Shape box(test::make_box({1, 1, 1}));
+  SphereRequest request;
+  request.contract = SphereContract::kBalanced;
+  request.error = 0.2;
+  const std::vector<SphereSet> levels = approximate_in_levels(box.solid, request, Backend::kCpu, nullptr).value();
+  ASSERT_GT(levels.size(), 2u);
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    EXPECT_EQ(levels[k].balls.size(), levels[k + 1].balls.size() / 2);
+  }
+  EXPECT_LE(measure_spheres(box.solid, levels.back().balls).value().volume.normalized(), 0.2);
+}
+
+TEST(BalancedSpheres, OfAnOpenMeshAreRefused) {
   Mesh open = test::make_box({1, 1, 1});
   open.triangles.pop_back();
   const Shape shape(std::move(open));
-  const std::vector<Ball> balls = shape.balanced(6).back().balls;
-  EXPECT_EQ(balls.size(), 6u);
-  for (const Ball& ball : balls) EXPECT_GT(ball.radius, 0);
+  SphereRequest request;
+  request.contract = SphereContract::kBalanced;
+  request.count = 6;
+  EXPECT_EQ(approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).error().code, ErrorCode::kUsage);
+  request.method = SphereMethod::kSource;
+  EXPECT_TRUE(approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).ok());
 }
 
 }  // namespace
