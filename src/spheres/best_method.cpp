@@ -93,7 +93,7 @@ class Placing {
   Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
     if (request_.error > 0) {
-      const Result<bool> met = error_met();
+      Result<bool> met = error_met();
       if (!met || !met.value()) return met;
     }
     return request_.max_gap > 0 ? gap_met() : true;
