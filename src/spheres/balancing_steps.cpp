@@ -1,5 +1,5 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -30,71 +30,30 @@ struct Change {
   double growth = 0;
 };
 
-using Row = std::array<double, 5>;  // of four equations, with the right side
-
-/// The solution of a positive definite system.
-std::array<double, 4> solve(std::array<Row, 4> rows) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t i = k + 1; i < 4; ++i) {
-      const double factor = rows[i][k] / rows[k][k];
-      for (std::size_t j = k; j < 5; ++j) rows[i][j] -= factor * rows[k][j];
-    }
-  }
-  std::array<double, 4> x{};
-  for (std::size_t k = 4; k-- > 0;) {
-    double sum = rows[k][4];
-    for (std::size_t j = k + 1; j < 4; ++j) sum -= rows[k][j] * x[j];
-    x[k] = sum / rows[k][k];
-  }
-  return x;
-}
-
 /// The change that leaves the least sum of |height - growth - move . normal|, by least squares whose weights are the
 /// inverses of what the round before has left (iteratively reweighted least squares). `unit`: of a length.
 Change least_absolute(const std::vector<Height>& heights, double unit) {
-  Change change;
+  Eigen::Vector4d change = Eigen::Vector4d::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    std::array<Row, 4> rows{};
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (const Height& height : heights) {
-      const double rest = height.value - change.growth - dot(change.move, height.normal);
+      const Eigen::Vector4d row(height.normal[0], height.normal[1], height.normal[2], 1);
+      const double rest = height.value - row.dot(change);
       const double weight = round == 0 ? 1 : 1 / std::max(std::fabs(rest) / unit, 1e-3);
-      const std::array<double, 4> row = {height.normal[0], height.normal[1], height.normal[2], 1};
-      for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t j = 0; j < 4; ++j) rows[i][j] += weight * row[i] * row[j];
-        rows[i][4] += weight * row[i] * height.value;
-      }
+      matrix += weight * row * row.transpose();
+      right += weight * height.value * row;
     }
     // What a few points on one side do not tell apart, growing and moving, is shared among them.
-    for (std::size_t i = 0; i < 4; ++i) rows[i][i] += kRidge * rows[3][3];
-    const std::array<double, 4> x = solve(rows);
-    change = {{x[0], x[1], x[2]}, x[3]};
+    matrix.diagonal().array() += kRidge * matrix(3, 3);
+    change = matrix.ldlt().solve(right);
   }
-  return change;
+  return {{change[0], change[1], change[2]}, change[3]};
 }
 
 class BalancingSteps : public BallSteps {
  public:
   explicit BalancingSteps(const Solid& solid) : solid_(solid), difference_(solid) {}
-
-  Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step) override {
-    const Ball ball = balls.ball(place);
-    if (step < kShortestStep * ball.radius) return 0.0;
-    find_others(balls, place, 3 * step);
-    const std::optional<Ball> moved = propose(ball, step);
-    if (!moved) {
-      step /= 4;
-      return 0.0;
-    }
-    const double gain = difference_.change(ball, others_) - difference_.change(*moved, others_);
-    if (!(gain > 0)) {
-      step /= 2;
-      return 0.0;
-    }
-    if (Status status = balls.move(place, *moved); !status.ok()) return status.error();
-    gained_ += gain;
-    step = std::min(1.3 * step, kLongestStep * moved->radius);
-    return gain;
-  }
 
   void came(const DynamicUnion& balls, std::uint32_t place) override {
     find_others(balls, place, 0);
@@ -121,7 +80,9 @@ class BalancingSteps : public BallSteps {
     for (const auto& [apart, other] : found) others_.push_back(other);
   }
 
-  std::optional<Ball> propose(const Ball& ball, double step) {
+  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) override {
+    const Ball& ball = balls.ball(place);
+    find_others(balls, place, 3 * step);
     heights_.clear();
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       const Point normal = spiral_point(k, kSpherePoints);
@@ -130,12 +91,21 @@ class BalancingSteps : public BallSteps {
       heights_.push_back({normal, height_at(at, normal)});
     }
     if (heights_.empty()) return std::nullopt;
-    Change change = least_absolute(heights_, step);
+    const Change change = least_absolute(heights_, step);
     const double size = length(change.move) + std::fabs(change.growth);
     if (!(size > 1e-6 * step)) return std::nullopt;
     const double factor = std::min(1.0, step / size);
     const Ball moved = {ball.centre + factor * change.move, ball.radius + factor * change.growth};
     return moved.radius > 0 ? std::optional(moved) : std::nullopt;
+  }
+
+  /// Among the others that propose() has found: a step is at most as long as it was told.
+  Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
+    const double gain = difference_.change(balls.ball(place), others_) - difference_.change(to, others_);
+    if (!(gain > 0)) return 0.0;
+    if (Status status = balls.move(place, to); !status.ok()) return status.error();
+    gained_ += gain;
+    return gain;
   }
 
   bool is_in_other(const Point& at) const {

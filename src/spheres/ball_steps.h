@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "medial_vk/dynamic_union.h"
 #include "mesh/solid.h"
@@ -14,15 +15,18 @@ class BallSteps {
   virtual ~BallSteps() = default;
   /// Moves the ball at `place` about as far as `step`, if that gains anything, and says how much (mesh units cubed); 0:
   /// it is where it was. `step` becomes the length to try next. Errors: those of DynamicUnion::move().
-  virtual Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step) = 0;
+  Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step);
   /// To be called for each ball that was added.
   virtual void came(const DynamicUnion& balls, std::uint32_t place) = 0;
   /// Share of the solid's volume that is to become small.
   virtual double error(const DynamicUnion& balls) const = 0;
-};
 
-/// A ball that is smaller than `step` allows, in radii, is where it should be.
-constexpr double kLongestStep = 0.5, kShortestStep = 1e-3;
+ private:
+  /// The ball that should be there instead; nothing where no direction is better.
+  virtual std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) = 0;
+  /// What that gains; 0: it does not, and nothing has changed.
+  virtual Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) = 0;
+};
 
 /// Balls stay inside the solid and touch its boundary; gained is the volume of the union.
 std::unique_ptr<BallSteps> sliding_steps(const Solid& solid);

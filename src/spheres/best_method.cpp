@@ -71,9 +71,11 @@ class Placing {
       if (!choice) return choice.error();
       if (!choice.value()) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
-      volumes_.push_back(volume_);
+      volumes_.push_back(balls_.volume());
       if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
-      if (progress_ && !progress_("spheres", share_done(most))) return Error{ErrorCode::kInterrupted, "stopped"};
+      if (!progress_) continue;
+      shown_ = share_done(most);
+      if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "stopped"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
     if (has_goals()) return unmet();
@@ -129,7 +131,7 @@ class Placing {
   std::function<bool()> goes_on() const {
     return [&, mutex = std::make_shared<std::mutex>()] {
       const std::lock_guard lock(*mutex);
-      return !progress_ || progress_("spheres", 0);
+      return !progress_ || progress_("spheres", shown_);
     };
   }
 
@@ -246,7 +248,6 @@ class Placing {
     const Ball ball = is_larger ? maximal : choice.ball;
     const Result<std::uint32_t> place = balls_.add(ball);
     if (!place) return place.error();
-    volume_ = balls_.volume();
     moves_->came(balls_, place.value());
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
     note_change();
@@ -284,9 +285,7 @@ class Placing {
   /// One step of one ball: what it gained.
   Result<double> move(std::uint32_t place) {
     Result<double> gain = moves_->take(balls_, place, steps_[place]);
-    if (!gain || gain.value() == 0) return gain;
-    volume_ = balls_.volume();
-    note_change();
+    if (gain && gain.value() > 0) note_change();
     return gain;
   }
 
@@ -317,7 +316,7 @@ class Placing {
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
   std::size_t levels_ = 0;
-  double volume_ = 0;
+  double shown_ = 0;             // share of the work, as progress was told
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
   double estimated_error_;     // what the steps must show before it is measured

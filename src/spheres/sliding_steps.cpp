@@ -12,36 +12,27 @@ class SlidingSteps : public BallSteps {
  public:
   explicit SlidingSteps(const Solid& solid) : solid_(solid), slider_(solid) {}
 
-  Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step) override {
-    const Ball ball = balls.ball(place);
-    if (step < kShortestStep * ball.radius) return 0.0;
-    const Point move = slider_.direction(ball, balls.exposure(place), step);
-    if (move == Point{}) {
-      step /= 4;
-      return 0.0;
-    }
-    const Ball moved = maximal_ball(solid_, ball.centre + move);
-    if (!(moved.radius > 0) || !stays_inside(solid_, moved)) {
-      step /= 2;
-      return 0.0;
-    }
-    const double before = balls.volume();
-    if (Status status = balls.move(place, moved); !status.ok()) return status.error();
-    const double gain = balls.volume() - before;
-    if (!(gain > 0)) {
-      balls.undo();
-      step /= 2;
-      return 0.0;
-    }
-    step = std::min(1.3 * step, kLongestStep * moved.radius);
-    return gain;
-  }
-
   void came(const DynamicUnion& /*balls*/, std::uint32_t /*place*/) override {}
 
   double error(const DynamicUnion& balls) const override { return 1 - balls.volume() / solid_.volume(); }
 
  private:
+  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) override {
+    const Ball& ball = balls.ball(place);
+    const Point move = slider_.direction(ball, balls.exposure(place), step);
+    return move == Point{} ? std::nullopt : std::optional(maximal_ball(solid_, ball.centre + move));
+  }
+
+  Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
+    if (!(to.radius > 0) || !stays_inside(solid_, to)) return 0.0;
+    const double before = balls.volume();
+    if (Status status = balls.move(place, to); !status.ok()) return status.error();
+    const double gain = balls.volume() - before;
+    if (gain > 0) return gain;
+    balls.undo();
+    return 0.0;
+  }
+
   const Solid& solid_;
   Slider slider_;
 };
