@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "balls/ball_in_cell.h"
-#include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
+#include "balls/regular_triangulation.h"
 #include "balls/simplex_lists.h"
 #include "balls/unit_balls.h"
 #include "host_memory.h"
@@ -14,7 +14,9 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // balls that share hints: fixed, so that bytes do not depend on threads
+/// Balls that one thread measures in a row. It depends on nothing but their number, so that bytes do not depend on
+/// threads; large enough for the table of all balls that every PowerCell makes, small enough for even work.
+std::size_t block_of(std::size_t balls) { return std::clamp<std::size_t>(balls / 64, 64, 4096); }
 
 /// What one block of balls adds to the lists.
 struct Pieces {
@@ -25,13 +27,17 @@ struct Pieces {
 class Measuring {
  public:
   Measuring(std::span<const Ball> balls, const BallUnionOptions& options)
-      : balls_(balls), options_(options), threads_(thread_count(options.threads)), tree_(balls, threads_) {}
+      : balls_(balls),
+        options_(options),
+        threads_(thread_count(options.threads)),
+        block_(block_of(balls.size())),
+        triangulation_(balls, threads_) {}
 
   BallUnion run() {
     result_.volumes.resize(balls_.size());
     result_.areas.resize(balls_.size());
-    if (options_.complex) pieces_.resize((balls_.size() + kBlock - 1) / kBlock);
-    parallel_blocks(balls_.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
+    if (options_.complex) pieces_.resize((balls_.size() + block_ - 1) / block_);
+    parallel_blocks(balls_.size(), block_, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
     result_.volume = careful_sum(result_.volumes);
     result_.area = careful_sum(result_.areas);
     for (const Pieces& pieces : pieces_) {
@@ -44,18 +50,18 @@ class Measuring {
 
  private:
   void measure(std::size_t begin, std::size_t end) {
-    CellBuilder builder(balls_, tree_);
+    PowerCell cell(triangulation_.balls());
     SimplexCollector collector;
-    for (std::size_t n = begin; n < end; ++n) {
-      const std::uint32_t i = tree_.order()[n];
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
       const Ball& ball = balls_[i];
       if (ball.radius == 0) continue;
-      const PowerCell& cell = builder.build(i);
+      cell.start(i, triangulation_);
+      cell.sharpen();
       const BallInCell part = measure_ball_in_cell(cell, ball.radius);
       result_.volumes[i] = part.volume;
       result_.areas[i] = part.area;
       if (options_.complex) {
-        Pieces& pieces = pieces_[begin / kBlock];
+        Pieces& pieces = pieces_[begin / block_];
         collector.collect(cell, ball, pieces.complex, pieces.vertices);
       }
     }
@@ -64,7 +70,8 @@ class Measuring {
   std::span<const Ball> balls_;
   BallUnionOptions options_;
   unsigned threads_;
-  BallTree tree_;
+  std::size_t block_;
+  RegularTriangulation triangulation_;
   std::vector<Pieces> pieces_;
   BallUnion result_;
 };

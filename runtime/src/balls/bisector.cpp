@@ -22,6 +22,21 @@ Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j)
   return {.normal = scale * between, .offset = 0.5 * (distance + radii), .slack = slack, .ball = name};
 }
 
+// With unit normals, |p x q| <= 1, so every product
+/// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
+/// factors with 4 roundings each, the factors' own 4 among them); the point then moves by numerator and denominator.
+std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s) {
+  const Point qs = cross(q.normal, s.normal);
+  const double determinant = dot(p.normal, qs);
+  if (std::fabs(determinant) < 64 * DBL_EPSILON) return {{}, HUGE_VAL};
+  const Point sum = p.offset * qs + q.offset * cross(s.normal, p.normal) + s.offset * cross(p.normal, q.normal);
+  const double scale = 1 / determinant;
+  const Point at = scale * sum;
+  const double offsets = std::fabs(p.offset) + std::fabs(q.offset) + std::fabs(s.offset);
+  const double error = 32 * DBL_EPSILON * (offsets + length(at)) + p.slack + q.slack + s.slack;
+  return {at, 2 * std::fabs(scale) * error};
+}
+
 namespace {
 
 /// The determinant of three normals, for both kinds of numbers.
@@ -69,7 +84,7 @@ ExactSide::Row<DoubleDouble> ExactSide::rounded_row(std::uint32_t i, std::int32_
   const Ball& a = balls_[i];
   const Ball& b = balls_[static_cast<std::size_t>(plane)];
   const DoubleDouble ra(a.radius), rb(b.radius);
-  row.offset = ra * ra - rb * rb;
+  row.offset = DoubleDouble::difference(a.radius, b.radius) * (ra + rb);  // exact for equal balls
   for (int k = 0; k < 3; ++k) {
     const DoubleDouble between = DoubleDouble::difference(b.centre[k], a.centre[k]);
     row.normal[k] = between + between;
@@ -106,11 +121,25 @@ bool ExactSide::keeps(std::uint32_t i, std::int32_t p, std::int32_t q, std::int3
   const auto det = [&](int a, int b, int c) {
     return determinant(r[a], r[b], r[c], std::minus<>{}, std::plus<>{}, std::multiplies<>{});
   };
-  const DoubleDouble orientation = det(0, 1, 2);
-  const DoubleDouble sum = (det(0, 2, 3) * r[1].offset - det(1, 2, 3) * r[0].offset) +
-                           (orientation * r[3].offset - det(0, 1, 3) * r[2].offset);
-  const int side = sum.certain_sign() * orientation.certain_sign();
-  return side != 0 ? side > 0 : keeps_by_expansions(i, names);
+  const std::array<DoubleDouble, 4> cofactors = {-det(1, 2, 3), det(0, 2, 3), -det(0, 1, 3), det(0, 1, 2)};
+  const DoubleDouble sum = (cofactors[0] * r[0].offset + cofactors[1] * r[1].offset) +
+                           (cofactors[2] * r[2].offset + cofactors[3] * r[3].offset);
+  const auto side = sum.certain_sign(), orientation = cofactors[3].certain_sign();
+  if (!side || !orientation) return keeps_by_expansions(i, names);
+  if (*side != 0) return *side == *orientation;
+  DoubleDouble of_own;
+  Signs signs{};
+  bool is_certain = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (names[k] >= 0) of_own = of_own + cofactors[k];
+    const auto sign = cofactors[k].certain_sign();
+    is_certain = is_certain && sign;
+    signs.cofactors[k] = sign.value_or(0);
+  }
+  const auto sign_of_own = of_own.certain_sign();
+  if (!is_certain || !sign_of_own) return keeps_by_expansions(i, names);
+  signs.of_own = *sign_of_own;
+  return keeps_tied(i, names, signs);
 }
 
 bool ExactSide::keeps_by_expansions(std::uint32_t i, const std::array<std::int32_t, 4>& names) {
@@ -124,17 +153,21 @@ bool ExactSide::keeps_by_expansions(std::uint32_t i, const std::array<std::int32
   const Expansion zero;
   const std::array<Expansion, 4> cofactors = {difference(zero, det(1, 2, 3)), det(0, 2, 3),
                                               difference(zero, det(0, 1, 3)), det(0, 1, 2)};
-  const int orientation = sign(cofactors[3]);
-  Expansion sum;
+  Expansion sum, of_own;
   for (std::size_t k = 0; k < 4; ++k) sum = plus(sum, times(cofactors[k], r[k].offset));
-  if (!sum.empty()) return sign(sum) == orientation;
-
-  // A larger r_k^2 lowers the offset of plane k, a larger r_i^2 raises all that are between balls. The ball named first
-  // decides, unless its cofactor vanishes.
-  Expansion of_own;
+  if (!sum.empty()) return sign(sum) == sign(cofactors[3]);
+  Signs signs{};
   for (std::size_t k = 0; k < 4; ++k) {
     if (names[k] >= 0) of_own = plus(of_own, cofactors[k]);
+    signs.cofactors[k] = sign(cofactors[k]);
   }
+  signs.of_own = sign(of_own);
+  return keeps_tied(i, names, signs);
+}
+
+/// A larger r_k^2 lowers the offset of plane k, a larger r_i^2 raises all that are between balls. The ball named first
+/// decides, unless its cofactor vanishes.
+bool ExactSide::keeps_tied(std::uint32_t i, const std::array<std::int32_t, 4>& names, const Signs& signs) {
   struct Decision {
     std::int32_t ball = INT32_MAX;
     int sign = 0;
@@ -143,12 +176,25 @@ bool ExactSide::keeps_by_expansions(std::uint32_t i, const std::array<std::int32
   const auto consider = [&](std::int32_t ball, int sign_of_term) {
     if (sign_of_term != 0 && ball < decision.ball) decision = {ball, sign_of_term};
   };
-  consider(static_cast<std::int32_t>(i), sign(of_own));
+  consider(static_cast<std::int32_t>(i), signs.of_own);
   for (std::size_t k = 0; k < 4; ++k) {
-    if (names[k] >= 0) consider(names[k], -sign(cofactors[k]));
+    if (names[k] >= 0) consider(names[k], -signs.cofactors[k]);
   }
   // Without a decision m is a wall: walls are imagined a little farther out.
-  return decision.sign == 0 || decision.sign == orientation;
+  return decision.sign == 0 || decision.sign == signs.cofactors[3];
+}
+
+int ExactSide::orientation(std::uint32_t i, std::uint32_t p, std::uint32_t q, std::uint32_t s) {
+  const auto name = [](std::uint32_t ball) { return static_cast<std::int32_t>(ball); };
+  const auto rounded = determinant(rounded_row(i, name(p)), rounded_row(i, name(q)), rounded_row(i, name(s)),
+                                   std::minus<>{}, std::plus<>{}, std::multiplies<>{});
+  if (const auto sign = rounded.certain_sign()) return *sign;
+  arena_.reset();
+  return sign(determinant(
+      exact_row(i, name(p)), exact_row(i, name(q)), exact_row(i, name(s)),
+      [&](Expansion a, Expansion b) { return math_.difference(a, b); },
+      [&](Expansion a, Expansion b) { return math_.sum(a, b); },
+      [&](Expansion a, Expansion b) { return math_.product(a, b); }));
 }
 
 std::pair<Point, double> ExactSide::meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s) {

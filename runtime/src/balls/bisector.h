@@ -29,6 +29,20 @@ struct Bisector {
 /// The plane between balls i and j; |c| and r are at most 1.
 Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j);
 
+/// Where three planes meet, and how far rounding may have moved it; HUGE_VAL where they are parallel to a line, or
+/// nearly.
+std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s);
+
+// Corners that rounding may have moved by more, in radii, are found with more digits if they are in reach of the ball:
+// where planes nearly have a line in common, anything may happen along it, and volumes and simplices must not depend on
+// which.
+inline constexpr double kSharpCorner = 0x1p-40;
+// In reach, in radii: corners on the walls of a cell's box are not, whatever rounding does, and what touches is.
+inline constexpr double kReach = 1 + 0x1p-20;
+// The same wherever they are, at once: beyond this, more would be asked of the tree and decided exactly. In radii, or
+// in the distance from the centre.
+inline constexpr double kRoughCorner = 0x1p-20;
+
 /// A plane that belongs to one cell only: normal . x <= offset, these very doubles.
 struct Wall {
   Point normal;
@@ -45,6 +59,8 @@ class ExactSide {
   /// True if plane m keeps the point where planes p, q, s of the cell of ball i meet. Their normals are independent.
   /// Each is a ball's number or -1 - a wall's.
   bool keeps(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s, std::int32_t m);
+  /// -1, 0 or 1: the sign of det(c_p - c_i, c_q - c_i, c_s - c_i).
+  int orientation(std::uint32_t i, std::uint32_t p, std::uint32_t q, std::uint32_t s);
   /// Where planes p, q, s of the cell of ball i meet, relative to its centre, and how far rounding may have moved that:
   /// a few units in the last place of the point's distance, however flat the corner.
   std::pair<Point, double> meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s);
@@ -61,6 +77,12 @@ class ExactSide {
   struct Row {
     Number normal[3], offset;
   };
+  /// Of the cofactors of the offsets of four planes, and of the sum of those that belong to balls.
+  struct Signs {
+    std::array<int, 4> cofactors;
+    int of_own;
+  };
+  static bool keeps_tied(std::uint32_t i, const std::array<std::int32_t, 4>& names, const Signs& signs);
   bool keeps_by_expansions(std::uint32_t i, const std::array<std::int32_t, 4>& names);
   std::pair<Point, double> meet_by_expansions(std::uint32_t i, const std::array<std::int32_t, 3>& names);
   Row<DoubleDouble> rounded_row(std::uint32_t i, std::int32_t plane) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace medial_vk {
@@ -27,7 +28,8 @@ inline std::pair<double, double> two_product(double a, double b) {
 
 /// A sum of two doubles that do not overlap, with a bound of what it may be wrong by: each operation adds less than 8
 /// units of 2^-106 of the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
-/// basic building blocks of double-word arithmetic", 2017: 3 and 5 units).
+/// basic building blocks of double-word arithmetic", 2017: 3 and 5 units), but nothing if one number is zero or both
+/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact.
 class DoubleDouble {
  public:
   DoubleDouble() = default;
@@ -38,10 +40,10 @@ class DoubleDouble {
     return {high, low, std::fabs(high), 0};
   }
 
-  /// -1 or 1 if that is certain, 0 if not.
-  int certain_sign() const {
-    if (!(std::fabs(high_) > 0x1p-102 * error_)) return 0;
-    return high_ > 0 ? 1 : -1;
+  /// -1, 0 or 1 if that is certain.
+  std::optional<int> certain_sign() const {
+    if (std::fabs(high_) > 0x1p-102 * error_) return high_ > 0 ? 1 : -1;
+    return error_ == 0 ? std::optional(0) : std::nullopt;
   }
 
   /// The nearest double, and how far the true number may be from it.
@@ -55,7 +57,7 @@ class DoubleDouble {
     const auto [top, middle] = fast_two_sum(high, high_rest + low);
     const auto [x, y] = fast_two_sum(top, low_rest + middle);
     const double size = a.size_ + b.size_;
-    return {x, y, size, a.error_ + b.error_ + size};
+    return {x, y, size, a.error_ + b.error_ + (is_exact(a, b) ? 0 : size)};
   }
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
@@ -63,12 +65,17 @@ class DoubleDouble {
     const double cross = std::fma(a.high_, b.low_, a.low_ * b.high_);
     const auto [x, y] = fast_two_sum(high, low + cross);
     const double size = a.size_ * b.size_;
-    return {x, y, size, a.error_ * b.size_ + b.error_ * a.size_ + size};
+    return {x, y, size, a.error_ * b.size_ + b.error_ * a.size_ + (is_exact(a, b) ? 0 : size)};
   }
 
  private:
   DoubleDouble(double high, double low, double size, double error)
       : high_(high), low_(low), size_(size), error_(error) {}
+
+  /// Of a sum and of a product: nothing is lost.
+  static bool is_exact(const DoubleDouble& a, const DoubleDouble& b) {
+    return (a.low_ == 0 && b.low_ == 0) || a.high_ == 0 || b.high_ == 0;
+  }
 
   double high_ = 0, low_ = 0;
   double size_ = 0;   // at least the magnitude of the number, and of all terms of the sums that made it

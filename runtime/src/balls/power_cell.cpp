@@ -4,49 +4,37 @@
 #include <cfloat>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "point_math.h"
 
 namespace medial_vk {
 namespace {
 
-// Room between the ball and the box: corners on walls must lie outside the ball, whatever rounding does.
-constexpr double kRoom = 1 + 0x1p-20;
-// Corners that rounding may have moved by more, in radii, are found with more digits: where planes nearly have a line
-// in common, anything may happen along it, and volumes and simplices must not depend on which.
-constexpr double kSharp = 0x1p-40;
-// The same at once, while the cell is being cut: beyond this, more would be asked of the tree and decided exactly.
-constexpr double kRough = 0x1p-20;
-
-/// Where three planes meet, and how far rounding may have moved it. With unit normals, |p x q| <= 1, so every product
-/// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
-/// factors with 4 roundings each, the factors' own 4 among them); the point then moves by numerator and denominator.
-std::pair<Point, double> meet(const Bisector& p, const Bisector& q, const Bisector& s) {
-  const Point qs = cross(q.normal, s.normal);
-  const double determinant = dot(p.normal, qs);
-  if (std::fabs(determinant) < 64 * DBL_EPSILON) return {{}, HUGE_VAL};
-  const Point sum = p.offset * qs + q.offset * cross(s.normal, p.normal) + s.offset * cross(p.normal, q.normal);
-  const double scale = 1 / determinant;
-  const Point at = scale * sum;
-  const double offsets = std::fabs(p.offset) + std::fabs(q.offset) + std::fabs(s.offset);
-  const double error = 32 * DBL_EPSILON * (offsets + length(at)) + p.slack + q.slack + s.slack;
-  return {at, 2 * std::fabs(scale) * error};
+std::size_t index_of(std::uint32_t ball, const std::array<std::uint32_t, 4>& balls) {
+  return static_cast<std::size_t>(std::find(balls.begin(), balls.end(), ball) - balls.begin());
 }
 
 }  // namespace
 
-void PowerCell::start(std::uint32_t i) {
+void PowerCell::start_empty(std::uint32_t i) {
   ball_ = i;
   planes_.clear();
   corners_.clear();
   walls_.assign(6, {});
-  const double side = balls_[i].radius * kRoom;
+  const double side = balls_[i].radius * kReach;
   for (std::size_t k = 0; k < 6; ++k) {
     Wall& wall = walls_[k];
     wall.normal[k / 2] = k % 2 == 0 ? -1 : 1;
     wall.offset = side;
     planes_.push_back({.normal = wall.normal, .offset = side, .ball = -1 - static_cast<std::int32_t>(k)});
   }
+  farthest_ = 2 * balls_[i].radius;
+}
+
+void PowerCell::start(std::uint32_t i) {
+  start_empty(i);
+  const double side = walls_[0].offset;
   for (std::uint32_t c = 0; c < 8; ++c) {
     Corner corner{};
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -64,6 +52,43 @@ void PowerCell::start(std::uint32_t i) {
   }
 }
 
+void PowerCell::start(std::uint32_t i, const RegularTriangulation& triangulation) {
+  start_empty(i);
+  const auto tetrahedra = triangulation.tetrahedra();
+  for (const std::uint32_t t : triangulation.around(i)) {
+    const auto& [balls, neighbours] = tetrahedra[t];
+    const std::array<std::size_t, 3> others = RegularTriangulation::kOthers[index_of(i, balls)];
+    const auto& [from_first, slack] = triangulation.corner(t);
+    const Point to_first = balls_[balls[0]].centre - balls_[i].centre;
+    Corner corner{from_first + to_first, slack + 2 * DBL_EPSILON * (length(from_first) + length(to_first)), {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) corner.planes[k] = plane_of(balls[others[k]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t next = neighbours[others[k]];
+      corner.neighbours[k] = triangulation.place_around(next, index_of(i, tetrahedra[next].balls));
+    }
+    farthest_ = std::max(farthest_, length(corner.at));
+    corners_.push_back(corner);
+  }
+  cut_to_box();
+}
+
+/// The place of a ball's plane, which is made when it is asked for first.
+std::uint32_t PowerCell::plane_of(std::uint32_t j) {
+  plane_of_.resize(balls_.size());
+  const std::uint32_t known = plane_of_[j];
+  if (known < planes_.size() && planes_[known].ball == static_cast<std::int32_t>(j)) return known;
+  plane_of_[j] = static_cast<std::uint32_t>(planes_.size());
+  planes_.push_back(bisector(balls_, ball_, j));
+  return plane_of_[j];
+}
+
+void PowerCell::cut_to_box() {
+  for (std::uint32_t wall = 0; wall < 6; ++wall) {
+    if (find_cut_corners(planes_[wall])) cut_by(wall);
+  }
+  farthest_ = 2 * balls_[ball_].radius;
+}
+
 void PowerCell::keep(Kept& kept) const {
   kept.ball = ball_;
   kept.walls = walls_;
@@ -76,6 +101,7 @@ void PowerCell::restore(const Kept& kept) {
   walls_ = kept.walls;
   planes_ = kept.planes;
   corners_ = kept.corners;
+  farthest_ = 2 * balls_[ball_].radius;
 }
 
 bool PowerCell::cuts(const Corner& corner, const Bisector& plane, double height) const {
@@ -94,8 +120,7 @@ bool PowerCell::find_cut_corners(const Bisector& plane) {
     heights_[c] = dot(plane.normal, corner.at) - plane.offset;
     greatest = std::max(greatest, heights_[c] + corner.slack);
   }
-  // |at| <= 2 r: no corner is farther away than those of the box.
-  const double doubt = plane.slack + 8 * DBL_EPSILON * (2 * balls_[ball_].radius + std::fabs(plane.offset));
+  const double doubt = plane.slack + 8 * DBL_EPSILON * (farthest_ + std::fabs(plane.offset));
   if (greatest < -doubt) return false;
   cut_.clear();
   is_cut_.resize(corners_.size());
@@ -106,14 +131,11 @@ bool PowerCell::find_cut_corners(const Bisector& plane) {
   return !cut_.empty();
 }
 
-/// The corner where the edge that ends in a cut corner, opposite its plane `slot`, meets the new plane.
-PowerCell::Corner PowerCell::corner_on_edge(const Corner& cut, std::size_t slot, std::uint32_t plane) const {
-  Corner corner = cut;
-  corner.planes[slot] = plane;
-  const auto [at, slack] = meet(planes_[corner.planes[0]], planes_[corner.planes[1]], planes_[corner.planes[2]]);
-  corner.at = at;
-  corner.slack = slack;
-  if (!(slack <= kRough * balls_[ball_].radius)) place_exactly(corner);
+/// Where three planes meet.
+PowerCell::Corner PowerCell::corner_of(const std::array<std::uint32_t, 3>& planes) const {
+  const auto [at, slack] = meeting_point(planes_[planes[0]], planes_[planes[1]], planes_[planes[2]]);
+  Corner corner{at, slack, planes, {}};
+  if (!(slack <= kRoughCorner * std::max(balls_[ball_].radius, length(at)))) place_exactly(corner);
   return corner;
 }
 
@@ -123,8 +145,10 @@ void PowerCell::place_exactly(Corner& corner) const {
 }
 
 void PowerCell::sharpen() {
+  const double radius = balls_[ball_].radius;
   for (Corner& corner : corners_) {
-    if (corner.slack > kSharp * balls_[ball_].radius) place_exactly(corner);
+    if (corner.slack > kSharpCorner * radius && length(corner.at) <= kReach * radius + corner.slack)
+      place_exactly(corner);
   }
 }
 
@@ -135,7 +159,9 @@ void PowerCell::add_corners(std::uint32_t plane) {
       const std::uint32_t kept = corners_[c].neighbours[slot];
       if (kept >= is_cut_.size() || is_cut_[kept]) continue;
       const auto name = static_cast<std::uint32_t>(corners_.size());
-      Corner corner = corner_on_edge(corners_[c], slot, plane);
+      auto planes = corners_[c].planes;
+      planes[slot] = plane;
+      Corner corner = corner_of(planes);
       corner.neighbours[slot] = kept;
       for (std::size_t k = 0; k < 3; ++k) {
         if (corners_[kept].neighbours[k] != c) continue;
@@ -149,8 +175,7 @@ void PowerCell::add_corners(std::uint32_t plane) {
   }
 }
 
-void PowerCell::link_new_corners() {
-  const auto plane = static_cast<std::uint32_t>(planes_.size() - 1);
+void PowerCell::link_new_corners(std::uint32_t plane) {
   leaving_.resize(planes_.size());
   arriving_.resize(planes_.size());
   const auto slot_of = [&](const Corner& corner) {
@@ -200,15 +225,20 @@ bool PowerCell::clip(std::uint32_t j) {
     return true;
   }
   if (!find_cut_corners(plane)) return false;
+  planes_.push_back(plane);
+  cut_by(static_cast<std::uint32_t>(planes_.size() - 1));
+  return true;
+}
+
+/// Takes away the corners that find_cut_corners() found.
+void PowerCell::cut_by(std::uint32_t plane) {
   if (cut_.size() == corners_.size()) {
     corners_.clear();
-    return true;
+    return;
   }
-  planes_.push_back(plane);
-  add_corners(static_cast<std::uint32_t>(planes_.size() - 1));
-  link_new_corners();
+  add_corners(plane);
+  link_new_corners(plane);
   remove_cut_corners();
-  return true;
 }
 
 }  // namespace medial_vk

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "balls/bisector.h"
+#include "balls/regular_triangulation.h"
 
 namespace medial_vk {
 
@@ -36,6 +37,9 @@ class PowerCell {
 
   /// Starts again: a box that holds ball i with some room.
   void start(std::uint32_t i);
+  /// Starts again with the whole cell, cut to that box. The triangulation is of the same balls, and its far points are
+  /// among those that the constructor got.
+  void start(std::uint32_t i, const RegularTriangulation& triangulation);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before. False if nothing was cut off.
   bool clip(std::uint32_t j);
   /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut,
@@ -50,13 +54,17 @@ class PowerCell {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
+  void start_empty(std::uint32_t i);
+  std::uint32_t plane_of(std::uint32_t j);
+  Corner corner_of(const std::array<std::uint32_t, 3>& planes) const;
+  void cut_to_box();
+  void cut_by(std::uint32_t plane);
   bool find_cut_corners(const Bisector& plane);
   bool cuts(const Corner& corner, const Bisector& plane, double height) const;
   void add_corners(std::uint32_t plane);
-  void link_new_corners();
+  void link_new_corners(std::uint32_t plane);
   void remove_cut_corners();
   void place_exactly(Corner& corner) const;
-  Corner corner_on_edge(const Corner& cut, std::size_t slot, std::uint32_t plane) const;
 
   std::span<const Ball> balls_;
   std::uint32_t ball_ = 0;
@@ -64,6 +72,7 @@ class PowerCell {
   mutable ExactSide exact_;
   std::vector<Bisector> planes_;
   std::vector<Corner> corners_;
+  double farthest_ = 0;  // no corner is farther away from the centre
 
   // Of the cut in progress.
   std::vector<double> heights_;  // of the corners over the plane
@@ -72,6 +81,7 @@ class PowerCell {
   std::vector<std::uint32_t> added_;     // corners
   std::vector<std::uint32_t> leaving_;   // by plane: the new corner from which its edge with the new plane goes on
   std::vector<std::uint32_t> arriving_;  // by plane: the new corner at which that edge ends
+  std::vector<std::uint32_t> plane_of_;  // by ball: its plane, where that plane names the ball
 };
 
 }  // namespace medial_vk
