@@ -169,6 +169,7 @@ TEST(RegularTriangulation, DoesNotDependOnTheOrderOfBalls) {
   std::iota(order.begin(), order.end(), 0u);
   std::reverse(order.begin(), order.end());
   std::vector<Ball> reversed;
+  reversed.reserve(balls.size());
   for (const std::uint32_t i : order) reversed.push_back(balls[i]);
   const auto tetrahedra_of = [](const RegularTriangulation& triangulation, const auto& name) {
     std::set<std::multiset<std::uint32_t>> all;
