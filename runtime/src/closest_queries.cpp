@@ -1,5 +1,6 @@
 // Closest points: few or scattered ones by a walk for each, many by packets of neighbours.
 #include <algorithm>
+#include <array>
 
 #include "point_math.h"
 #include "point_order.h"
@@ -25,24 +26,34 @@ Status Scene::Impl::make_room() {
     const char* purpose;
   };
   const VkDeviceSize most = kBatch;
-  for (const Request& request : {Request{&made->upload, most * 16, MemoryKind::kUpload, "query points"},
-                                 Request{&made->asked, most * 16, MemoryKind::kDevice, "query points"},
-                                 Request{&made->nearest, most * 16, MemoryKind::kDevice, "nearest points"},
-                                 Request{&made->hits, most * 4, MemoryKind::kDevice, "nearest triangles"},
-                                 Request{&made->readback, most * 20, MemoryKind::kReadback, "results"}}) {
-    Result<Buffer> buffer = made->arena.create_buffer(request.bytes, request.kind, request.purpose);
-    if (!buffer.ok()) return buffer.error();
-    *request.buffer = buffer.value();
+  const auto create = [&](std::span<const Request> requests) -> Status {
+    for (const Request& request : requests) {
+      Result<Buffer> buffer = made->arena.create_buffer(request.bytes, request.kind, request.purpose);
+      if (!buffer.ok()) return buffer.error();
+      *request.buffer = buffer.value();
+    }
+    return {};
+  };
+  const std::array on_device = {Request{&made->asked, most * 16, MemoryKind::kDevice, "query points"},
+                                Request{&made->nearest, most * 16, MemoryKind::kDevice, "nearest points"},
+                                Request{&made->hits, most * 4, MemoryKind::kDevice, "nearest triangles"}};
+  if (Status status = create(on_device); !status.ok()) return status;
+  const std::array on_host = {Request{&made->upload, most * 16, MemoryKind::kUpload, "query points"},
+                              Request{&made->readback, most * 20, MemoryKind::kReadback, "results"}};
+  made->is_shared = shares_memory && made->asked.mapped && made->nearest.mapped && made->hits.mapped;
+  if (!made->is_shared) {
+    if (Status status = create(on_host); !status.ok()) return status;
   }
   room = std::move(made);
   return {};
 }
 
 Status Scene::Impl::write_queries(const ClosestBatch& batch, std::size_t padded) const {
-  auto* out = static_cast<Texel*>(room->upload.mapped);
+  auto* out = static_cast<Texel*>((room->is_shared ? room->asked : room->upload).mapped);
+  const UnitTransform to_unit = mesh.transform();
   for (std::size_t i = 0; i < batch.count; ++i) {
     const std::size_t index = batch.index(i);
-    const Point unit = mesh.to_unit(batch.points[index]);
+    const Point unit = to_unit(batch.points[index]);
     if (Status status = check_point(unit, index); !status.ok()) return status;
     out[i] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), kAnyDistance};
   }
@@ -53,8 +64,10 @@ Status Scene::Impl::write_queries(const ClosestBatch& batch, std::size_t padded)
 void Scene::Impl::record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups,
                                  const Buffer& table) const {
   const VkDeviceSize padded = VkDeviceSize{groups} * std::max(1u, batch.group_size);
-  r.copy(room->upload, 0, room->asked, 0, padded * 16);
-  r.barrier();
+  if (!room->is_shared) {
+    r.copy(room->upload, 0, room->asked, 0, padded * 16);
+    r.barrier();
+  }
   if (batch.group_size == 0) {
     queries->closest(r, QueryCount::of(groups), room->asked.range(), room->nearest.range(), room->hits.range(),
                      TreeQueries::Ties::kIndex);
@@ -62,19 +75,23 @@ void Scene::Impl::record_closest(Recorder& r, const ClosestBatch& batch, std::ui
     packets->closest(r, {.groups = groups, .group_size = batch.group_size}, table.range(), room->asked.range(),
                      room->nearest.range(), room->hits.range(), TreeQueries::Ties::kIndex);
   }
-  r.copy(room->nearest, 0, room->readback, 0, padded * 16);
-  r.copy(room->hits, 0, room->readback, padded * 16, padded * 4);
+  if (!room->is_shared) {
+    r.copy(room->nearest, 0, room->readback, 0, padded * 16);
+    r.copy(room->hits, 0, room->readback, padded * 16, padded * 4);
+  }
   r.barrier_to_host();
 }
 
 Status Scene::Impl::read_closest(const ClosestBatch& batch, std::size_t padded, std::span<ClosestPoint> out) const {
-  const auto* nearest = static_cast<const Texel*>(room->readback.mapped);
-  const auto* hits = reinterpret_cast<const std::uint32_t*>(nearest + padded);
+  const auto* nearest = static_cast<const Texel*>((room->is_shared ? room->nearest : room->readback).mapped);
+  const auto* hits = room->is_shared ? static_cast<const std::uint32_t*>(room->hits.mapped)
+                                     : reinterpret_cast<const std::uint32_t*>(nearest + padded);
+  const UnitTransform transform = mesh.transform();
   for (std::size_t i = 0; i < batch.count; ++i) {
     if (hits[i] == kNoHit) return Error{ErrorCode::kInternal, "the device found no nearest triangle"};
     const std::size_t index = batch.index(i);
     ClosestPoint& result = out[index];
-    result.point = mesh.to_input({nearest[i][0], nearest[i][1], nearest[i][2]});
+    result.point = transform.inverse({nearest[i][0], nearest[i][1], nearest[i][2]});
     result.distance = length(result.point - batch.points[index]);
     result.triangle = mesh.order[hits[i] & 0xffffffu];
     result.feature = static_cast<Feature>(hits[i] >> 24);
@@ -103,9 +120,8 @@ Status Scene::Impl::closest(const ClosestBatch& batch, std::span<ClosestPoint> o
   return read_closest(batch, padded, out);
 }
 
-Result<std::vector<ClosestPoint>> Scene::Impl::closest_points(std::span<const Point> points) {
-  if (Status ready = usable(); !ready.ok()) return ready.error();
-  std::vector<ClosestPoint> out(points.size());
+Status Scene::Impl::closest_points(std::span<const Point> points, std::span<ClosestPoint> out) {
+  if (Status ready = usable(); !ready.ok()) return ready;
   ClosestBatch batch;
   batch.points = points;
   std::vector<std::uint32_t> order, slots;
@@ -120,20 +136,15 @@ Result<std::vector<ClosestPoint>> Scene::Impl::closest_points(std::span<const Po
   }
   for (; batch.first < points.size(); batch.first += most) {
     batch.count = std::min(most, points.size() - batch.first);
-    if (Status status = closest(batch, out); !status.ok()) return status.error();
+    if (Status status = closest(batch, out); !status.ok()) return status;
   }
-  return out;
+  return {};
 }
 
-Result<std::vector<ClosestPoint>> Scene::Impl::closest_points_of_groups(std::span<const Point> points,
-                                                                        std::uint32_t group_size) {
-  if (group_size == 0 || group_size > kBatch || points.size() % group_size != 0) {
-    return Error{ErrorCode::kUsage, std::to_string(points.size()) + " points are no groups of " +
-                                        std::to_string(group_size) + " (1 to " + std::to_string(kBatch) + ")"};
-  }
-  if (Status ready = usable(); !ready.ok()) return ready.error();
-  std::vector<ClosestPoint> out(points.size());
-  if (points.empty()) return out;
+Status Scene::Impl::closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size,
+                                             std::span<ClosestPoint> out) {
+  if (Status ready = usable(); !ready.ok()) return ready;
+  if (points.empty()) return {};
   const std::vector<std::uint32_t> slots = make_slots(packets->shape(), points.first(group_size));
   ClosestBatch batch;
   batch.points = points;
@@ -142,18 +153,55 @@ Result<std::vector<ClosestPoint>> Scene::Impl::closest_points_of_groups(std::spa
   const std::size_t most = std::size_t{kBatch / group_size} * group_size;
   for (; batch.first < points.size(); batch.first += most) {
     batch.count = std::min(most, points.size() - batch.first);
-    if (Status status = closest(batch, out); !status.ok()) return status.error();
+    if (Status status = closest(batch, out); !status.ok()) return status;
   }
-  return out;
+  return {};
+}
+
+namespace {
+
+Status check_groups(std::size_t points, std::uint32_t group_size) {
+  if (group_size > 0 && group_size <= kBatch && points % group_size == 0) return {};
+  return Error{ErrorCode::kUsage, std::to_string(points) + " points are no groups of " + std::to_string(group_size) +
+                                      " (1 to " + std::to_string(kBatch) + ")"};
+}
+
+Status check_room(std::size_t points, std::size_t room) {
+  if (points == room) return {};
+  return Error{ErrorCode::kUsage,
+               std::to_string(points) + " points have room for " + std::to_string(room) + " results"};
+}
+
+}  // namespace
+
+Status Scene::closest_points(std::span<const Point> points, std::span<ClosestPoint> out) {
+  if (Status status = check_room(points.size(), out.size()); !status.ok()) return status;
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points(points, out); });
+}
+
+Status Scene::closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size,
+                                       std::span<ClosestPoint> out) {
+  if (Status status = check_groups(points.size(), group_size); !status.ok()) return status;
+  if (Status status = check_room(points.size(), out.size()); !status.ok()) return status;
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points_of_groups(points, group_size, out); });
 }
 
 Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {
-  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points(points); });
+  return catch_out_of_memory(kAnswering, [&]() -> Result<std::vector<ClosestPoint>> {
+    std::vector<ClosestPoint> out(points.size());
+    if (Status status = closest_points(points, out); !status.ok()) return status.error();
+    return out;
+  });
 }
 
 Result<std::vector<ClosestPoint>> Scene::closest_points_of_groups(std::span<const Point> points,
                                                                   std::uint32_t group_size) {
-  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points_of_groups(points, group_size); });
+  if (Status status = check_groups(points.size(), group_size); !status.ok()) return status.error();
+  return catch_out_of_memory(kAnswering, [&]() -> Result<std::vector<ClosestPoint>> {
+    std::vector<ClosestPoint> out(points.size());
+    if (Status status = closest_points_of_groups(points, group_size, out); !status.ok()) return status.error();
+    return out;
+  });
 }
 
 }  // namespace medial_vk

@@ -9,19 +9,11 @@
 #include "gpu_types.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/mesh_view.h"
+#include "unit_transform.h"
 
 namespace medial_vk {
 
 using Texel = std::array<float, 4>;
-
-/// (x - lower) / longest.
-struct UnitTransform {
-  Point lower = {0, 0, 0};
-  double longest = 1;
-  Point operator()(const Point& p) const {
-    return {(p[0] - lower[0]) / longest, (p[1] - lower[1]) / longest, (p[2] - lower[2]) / longest};
-  }
-};
 
 /// Rounded to float.
 inline gpu::vec4 to_vec4(const Point& p, double w) {

@@ -190,10 +190,4 @@ Status DeviceMesh::upload_open_edges(const Uploader& uploader, const MeshView& m
   return fill(uploader, std::as_bytes(std::span(edges.listed)), MemoryKind::kDevice, "open edges", open_edges);
 }
 
-Point DeviceMesh::to_unit(const Point& p) const { return UnitTransform{lower, longest}(p); }
-
-Point DeviceMesh::to_input(const std::array<float, 3>& p) const {
-  return lower + longest * Point{double{p[0]}, double{p[1]}, double{p[2]}};
-}
-
 }  // namespace medial_vk

@@ -16,6 +16,7 @@
 #include "medial_vk/result.h"
 #include "memory.h"
 #include "tree_types.h"
+#include "unit_transform.h"
 
 namespace medial_vk {
 
@@ -57,8 +58,9 @@ struct DeviceMesh {
   /// Of the Bvh whose leaf order `order` is.
   const std::vector<BvhNode>& tree_nodes() const { return bvh_.nodes(); }
 
-  Point to_unit(const Point& p) const;
-  Point to_input(const std::array<float, 3>& p) const;
+  UnitTransform transform() const { return {lower, longest}; }
+  Point to_unit(const Point& p) const { return transform()(p); }
+  Point to_input(const std::array<float, 3>& p) const { return transform().inverse(p); }
 
   /// Four texels per triangle, by leaf position (shaders/shared/closest_point.glsl).
   Buffer triangles;

@@ -100,7 +100,9 @@ class Scene::Impl {
   struct ClosestRoom {
     explicit ClosestRoom(Context::Impl& context) : arena(context) {}
     Arena arena;
-    Buffer upload, asked, nearest, hits, readback;
+    Buffer asked, nearest, hits;
+    Buffer upload, readback;  // none where the host uses the others
+    bool is_shared = false;
   };
   Status make_packets(const MeshView& view);
   /// Error: the last update failed half-way.
@@ -109,8 +111,8 @@ class Scene::Impl {
     return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
   }
   Status make_room();
-  Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
-  Result<std::vector<ClosestPoint>> closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size);
+  Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
+  Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls) const;
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance) const;
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
@@ -122,6 +124,9 @@ class Scene::Impl {
                 std::span<FluxSample> out);
 
   Context::Impl* context;
+  /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies turn it off before
+  /// the first query.
+  bool shares_memory = context->description.type == "cpu";
   DeviceMesh mesh;
   std::unique_ptr<TreeQueries> queries;
   std::unique_ptr<PacketQueries> packets;

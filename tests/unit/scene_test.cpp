@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "context_impl.h"
 #include "device_tree.h"
 #include "medial_vk/queries.h"
+#include "scene_impl.h"
 #include "spiral.h"
 #include "stop_word.h"
 #include "support/device_test.h"
@@ -73,6 +75,29 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
     EXPECT_EQ(found[i].point, expected[i].point);
   }
   EXPECT_EQ(without.winding_numbers(points).value(), expected_numbers);
+}
+
+// Through memory that the host cannot use, as on a GPU, and back: the same answers, in memory of the caller's.
+TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
+  const Mesh mesh = rotated_torus();
+  std::vector<Point> points;
+  for (const Point& d : spiral_points(5100)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
+  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
+  Scene copying = Scene::create(*context_, test::view_of(mesh)).value();
+  copying.impl().shares_memory = false;
+  const auto same = [](const std::vector<ClosestPoint>& a, const std::vector<ClosestPoint>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ClosestPoint& p, const ClosestPoint& q) {
+      return p.point == q.point && p.distance == q.distance && p.triangle == q.triangle && p.feature == q.feature;
+    });
+  };
+  std::vector<ClosestPoint> out(points.size());
+  ASSERT_TRUE(copying.closest_points(points, out).ok());
+  EXPECT_TRUE(same(out, scene.closest_points(points).value()));
+  ASSERT_TRUE(copying.closest_points_of_groups(points, 51, out).ok());
+  EXPECT_TRUE(same(out, scene.closest_points_of_groups(points, 51).value()));
+  EXPECT_EQ(scene.closest_points(points, std::span(out).first(7)).error().message,
+            "5100 points have room for 7 results");
+  EXPECT_EQ(scene.closest_points_of_groups(points, 51, std::span(out).first(7)).error().code, ErrorCode::kUsage);
 }
 
 // At the centre of a sphere every walk gives up, a little off it none does.
