@@ -1,4 +1,6 @@
 // The order of the dispatches of the certified extraction, straight-line.
+#include <algorithm>
+
 #include "certified_pipeline.h"
 
 namespace medial_vk {
@@ -271,9 +273,14 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.classifies = 1;
-  // Where nothing is subdivided these are many, with long lists; a stop waits for one block.
+  // Where little is subdivided these are many, with long lists; a stop waits for one block. Deeper they are few, and most
+  // blocks would be empty: there each is as large as all before it.
   constexpr uint kBlock = 4096;
-  for (uint first = 0; first < capacity_.cells; first += kBlock) judge_pairs(r, step, level, first, kBlock);
+  for (uint first = 0; first < capacity_.cells;) {
+    const uint block = step.depth > 1 ? std::max(first, kBlock) : kBlock;
+    judge_pairs(r, step, level, first, block);
+    first += block;
+  }
 }
 
 void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
