@@ -40,6 +40,8 @@ std::vector<Family> families() {
       {"overlapping", test::random_balls(400, 2, 0.2, 0.6)},
       {"lattice", test::lattice(9, 0.9)},
       {"nearly a lattice", test::lattice(9, 0.9, 1e-14)},
+      {"touching", test::lattice(6, 0.5)},
+      {"nearly touching", test::lattice(6, 0.5 * (1 - 3e-13))},
       {"flat lattice", test::flat_lattice(25, 2.25)},
       {"through a point", test::through_a_point(150, 3, true)},
       {"through a point, on one side", test::through_a_point(150, 4, false)},

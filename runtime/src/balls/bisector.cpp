@@ -8,6 +8,12 @@
 
 namespace medial_vk {
 
+bool are_apart(const Ball& a, const Ball& b) {
+  const double both = a.radius + b.radius;
+  const Point between = b.centre - a.centre;
+  return dot(between, between) > both * both * (1 + 16 * DBL_EPSILON);
+}
+
 Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j) {
   const Ball& a = balls[i];
   const Ball& b = balls[j];
@@ -19,7 +25,11 @@ Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j)
   const double radii = (a.radius - b.radius) * (a.radius + b.radius) * scale;
   // distance: six roundings of its square, halved by the root, and its own; radii: three, with scale's; the sum: one.
   const double slack = 4 * DBL_EPSILON * (distance + std::fabs(radii));
-  return {.normal = scale * between, .offset = 0.5 * (distance + radii), .slack = slack, .ball = name};
+  return {.normal = scale * between,
+          .offset = 0.5 * (distance + radii),
+          .slack = slack,
+          .ball = name,
+          .is_apart = are_apart(a, b)};
 }
 
 // With unit normals, |p x q| <= 1, so every product

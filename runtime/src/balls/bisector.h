@@ -24,7 +24,11 @@ struct Bisector {
   double offset = 0;
   double slack = 0;       ///< Rounding of `offset`, at most.
   std::int32_t ball = 0;  ///< The other ball; below 0: wall number -1 - ball.
+  bool is_apart = false;  ///< The two balls have no point in common: in no simplex are both.
 };
+
+/// No point in common, whatever rounding does: squares carry fewer than 16 roundings of half a unit.
+bool are_apart(const Ball& a, const Ball& b);
 
 /// The plane between balls i and j; |c| and r are at most 1.
 Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j);

@@ -70,9 +70,7 @@ void CellBuilder::read_corners() {
 void CellBuilder::cut_by(std::uint32_t j) {
   const std::uint32_t i = cell_.ball();
   if (j == i || (mask_ != nullptr && !mask_->holds(j))) return;
-  const double both = balls_[i].radius + balls_[j].radius;
-  const Point between = balls_[j].centre - balls_[i].centre;
-  if (dot(between, between) > both * both * (1 + 16 * DBL_EPSILON)) return;
+  if (are_apart(balls_[i], balls_[j])) return;
   // Corners on a plane that is there already would be in doubt, all of them.
   if (!cell_.was_cut_by(j)) cell_.clip(j);
 }

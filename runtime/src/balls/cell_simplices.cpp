@@ -14,6 +14,9 @@ constexpr double kTouch = 0x1p-36;
 // and if it is on the line beyond the edge, the sign of the gap is rounding.
 constexpr double kOnEdge = 0x1p-40;
 
+/// The ball behind a plane of the cell that may be in a simplex with the cell's own; below 0 if there is none.
+std::int32_t partner(const Bisector& plane) { return plane.is_apart ? -1 : plane.ball; }
+
 template <std::size_t N>
 std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> simplex) {
   std::sort(simplex.begin(), simplex.end());
@@ -35,7 +38,7 @@ void SimplexCollector::collect_edges(const PowerCell& cell, const Ball& ball, Du
     const double half = std::sqrt(std::max(0.0, edge.half_chord_squared));
     if (edge.from > half + kTouch || edge.to < -half - kTouch) return;
     for (const std::uint32_t plane : edge.planes) faces_[plane] |= kMeetsBall;
-    const std::int32_t j = cell.planes()[edge.planes[0]].ball, k = cell.planes()[edge.planes[1]].ball;
+    const std::int32_t j = partner(cell.planes()[edge.planes[0]]), k = partner(cell.planes()[edge.planes[1]]);
     if (j < 0 || k < 0) return;
     const auto triangle = sorted<3>({i, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k)});
     if (triangle[0] != i) return;
@@ -54,12 +57,14 @@ void SimplexCollector::collect_corners(const PowerCell& cell, double radius, Dua
   for (const PowerCell::Corner& corner : cell.corners()) {
     if (dot(corner.at, corner.at) > reach * reach) continue;
     std::array<std::uint32_t, 4> tetrahedron = {i, 0, 0, 0};
+    bool is_whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      tetrahedron[k + 1] = static_cast<std::uint32_t>(cell.planes()[corner.planes[k]].ball);
+      const std::int32_t j = partner(cell.planes()[corner.planes[k]]);
+      is_whole = is_whole && j >= 0;
+      tetrahedron[k + 1] = static_cast<std::uint32_t>(j);
     }
     tetrahedron = sorted(tetrahedron);
-    // Walls, whose names are negative, have no corner in the ball.
-    if (tetrahedron[0] == i) complex.tetrahedra.push_back(tetrahedron);
+    if (is_whole && tetrahedron[0] == i) complex.tetrahedra.push_back(tetrahedron);
   }
 }
 
@@ -80,7 +85,7 @@ void SimplexCollector::collect(const PowerCell& cell, const Ball& ball, DualComp
     const bool foot = faces_[k] == 0 && std::fabs(plane.offset) <= ball.radius * (1 + kTouch);
     if (!foot && (faces_[k] & kMeetsBall) == 0) continue;
     meets = true;
-    if (plane.ball > static_cast<std::int32_t>(i)) {
+    if (partner(plane) > static_cast<std::int32_t>(i)) {
       complex.edges.push_back({i, static_cast<std::uint32_t>(plane.ball)});
     }
   }
