@@ -273,8 +273,8 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.classifies = 1;
-  // Where little is subdivided these are many, with long lists; a stop waits for one block. Deeper they are few, and most
-  // blocks would be empty: there each is as large as all before it.
+  // Where little is subdivided these are many, with long lists; a stop waits for one block. Deeper they are few, and
+  // most blocks would be empty: there each is as large as all before it.
   constexpr uint kBlock = 4096;
   for (uint first = 0; first < capacity_.cells;) {
     const uint block = step.depth > 1 ? std::max(first, kBlock) : kBlock;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ namespace {
 struct Family {
   std::string name;
   std::vector<Ball> balls;
+  bool is_decided = true;  ///< Whether a face meets a ball does not hang on a rounding.
 };
 
 std::vector<Ball> duplicated(std::vector<Ball> balls) {
@@ -31,8 +33,41 @@ std::vector<Ball> duplicated(std::vector<Ball> balls) {
   return balls;
 }
 
+/// Few places for many balls, moved a little or not at all, some of them twice; in one to three dimensions, anywhere,
+/// of any size; radii alike, of four kinds, of all sizes, or such that spheres meet in a point.
+std::vector<Ball> difficult(unsigned seed) {
+  std::mt19937_64 engine(seed);
+  const auto below = [&](unsigned count) { return static_cast<unsigned>(engine() % count); };
+  const auto fraction = [&] { return std::ldexp(static_cast<double>(engine() >> 11), -53); };
+  const unsigned count = 1 + below(200), places = 1 + below(6), dimensions = 1 + below(3), kind = below(4);
+  const double noise = below(3) != 0 ? std::pow(10.0, -1 - static_cast<int>(below(17))) : 0;
+  const double size = std::pow(10.0, static_cast<int>(below(9)) - 4);
+  const Point shift = {below(2) != 0 ? 1000 * fraction() : 0, below(2) != 0 ? fraction() : 0, 0};
+  std::vector<Ball> balls;
+  for (unsigned n = 0; n < count; ++n) {
+    Point c = {0, 0, 0};
+    for (std::size_t k = 0; k < dimensions; ++k) c[k] = below(places) + noise * (fraction() - 0.5);
+    double radius = kind == 0   ? 1
+                    : kind == 1 ? 0.5 * below(4)
+                    : kind == 2 ? 2 * fraction()
+                                : std::pow(10, -3 * fraction());
+    if (kind < 2) radius = std::max(0.0, radius + noise * (fraction() - 0.5));
+    if (kind == 3 && below(2) != 0) radius = length(c - Point{2, 2, 2});
+    balls.push_back({size * (c + shift), size * radius});
+    if (below(10) == 0) balls.push_back(balls.back());
+  }
+  return balls;
+}
+
+std::vector<Family> with_difficult_ones(std::vector<Family> families) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    families.push_back({"difficult " + std::to_string(seed), difficult(seed), false});
+  }
+  return families;
+}
+
 std::vector<Family> families() {
-  return {
+  return with_difficult_ones({
       {"none", {}},
       {"one", {{{1, 2, 3}, 0.5}}},
       {"one without an extent", {{{0, 0, 0}, 0}}},
@@ -51,7 +86,7 @@ std::vector<Family> families() {
       {"on a plane", test::on_a_plane(300, 8)},
       {"cospherical", test::cospherical(300, 0.4)},
       {"duplicated", duplicated(test::lattice(4, 0.8))},
-  };
+  });
 }
 
 /// Which edges of which cells end in a vertex where many spheres meet is rounding, but not where the vertex is. Spheres
@@ -134,6 +169,8 @@ TEST_P(RegularTriangulationOf, HasTheCellsThatAreCutBallByBall) {
   }
   make_complete(here, vertices_here);
   make_complete(there, vertices_there);
+  EXPECT_EQ(betti_numbers(here).value(), betti_numbers(there).value());
+  if (!GetParam().is_decided) return;
   EXPECT_EQ(here.vertices, there.vertices);
   EXPECT_EQ(here.edges, there.edges);
   EXPECT_EQ(here.triangles, there.triangles);

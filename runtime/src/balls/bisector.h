@@ -37,12 +37,10 @@ Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j)
 /// nearly.
 std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s);
 
-// Corners that rounding may have moved by more, in radii, are found with more digits if they are in reach of the ball:
-// where planes nearly have a line in common, anything may happen along it, and volumes and simplices must not depend on
-// which.
+// Corners in a cell's box that rounding may have moved by more, in radii, are found with more digits, also those
+// outside the ball, as edges that pass through it end there: where planes nearly have a line in common, anything may
+// happen along it, and volumes and simplices must not depend on which.
 inline constexpr double kSharpCorner = 0x1p-40;
-// In reach, in radii: corners on the walls of a cell's box are not, whatever rounding does, and what touches is.
-inline constexpr double kReach = 1 + 0x1p-20;
 // The same wherever they are, at once: beyond this, more would be asked of the tree and decided exactly. In radii, or
 // in the distance from the centre.
 inline constexpr double kRoughCorner = 0x1p-20;

@@ -11,6 +11,9 @@
 namespace medial_vk {
 namespace {
 
+// Room between the ball and the box: corners on walls must lie outside the ball, whatever rounding does.
+constexpr double kRoom = 1 + 0x1p-20;
+
 std::size_t index_of(std::uint32_t ball, const std::array<std::uint32_t, 4>& balls) {
   return static_cast<std::size_t>(std::find(balls.begin(), balls.end(), ball) - balls.begin());
 }
@@ -22,7 +25,7 @@ void PowerCell::start_empty(std::uint32_t i) {
   planes_.clear();
   corners_.clear();
   walls_.assign(6, {});
-  const double side = balls_[i].radius * kReach;
+  const double side = balls_[i].radius * kRoom;
   for (std::size_t k = 0; k < 6; ++k) {
     Wall& wall = walls_[k];
     wall.normal[k / 2] = k % 2 == 0 ? -1 : 1;
@@ -145,10 +148,8 @@ void PowerCell::place_exactly(Corner& corner) const {
 }
 
 void PowerCell::sharpen() {
-  const double radius = balls_[ball_].radius;
   for (Corner& corner : corners_) {
-    if (corner.slack > kSharpCorner * radius && length(corner.at) <= kReach * radius + corner.slack)
-      place_exactly(corner);
+    if (corner.slack > kSharpCorner * balls_[ball_].radius) place_exactly(corner);
   }
 }
 

@@ -339,11 +339,11 @@ void RegularTriangulation::place_corners(unsigned threads) {
 RegularTriangulation::Corner RegularTriangulation::place_corner(const Tetrahedron& t, ExactSide& exact) const {
   const auto& [i, p, q, s] = t.balls;
   const auto [at, slack] = meeting_point(bisector(balls_, i, p), bisector(balls_, i, q), bisector(balls_, i, s));
-  // The power of the corner is the same for all four balls: it is in reach of all of them or of none.
+  // Whether it is in the box of a cell, each cell asks again (PowerCell::sharpen).
   const double distance = length(at), radius = balls_[i].radius;
-  const bool in_reach = distance <= kReach * radius + slack;
+  const bool may_be_in_box = distance <= 2 * radius + slack;
   const double smallest = std::min({radius, balls_[p].radius, balls_[q].radius, balls_[s].radius});
-  const bool is_good = slack <= (in_reach ? kSharpCorner * smallest : kRoughCorner * std::max(radius, distance));
+  const bool is_good = slack <= (may_be_in_box ? kSharpCorner * smallest : kRoughCorner * std::max(radius, distance));
   if (is_good) return {at, slack};
   const auto [exact_at, exact_slack] =
       exact.meet(i, static_cast<std::int32_t>(p), static_cast<std::int32_t>(q), static_cast<std::int32_t>(s));
