@@ -1,7 +1,7 @@
 // The order of the dispatches of the certified extraction, straight-line.
-#include <algorithm>
-
 #include "certified_pipeline.h"
+
+#include <algorithm>
 
 namespace medial_vk {
 
