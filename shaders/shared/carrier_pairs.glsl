@@ -20,11 +20,16 @@ void normals_of(uint name, out vec3 first, out vec3 second) {
   if (kind < kFirstCorner) second = triangle_texel(4u * neighbour_of(t, kind - kFirstEdge) + 3u).xyz;
 }
 
+// Is it listed by an untrusted triangle, with spokes from both sides?
+bool is_two_sided(uint name) {
+  return kHasUntrusted && (corners_and_flags(name / 8u).w & kLinkBothSides) != 0u;
+}
+
 // The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
 // two arcs differ by no more than some two ends, if those are closer than that.
 bool can_turn_between_normals(uint first, uint second, float theta) {
   if (first % 8u >= kFirstCorner || second % 8u >= kFirstCorner) return true;
-  if (((corners_and_flags(first / 8u).w | corners_and_flags(second / 8u).w) & kLinkBothSides) != 0u) return true;
+  if (is_two_sided(first) || is_two_sided(second)) return true;
   vec3 a, b, c, d;
   normals_of(first, a, b);
   normals_of(second, c, d);
@@ -88,8 +93,8 @@ void corners_of(uint name, out vec3 p[3]) {
 
 // Is some point of the one and some point of the other in one triangle? It has one nearest point.
 bool share_triangle(uint first, uint second) {
+  if (!is_two_sided(first) && !is_two_sided(second)) return false;
   uvec4 a = corners_and_flags(first / 8u), b = corners_and_flags(second / 8u);
-  if (((a.w | b.w) & kLinkBothSides) == 0u) return false;
   return holds(a.xyz, second % 8u, b.xyz) || holds(b.xyz, first % 8u, a.xyz);
 }
 
@@ -107,8 +112,8 @@ struct Facing {
 
 Facing facing_of(uint name, float least_sine) {
   Facing f = Facing(vec3(0.0), vec3(0.0), least_sine - 2.0 * kCosineSlack, false, false, vec3(0.0), vec2(0.0), 0.0);
-  uint t = name / 8u, kind = name % 8u, flags = corners_and_flags(t).w;
-  if ((flags & kLinkBothSides) != 0u) {
+  uint t = name / 8u, kind = name % 8u;
+  if (is_two_sided(name)) {
     f.asked = kind < kFirstCorner || kind == kFront;
     f.is_arc = kind >= kFirstEdge && kind < kFirstCorner;
     TriangleTexels texels = load_triangle(t);
@@ -137,7 +142,7 @@ Facing facing_of(uint name, float least_sine) {
 // The greatest -s.d of their spokes s.
 float depth_along(Facing f, vec3 d) {
   float depth = max(-dot(f.normal, d), -dot(f.other, d));
-  if (f.is_arc) {
+  if (kHasUntrusted && f.is_arc) {
     vec3 across = d - dot(d, f.along) * f.along;
     float size = length(across), x = -dot(f.normal, across), y = sqrt(max(0.0, size * size - x * x));
     depth = x >= size * f.half_arc.x ? size : x * f.half_arc.x + y * f.half_arc.y;

@@ -18,6 +18,12 @@ const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kFront = 7u;
 const float kAngleSlack = 1e-5;   // of angles computed here
 const float kCosineSlack = 1e-6;  // of dot products of unit vectors
 
+// Some triangle of the mesh is not trusted. If none is, nothing is asked about that.
+layout(constant_id = 1) const bool kHasUntrusted = true;
+
+// Which of kLinkWhole and kLinkBothSides the flags of a triangle have.
+uint distrust_of(uint flags) { return kHasUntrusted ? flags & (kLinkWhole | kLinkBothSides) : 0u; }
+
 struct Box {
   vec3 centre, half_sides;
   float circumradius;
@@ -60,13 +66,13 @@ struct Feature {
 
 Feature face_feature(TriangleTexels texels, uint flags, bool front, Box box) {
   vec3 v = vector_to_triangle(box.centre, texels), n = texels.normal.xyz;
-  bool whole = (flags & kLinkWhole) != 0u;
+  bool whole = (distrust_of(flags) & kLinkWhole) != 0u;
   float behind = dot(n, texels.a.xyz - box.centre), reach = dot(box.half_sides, abs(n)) + step.slack;
   Feature f = Feature(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), true);
   f.spokes = whole ? f.spokes : vec4(front ? -n : n, kAngleSlack);
   f.foot = whole ? f.foot : vec4(n * behind, step.slack);
   f.span = whole ? f.span : vec4(n, kPlane);
-  f.meets = (flags & kLinkBothSides) == 0u || (front ? -behind : behind) >= -reach;
+  f.meets = (distrust_of(flags) & kLinkBothSides) == 0u || (front ? -behind : behind) >= -reach;
   return f;
 }
 
@@ -103,7 +109,7 @@ Feature feature_named(uint name, Box box) {
   uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
   TriangleTexels texels = load_triangle(t);
   uvec4 links = corners_and_flags(t);
-  bool has_arc = is_edge && (links.w & kLinkBothSides) != 0u;
+  bool has_arc = is_edge && (distrust_of(links.w) & kLinkBothSides) != 0u;
   Feature face = face_feature(texels, links.w, kind == kFront, box);
   Feature edge = edge_feature(texels, k, is_edge ? neighbour_of(t, k) : t, has_arc, box);
   Feature corner = corner_feature(texels, k, corner_cap(links[k]), box);
@@ -138,8 +144,8 @@ void add_carrier(Feature f, uint name, Box box) {
 void list_features(uint t) {
   uint flags = corners_and_flags(t).w;
   uint kinds = 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
-  kinds |= (flags & kLinkBothSides) != 0u ? 1u << kFront : 0u;
-  kinds = (flags & kLinkWhole) != 0u ? 1u << kFront : kinds;
+  kinds |= (distrust_of(flags) & kLinkBothSides) != 0u ? 1u << kFront : 0u;
+  kinds = (distrust_of(flags) & kLinkWhole) != 0u ? 1u << kFront : kinds;
   uint slot = atomicAdd(feature_count, uint(bitCount(kinds)));
   while (kinds != 0u) {
     feature_name[slot++] = 8u * t + uint(findLSB(kinds));
