@@ -38,8 +38,7 @@ void main() {
     centre = cell_centre(child_coordinates(parents[item / 8], item % 8));
     clearance = uintBitsToFloat(nearest[item].x);
   }
-  // Lines reach epsilon beyond the ball of their cell.
-  uint side = side_of_ball(centre, step.circumradius + step.epsilon, clearance - step.slack);
+  uint side = side_of_cell(centre, clearance - step.slack);
   if (side == kSideInside) states[item].w |= kCellInside;
   if (side == kSideOutside) states[item] = uvec4(0);
 }

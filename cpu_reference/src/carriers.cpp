@@ -17,8 +17,8 @@ constexpr std::size_t kMostRivals = 4;
 /// Keeps what the points of one box can touch, and how.
 class Collector {
  public:
-  Collector(const Tree& tree, const Box& box, const Closest& nearest)
-      : tree_(tree), box_(box), radius_(box.reach()), reach_(tree, box, nearest.triangle) {}
+  Collector(const Tree& tree, const SpokeCones& cones, const Box& box, const Closest& nearest)
+      : tree_(tree), cones_(cones), box_(box), radius_(box.reach()), reach_(tree, box, nearest.triangle) {}
 
   void add_triangle(int t, bool trusted) {
     Carrier face = blank(3);
@@ -30,6 +30,39 @@ class Collector {
     add(face, tree_.closest_on(t, box_.centre).point);
   }
 
+  /// Lemma I. A face is touched from a side on which there is some of the box.
+  void add_untrusted(int t) {
+    if (!cones_.has_sides(t)) {
+      add_triangle(t, false);
+      return;
+    }
+    const Vector3d& n = tree_.normal(t);
+    const Vector3d foot = tree_.closest_on(t, box_.centre).point;
+    const double height = n.dot(box_.centre - tree_.corner(t, 0)), reach = box_.support(n) + 8 * tree_.rounding();
+    for (const double side : {1.0, -1.0}) {  // behind, in front
+      if (side * height > reach) continue;
+      Carrier face = of_untrusted(t, {0, 1, 2}, 3);
+      face.spokes = Cap::around(side * n, kFaceAngle);
+      span_by(face, side * n, side * n, 1);
+      add(face, foot);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Arc* arc = cones_.arc(t, k);
+      if (arc == nullptr) continue;
+      Carrier edge = of_untrusted(t, {k, (k + 1) % 3, (k + 1) % 3}, 2);
+      edge.spokes = Cap::around(arc->middle, arc->angle);
+      edge.arc = arc;
+      add(edge, foot_on_edge(edge.corners[0], edge.corners[1]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Cap* cone = cones_.cone(t, k);
+      if (cone == nullptr) continue;
+      Carrier vertex = of_untrusted(t, {k, k, k}, 1);
+      vertex.spokes = *cone;
+      add(vertex, vertex.corners[0]);
+    }
+  }
+
   void add_edge(int t, int k, int other, const Cap& spokes) {
     Carrier edge = blank(2);
     const Vector3d& a = tree_.corner(t, k);
@@ -37,8 +70,7 @@ class Collector {
     edge.corners = {a, b, b};
     edge.spokes = spokes;
     if (!spokes.holds_all()) span_by(edge, tree_.normal(t), tree_.normal(other), 2);
-    const double share = std::clamp((b - a).dot(box_.centre - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    add(edge, a + share * (b - a));
+    add(edge, foot_on_edge(a, b));
   }
 
   void add_vertex(int t, int k, const Cap& spokes) {
@@ -74,6 +106,21 @@ class Collector {
     return carrier;
   }
 
+  Carrier of_untrusted(int t, const std::array<int, 3>& corners, int count) const {
+    Carrier carrier = blank(count);
+    carrier.triangle_corners = cones_.corners(t);
+    for (int i = 0; i < 3; ++i) {
+      carrier.corners[i] = tree_.corner(t, corners[i]);
+      carrier.vertices[i] = carrier.triangle_corners[corners[i]];
+    }
+    return carrier;
+  }
+
+  Vector3d foot_on_edge(const Vector3d& a, const Vector3d& b) const {
+    const double share = std::clamp((b - a).dot(box_.centre - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return a + share * (b - a);
+  }
+
   static void span_by(Carrier& carrier, const Vector3d& n, const Vector3d& m, int count) {
     carrier.normals = {n, m};
     carrier.normal_count = count;
@@ -106,6 +153,7 @@ class Collector {
   }
 
   const Tree& tree_;
+  const SpokeCones& cones_;
   const Box& box_;
   double radius_;
   BoxReach reach_;
@@ -116,11 +164,14 @@ class Collector {
 
 std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, const Box& box, const Closest& nearest,
                                  std::span<const Contact> contacts) {
-  Collector collector(tree, box, nearest);
+  Collector collector(tree, cones, box, nearest);
   for (const Contact& contact : contacts) {
     const int t = contact.triangle;
-    collector.add_triangle(t, contact.trusted);
-    if (!contact.trusted) continue;
+    if (!contact.trusted) {
+      collector.add_untrusted(t);
+      continue;
+    }
+    collector.add_triangle(t, true);
     for (int k = 0; k < 3; ++k) {
       if (const Cap* spokes = cones.edge(t, k)) collector.add_edge(t, k, cones.neighbour(t, k), *spokes);
       if (const Cap* spokes = cones.vertex(t, k)) collector.add_vertex(t, k, *spokes);

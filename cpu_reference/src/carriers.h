@@ -1,5 +1,5 @@
 // Carriers: the convex parts of the boundary that hold the feet of medial points of a box, with the spokes that they
-// allow there (docs/theory.md, Lemmas A, C and D).
+// allow there (docs/theory.md, Lemmas A, C, D and I).
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace medial_vk::reference {
 
-/// A face, an edge or a vertex of trusted triangles, or an untrusted triangle with its border.
+/// A face from one side, an edge or a vertex; or a triangle without a known normal, with its border.
 struct Carrier {
   std::array<Eigen::Vector3d, 3> corners;
   int corner_count;
@@ -22,8 +22,11 @@ struct Carrier {
   int normal_count;
   double normal_cosine;  // of the greatest angle between one of them and an axis near all
   Cap spokes;
-  double distance = 0;        // from the centre of the box
-  Eigen::Vector3d direction;  // to the nearest point; 0 at distance 0
+  const Arc* arc = nullptr;                            // that holds the spokes to an edge of an untrusted triangle
+  std::array<int, 3> vertices = {-1, -1, -1};          // of the mesh: the corners
+  std::array<int, 3> triangle_corners = {-1, -1, -1};  // of the untrusted triangle that lists it; -1: of a trusted one
+  double distance = 0;                                 // from the centre of the box
+  Eigen::Vector3d direction;                           // to the nearest point; 0 at distance 0
 };
 
 /// The carriers of a box whose contacts are these, nearest first. `nearest` is the boundary point nearest to its

@@ -13,6 +13,17 @@ constexpr double kCosineSlack = 1e-12;       // dots of unit vectors and cosines
 constexpr std::size_t kMostCarriers = 2000;  // the search is quadratic
 constexpr std::size_t kMostRivals = 16;      // nearest carriers that are tried for Lemma F
 
+/// Does either carrier lie in the untrusted triangle that lists the other? No two feet are in one triangle.
+bool are_of_one_triangle(const Carrier& a, const Carrier& b) {
+  const auto holds = [](const std::array<int, 3>& corners, const Carrier& c) {
+    const auto is_corner = [&](int v) {
+      return v >= 0 && std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
+    return std::all_of(c.vertices.begin(), c.vertices.end(), is_corner);
+  };
+  return holds(a.triangle_corners, b) || holds(b.triangle_corners, a);
+}
+
 class PairTest {
  public:
   PairTest(const Tree& tree, const Box& box, std::span<const Carrier> carriers, double angle)
@@ -24,7 +35,8 @@ class PairTest {
         slack_(8 * tree.rounding()) {}
 
   bool can_be_salient(const Carrier& a, const Carrier& b) const {
-    return spokes_can_part(a.spokes, b.spokes) && can_face(a, b) && can_face(b, a) && !is_beaten_by_a_third(a, b);
+    return spokes_can_part(a.spokes, b.spokes) && !are_of_one_triangle(a, b) && can_face(a, b) && can_face(b, a) &&
+           !is_beaten_by_a_third(a, b);
   }
 
  private:
@@ -71,10 +83,21 @@ struct Chords {
   Vector3d mean;
 };
 
-bool is_behind(const Vector3d& n, const Carrier& a, const Carrier& b, double slack) {
+/// The greatest -s . d of all s of an arc. The part of d across the edge, turned about, is `turn` away from the middle.
+double depth_along(const Arc& arc, const Vector3d& d) {
+  const Vector3d across = d - d.dot(arc.along) * arc.along;
+  const double size = across.norm();
+  if (size == 0) return 0;
+  const double turn = 2 * half_angle(-across / size, arc.middle);
+  return size * std::cos(std::max(0.0, turn - arc.angle));
+}
+
+/// Is anything of b behind a, as seen along -s for a spoke s at a: the greatest -s . d of chords d is above the slack.
+template <typename Depth>
+bool is_behind(const Depth& depth, const Carrier& a, const Carrier& b, double slack) {
   for (int i = 0; i < a.corner_count; ++i) {
     for (int j = 0; j < b.corner_count; ++j) {
-      if (n.dot(a.corners[i] - b.corners[j]) > slack) return true;
+      if (depth(b.corners[j] - a.corners[i]) > slack) return true;
     }
   }
   return false;
@@ -90,16 +113,22 @@ bool is_behind(const Vector3d& n, const Carrier& a, const Carrier& b, double sla
 // spokes at flat edges and vertices are within kFaceAngle = 1e-7 of the normal of a face.
 bool PairTest::can_face(const Carrier& a, const Carrier& b) const {
   constexpr double kLeastAlong = 0.05, kRatioSlack = 2e-7;
-  if (a.normal_count == 0) return true;
-  const double least = sine_ * a.normal_cosine - kRatioSlack;
-  for (int k = 0; k < a.normal_count; ++k) {
-    const Vector3d& n = a.normals[k];
-    if (!is_behind(n, a, b, 1e-9 * size_)) continue;
+  const auto faces = [&](const auto& depth, double least) {
+    if (!is_behind(depth, a, b, 1e-9 * size_)) return false;
     const Chords chords(a, b);
     for (int i = 0; i < chords.count; ++i) {
       const double along = chords.units[i].dot(chords.mean);
-      if (along < kLeastAlong || -n.dot(chords.units[i]) >= least * along) return true;
+      if (along < kLeastAlong || depth(chords.units[i]) >= least * along) return true;
     }
+    return false;
+  };
+  if (a.arc != nullptr) {
+    return faces([&](const Vector3d& d) { return depth_along(*a.arc, d); }, sine_ - kRatioSlack);
+  }
+  if (a.normal_count == 0) return true;
+  for (int k = 0; k < a.normal_count; ++k) {
+    const Vector3d& n = a.normals[k];
+    if (faces([&](const Vector3d& d) { return -n.dot(d); }, sine_ * a.normal_cosine - kRatioSlack)) return true;
   }
   return false;
 }

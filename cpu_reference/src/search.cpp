@@ -14,6 +14,9 @@ namespace {
 constexpr double kHair = 1e-9;
 // Levels below the voxel from which points beside a sheet are asked: where cells are not much larger than epsilon.
 constexpr int kDirectDepth = 2;
+// Levels below the voxel at which cells that the boundary meets are given up where normals are not trusted: what hides
+// in them has a radius below sqrt(3) / 2^5 of the voxel's side.
+constexpr int kLevelsAlongBoundary = 5;
 
 }  // namespace
 
@@ -61,22 +64,21 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
     ++count.found;
     return Outcome::kFound;
   }
-  // A cell touched by the boundary where normals mean nothing can never be dismissed: do not fall into it.
+  // A cell touched by the boundary where normals mean nothing may hold medial points of either side: do not fall into
+  // it.
   const auto distrusted = [](const Contact& contact) { return !contact.trusted; };
   const bool hopeless =
       nearest.distance <= box.reach() && std::any_of(test.contacts().begin(), test.contacts().end(), distrusted);
-  if (depth < (hopeless ? std::min(1, extra_levels_) : extra_levels_)) {
+  if (depth < (hopeless ? std::min(kLevelsAlongBoundary, extra_levels_) : extra_levels_)) {
     return search_parts(cell, where, depth, list, sphere);
   }
-  note_undecided(test, list, angle, hopeless);
+  note_undecided(test, list, angle);
   return Outcome::kUndecided;
 }
 
-void VoxelSearch::note_undecided(BoxTest& test, const ContactList& list, double angle, bool hopeless) {
+void VoxelSearch::note_undecided(BoxTest& test, const ContactList& list, double angle) {
   const Box voxel = {(lower_ + upper_) / 2, Vector3d::Constant(grid_.voxel_size / 2)};
-  const UndecidedKind kind =
-      hopeless ? UndecidedKind::kBoundary : kind_of(tree_, cones_, thresholds_, test, list, voxel);
-  undecided_.kind = std::max(undecided_.kind, kind);
+  undecided_.kind = std::max(undecided_.kind, kind_of(tree_, cones_, thresholds_, test, list, voxel));
   undecided_.width = std::max(undecided_.width, test.width(angle));
 }
 

@@ -47,7 +47,7 @@ class VoxelSearch {
 
   Outcome search(const Cell& cell, int depth, const ContactList& parent, Sphere& sphere);
   Outcome search_parts(const Cell& cell, Side where, int depth, const ContactList& list, Sphere& sphere);
-  void note_undecided(BoxTest& test, const ContactList& list, double angle, bool hopeless);
+  void note_undecided(BoxTest& test, const ContactList& list, double angle);
   bool aim(const Cell& cell, const BoxTest& test, const ContactList& list, double angle, Side where, Sphere& sphere);
   bool stand_beside(const Cell& cell, const ContactList& list, Side where, Sphere& sphere);
   std::optional<End> second_contact(const End& here, const ContactList& list) const;

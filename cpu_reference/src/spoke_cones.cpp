@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace medial_vk::reference {
@@ -84,6 +86,38 @@ std::optional<Cap> vertex_spokes(const Fan& fan) {
   return spokes;
 }
 
+// Lemma I on an edge, seen along it: of the half circle of directions that do not point away from the first triangle,
+// what does not point away from the others. Directions d across the edge are right to 1e-9 (kLeastCornerSine).
+std::optional<Arc> arc_across(const Vector3d& along, std::span<const Vector3d> towards) {
+  constexpr double kRightAngle = std::numbers::pi / 2;
+  const Vector3d u = towards.front(), v = along.cross(u);
+  double from = -kRightAngle, to = kRightAngle;  // angles from u
+  for (const Vector3d& d : towards) {
+    const double at = std::atan2(d.dot(v), d.dot(u));  // within pi of 0, and so is what is left: no turn to add
+    from = std::max(from, at - kRightAngle);
+    to = std::min(to, at + kRightAngle);
+  }
+  // Two triangles in a plane are left with their normals, which count as spokes to their faces.
+  const double half = (to - from) / 2, middle = (to + from) / 2;
+  if (half <= kFlatAngle / 2) return std::nullopt;
+  return Arc{along, std::cos(middle) * u + std::sin(middle) * v, std::min(half + kNormalSlack, kRightAngle)};
+}
+
+// Lemma I at a vertex: the cone s . e >= 0 for all edges e. Nothing if it is empty; all directions if no cap holds it.
+std::optional<Cap> cone_across(const std::vector<Vector3d>& edges) {
+  constexpr std::size_t kMostEdges = 40;  // the rays take the cube of that
+  if (edges.size() > kMostEdges) return Cap::all();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (edges[i].cross(edges[j]).norm() < kLeastRaySine) return Cap::all();
+    }
+  }
+  if (edges.size() < 2) return Cap::all();
+  const std::vector<Vector3d> rays = rays_across(edges);
+  if (rays.empty()) return std::nullopt;
+  return cap_around(rays);
+}
+
 }  // namespace
 
 Cap Cap::around(const Vector3d& axis, double angle) {
@@ -117,6 +151,7 @@ Cap cap_around(std::span<const Vector3d> directions) {
 }
 
 SpokeCones::SpokeCones(const Mesh& mesh, const Tree& tree) {
+  for (const Eigen::Vector3i& t : mesh.triangles) corners_.push_back({t[0], t[1], t[2]});
   find_neighbours(mesh);
   distrust(mesh, tree);
   measure_turns(tree);
@@ -124,6 +159,9 @@ SpokeCones::SpokeCones(const Mesh& mesh, const Tree& tree) {
   vertices_.assign(trusted_.size(), {-1, -1, -1});
   add_edges(tree);
   add_vertices(mesh, tree);
+  arcs_of_ = cones_ = std::vector<std::array<int, 3>>(trusted_.size(), {-1, -1, -1});
+  add_arcs(mesh, tree);
+  add_cones(mesh);
 }
 
 int SpokeCones::add(const Cap& cap) {
@@ -153,10 +191,12 @@ void SpokeCones::find_neighbours(const Mesh& mesh) {
 void SpokeCones::distrust(const Mesh& mesh, const Tree& tree) {
   trusted_ = mesh.trusted;
   trusted_.resize(mesh.triangles.size(), 0);
+  has_sides_.assign(mesh.triangles.size(), 0);
   for (int t = 0; t < static_cast<int>(trusted_.size()); ++t) {
     const Vector3d a = tree.corner(t, 1) - tree.corner(t, 0), b = tree.corner(t, 2) - tree.corner(t, 0);
     const bool sure = a.cross(b).norm() > kLeastCornerSine * a.norm() * b.norm();
     const auto& across = neighbours_[t];
+    has_sides_[t] = sure ? 1 : 0;
     if (!sure || *std::min_element(across.begin(), across.end()) < 0) trusted_[t] = 0;
   }
 }
@@ -184,6 +224,57 @@ void SpokeCones::add_edges(const Tree& tree) {
       const Cap spokes = cap_around(normals);
       if (spokes.angle > kFlatAngle) edges_[t][k] = add(spokes);
     }
+  }
+}
+
+void SpokeCones::add_arcs(const Mesh& mesh, const Tree& tree) {
+  std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> edges;  // of triangle, number; smallest first
+  for (int t = 0; t < static_cast<int>(trusted_.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      edges[std::minmax(a, b)].emplace_back(t, k);
+    }
+  }
+  for (const auto& [ends, sides] : edges) {
+    const auto is_untrusted = [&](const auto& side) { return trusted_[side.first] == 0; };
+    const auto has_sides = [&](const auto& side) { return has_sides_[side.first] != 0; };
+    const auto owner = std::find_if(sides.begin(), sides.end(), is_untrusted);
+    if (owner == sides.end() || !std::all_of(sides.begin(), sides.end(), has_sides)) continue;
+    const auto [t, k] = *owner;
+    const Vector3d along = (tree.corner(t, (k + 1) % 3) - tree.corner(t, k)).normalized();
+    std::vector<Vector3d> towards;
+    for (const auto& [u, j] : sides) {
+      const Vector3d across = tree.normal(u).cross(along);
+      const double sign = across.dot(tree.corner(u, (j + 2) % 3) - tree.corner(u, j)) > 0 ? 1 : -1;
+      towards.push_back(sign * across);
+    }
+    const std::optional<Arc> arc = arc_across(along, towards);
+    if (!arc) continue;
+    arcs_of_[t][k] = static_cast<int>(arcs_.size());
+    arcs_.push_back(*arc);
+  }
+}
+
+void SpokeCones::add_cones(const Mesh& mesh) {
+  std::vector<std::vector<std::pair<int, int>>> corners(mesh.vertices.size());  // triangle, corner; smallest first
+  for (int t = 0; t < static_cast<int>(trusted_.size()); ++t) {
+    for (int k = 0; k < 3; ++k) corners[mesh.triangles[t][k]].emplace_back(t, k);
+  }
+  for (const auto& around : corners) {
+    const auto is_untrusted = [&](const auto& corner) { return trusted_[corner.first] == 0; };
+    const auto has_sides = [&](const auto& corner) { return has_sides_[corner.first] != 0; };
+    const auto owner = std::find_if(around.begin(), around.end(), is_untrusted);
+    if (owner == around.end() || !std::all_of(around.begin(), around.end(), has_sides)) continue;
+    std::set<int> ends;
+    for (const auto& [t, k] : around) {
+      ends.insert(mesh.triangles[t][(k + 1) % 3]);
+      ends.insert(mesh.triangles[t][(k + 2) % 3]);
+    }
+    const auto [t, k] = *owner;
+    const Vector3d& here = mesh.vertices[mesh.triangles[t][k]];
+    std::vector<Vector3d> edges;
+    for (const int end : ends) edges.push_back((mesh.vertices[end] - here).normalized());
+    if (const std::optional<Cap> cone = cone_across(edges)) cones_[t][k] = add(*cone);
   }
 }
 

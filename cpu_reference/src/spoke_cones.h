@@ -1,4 +1,4 @@
-// Which way spokes can point at the faces, edges and vertices of a mesh (docs/theory.md, Lemma D).
+// Which way spokes can point at the faces, edges and vertices of a mesh (docs/theory.md, Lemmas D and I).
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +23,13 @@ struct Cap {
   bool holds_all() const { return cosine <= 0; }
 };
 
+/// Unit vectors across an edge, within `angle` of the one in the middle.
+struct Arc {
+  Eigen::Vector3d along;   // unit, of the edge
+  Eigen::Vector3d middle;  // unit, across it
+  double angle;            // at most pi/2
+};
+
 /// A small cap that holds these unit vectors; all directions if none below pi/2 is found.
 Cap cap_around(std::span<const Eigen::Vector3d> directions);
 
@@ -41,10 +48,23 @@ class SpokeCones {
   const std::vector<std::uint8_t>& trusted() const { return trusted_; }
 
   /// Spokes from inside to the interior of edge k (from corner k to the next) and to corner k of a triangle. Null if
-  /// there are none, if the feature is flat, if an untrusted triangle holds it (that is a carrier as a whole), or if it
-  /// is listed with a triangle of smaller index.
+  /// there are none, if the feature is flat, if an untrusted triangle holds it, or if it is listed with a triangle of
+  /// smaller index.
   const Cap* edge(int triangle, int k) const { return cap(edges_[triangle][k]); }
   const Cap* vertex(int triangle, int k) const { return cap(vertices_[triangle][k]); }
+
+  /// Of an untrusted triangle: is its normal known all the same? If not, it is a carrier as a whole.
+  bool has_sides(int triangle) const { return has_sides_[triangle] != 0; }
+
+  /// The vertices of a triangle.
+  const std::array<int, 3>& corners(int triangle) const { return corners_[triangle]; }
+
+  /// Where an untrusted triangle holds an edge or a corner: spokes to it, from whichever side. Null as above; and if a
+  /// triangle without a known normal holds it.
+  const Arc* arc(int triangle, int k) const {
+    return arcs_of_[triangle][k] < 0 ? nullptr : &arcs_[arcs_of_[triangle][k]];
+  }
+  const Cap* cone(int triangle, int k) const { return cap(cones_[triangle][k]); }
 
   /// The triangle on the other side of edge k; -1 if there is none.
   int neighbour(int triangle, int k) const { return neighbours_[triangle][k]; }
@@ -57,12 +77,17 @@ class SpokeCones {
   void measure_turns(const Tree& tree);
   void add_edges(const Tree& tree);
   void add_vertices(const Mesh& mesh, const Tree& tree);
+  void add_arcs(const Mesh& mesh, const Tree& tree);
+  void add_cones(const Mesh& mesh);
 
-  std::vector<std::uint8_t> trusted_;
+  std::vector<std::uint8_t> trusted_, has_sides_;
   std::vector<std::array<int, 3>> neighbours_;
   std::vector<std::array<double, 3>> turns_;  // sine of the turn of normals across an edge; positive: convex
   std::vector<Cap> caps_;
-  std::vector<std::array<int, 3>> edges_, vertices_;  // indices of caps_, -1: none
+  std::vector<std::array<int, 3>> corners_;
+  std::vector<Arc> arcs_;
+  std::vector<std::array<int, 3>> edges_, vertices_, cones_;  // indices of caps_, -1: none
+  std::vector<std::array<int, 3>> arcs_of_;                   // of arcs_
 };
 
 }  // namespace medial_vk::reference

@@ -333,7 +333,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const 
         mesh_->storage_of(mesh_->triangle_links), mesh_->storage_of(mesh_->corner_cones), aims_.range(),
         verdicts_.range(), reasons_.range()},
        Reads::kLinks,
-       {},
+       {mesh_->has_untrusted ? 1u : 0u},
        kEightLanes,
        Lanes::kEight},
       {gpu::kCells, kEightLanes, 1, first * kEightLanes, limit * kEightLanes}, step);

@@ -267,9 +267,9 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
   run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range()}), {gpu::kAsked}, step);
 }
 
-// Cells give up at the last level, some before it, and one level below the finest where the mesh cannot be trusted.
+// Cells give up at the last level, some before it, from kBoundaryDepth on where the mesh cannot be trusted.
 void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level) {
-  const bool some_settle = step.settles != 0u || (step.depth >= 1 && mesh_->has_untrusted);
+  const bool some_settle = step.settles != 0u || (step.depth >= gpu::kBoundaryDepth && mesh_->has_untrusted);
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.classifies = 1;

@@ -23,6 +23,8 @@ constexpr double kTouchSlack = 3e-7;
 // Normals closer than this count as one: faces are listed with a cap of twice that (shaders/shared/carriers.glsl), and
 // hold their edges and vertices.
 constexpr double kFlat = 5e-6;
+// Two sides of an untrusted triangle at a larger angle than this (its sine) give a normal that is right to 1e-9.
+constexpr double kLeastCornerSine = 1e-6;
 // Axes and angles are stored as floats.
 constexpr double kCapSlack = 1e-6;
 // Vertices that a thread looks at in one go.
@@ -95,6 +97,38 @@ gpu::vec4 corner_cap(std::span<const Point> normals, std::span<const Point> edge
   return to_gpu(by_edges && by_edges->angle < by_normals->angle ? *by_edges : *by_normals);
 }
 
+// Lemma I at a vertex: spokes from any side. The cone of directions s with s.e >= 0 for all edges e, as a cap.
+gpu::vec4 corner_cap_from_all_sides(std::span<const Point> edges) {
+  constexpr std::size_t kMostEdges = 48;  // the rays take the cube of their number
+  if (edges.size() > kMostEdges) return kAnySpoke;
+  const std::optional<std::vector<Point>> rays = supporting_rays(edges);
+  if (!rays) return kAnySpoke;
+  if (rays->empty()) return kNoSpoke;
+  const std::optional<Cap> cap = cap_around(*rays);
+  return cap ? to_gpu(*cap) : kAnySpoke;
+}
+
+// Lemma I on an edge: all directions s across it with s.d >= 0 for the directions d in which its triangles leave it.
+// The d lie in an arc, all of the circle but the widest gap between two of them; the s are in an arc with the same
+// middle, and both are a straight angle together. Nothing if there are none, or only the normals of two triangles in a
+// plane.
+std::optional<Cap> arc_of_spokes(const Point& along, std::span<const Point> across) {
+  const Point u = across[0], v = cross(along, u);
+  std::vector<double> angles;
+  for (const Point& d : across) angles.push_back(std::atan2(dot(d, v), dot(d, u)));
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2 * std::numbers::pi - angles.back(), first = angles.front();
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    if (angles[i] - angles[i - 1] <= gap) continue;
+    gap = angles[i] - angles[i - 1];
+    first = angles[i];
+  }
+  const double spread = 2 * std::numbers::pi - gap, half = kRightAngle - spread / 2;
+  if (half < kFlat / 2) return std::nullopt;
+  const double middle = first + spread / 2;
+  return Cap{unit(std::cos(middle) * u + std::sin(middle) * v), half + kCapSlack};
+}
+
 // A directed edge of a triangle, as a key that both its triangles share.
 struct HalfEdge {
   uint low, high, position;
@@ -124,9 +158,15 @@ class Builder {
       normals_[p] = unit(cross(corner(p, 1) - corner(p, 0), corner(p, 2) - corner(p, 0)));
       const bool trusted = !mesh_.flags.empty() && (mesh_.flags[order_[p]] & kTrustedNormal) != 0;
       const Triangle& t = triangle(p);
-      out_.links[p] = {
-          {t[0], t[1], t[2]}, trusted ? 0u : gpu::kLinkWhole, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, 0};
+      out_.links[p] = {{t[0], t[1], t[2]}, 0, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, 0};
+      if (!trusted || length(normals_[p]) == 0) distrust(p);
     }
+  }
+
+  void distrust(uint p) {
+    const Point first = corner(p, 1) - corner(p, 0), second = corner(p, 2) - corner(p, 0);
+    const bool thin = length(cross(first, second)) < kLeastCornerSine * length(first) * length(second);
+    out_.links[p].flags |= thin ? gpu::kLinkWhole : gpu::kLinkBothSides;
   }
 
   // By low, high, position: a counting sort by the first, which leaves runs of a few edges to sort by the others.
@@ -156,17 +196,57 @@ class Builder {
     return edges;
   }
 
+  bool is_untrusted(uint p) const { return (out_.links[p].flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u; }
+  bool is_whole(uint p) const { return (out_.links[p].flags & gpu::kLinkWhole) != 0u; }
+
+  // Visits every edge as the span of its directed edges, the earlier triangles first.
+  template <class Visit>
+  static void for_each_edge(const std::vector<HalfEdge>& edges, const Visit& visit) {
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
+      visit(std::span(edges).subspan(i, end - i));
+    }
+  }
+
+  static bool is_regular(std::span<const HalfEdge> edge) {
+    return edge.size() == 2 && edge[0].rising != edge[1].rising;
+  }
+
   // Of an edge between p and q, the earlier triangle lists it: both are contacts wherever a spoke ends on it.
   void link_edges() {
     const std::vector<HalfEdge> edges = sorted_edges();
-    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-      while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-      if (end == i + 2 && edges[i].rising != edges[i + 1].rising) {
-        link(edges[i], edges[i + 1]);
-      } else {
-        for (std::size_t j = i; j < end; ++j) out_.links[edges[j].position].flags |= gpu::kLinkWhole;
+    for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
+      if (is_regular(edge)) return;
+      for (const HalfEdge& e : edge) {
+        if (!is_untrusted(e.position)) distrust(e.position);
       }
+    });
+    for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
+      const auto untrusted = [&](const HalfEdge& e) { return is_untrusted(e.position); };
+      const auto whole = [&](const HalfEdge& e) { return is_whole(e.position); };
+      const auto owner = std::find_if(edge.begin(), edge.end(), untrusted);
+      if (owner == edge.end()) {
+        link(edge[0], edge[1]);
+      } else if (std::none_of(edge.begin(), edge.end(), whole)) {
+        link_arc(edge, *owner);
+      }
+    });
+  }
+
+  void link_arc(std::span<const HalfEdge> edge, const HalfEdge& owner) {
+    const Point& from = mesh_.vertices[owner.low];
+    const Point along = unit(mesh_.vertices[owner.high] - from);
+    std::vector<Point> across;
+    for (const HalfEdge& e : edge) {
+      const Point d = corner(e.position, e.corner + 2) - from;
+      across.push_back(unit(d - dot(d, along) * along));
     }
+    const std::optional<Cap> arc = arc_of_spokes(along, across);
+    if (!arc) return;
+    gpu::TriangleLinks& links = out_.links[owner.position];
+    links.flags |= gpu::kLinkEdge << owner.corner;
+    links.neighbour[owner.corner] = static_cast<uint>(mesh_.vertices.size() + arcs_.size());
+    arcs_.push_back(to_gpu(*arc));
   }
 
   void link(const HalfEdge& first, const HalfEdge& second) {
@@ -179,17 +259,10 @@ class Builder {
     gpu::TriangleLinks& links = out_.links[first.position];
     links.neighbour[first.corner] = second.position;
     if (reflex && !flat) links.flags |= gpu::kLinkEdge << first.corner;
-    partners_.emplace_back(first.position, second.position);
   }
 
-  // A feature that an untrusted triangle shares need not be listed: that triangle is listed as a whole.
+  // A feature that a triangle without a good normal shares need not be listed: that triangle is listed as a whole.
   void link_corners() {
-    for (const auto& [p, q] : partners_) {
-      if ((out_.links[q].flags & gpu::kLinkWhole) == 0u) continue;
-      const uint* neighbour = out_.links[p].neighbour;
-      const auto edge = static_cast<uint>(std::find(neighbour, neighbour + 3, q) - neighbour);
-      out_.links[p].flags &= ~(gpu::kLinkEdge << edge);
-    }
     std::vector<uint> begin(mesh_.vertices.size() + 1, 0), fans(3 * order_.size());
     for (uint p = 0; p < order_.size(); ++p)
       for (const uint v : triangle(p)) ++begin[v + 1];
@@ -207,11 +280,15 @@ class Builder {
     for (uint v = 0; v < mesh_.vertices.size(); ++v) {
       if (out_.corners[v].w >= 0) link_corner(v, fan_of(v));
     }
+    out_.corners.insert(out_.corners.end(), arcs_.begin(), arcs_.end());
   }
 
   void measure_corner(uint vertex, std::span<const uint> fan) {
-    const auto whole = [&](uint p) { return (out_.links[p].flags & gpu::kLinkWhole) != 0u; };
-    if (fan.empty() || std::any_of(fan.begin(), fan.end(), whole)) return;
+    if (fan.empty() || std::any_of(fan.begin(), fan.end(), [&](uint p) { return is_whole(p); })) return;
+    if (std::any_of(fan.begin(), fan.end(), [&](uint p) { return is_untrusted(p); })) {
+      out_.corners[vertex] = corner_cap_from_all_sides(edges_from(vertex, fan));
+      return;
+    }
     std::vector<Point> normals, edges;
     for (const uint p : fan) {
       const Triangle& t = triangle(p);
@@ -220,6 +297,21 @@ class Builder {
       edges.push_back(unit(corner(p, k + 1) - corner(p, k)));
     }
     out_.corners[vertex] = corner_cap(normals, edges);
+  }
+
+  // Unit, each once.
+  std::vector<Point> edges_from(uint vertex, std::span<const uint> fan) const {
+    std::vector<uint> ends;
+    for (const uint p : fan) {
+      for (const uint end : triangle(p)) {
+        if (end != vertex) ends.push_back(end);
+      }
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    std::vector<Point> edges;
+    for (const uint end : ends) edges.push_back(unit(mesh_.vertices[end] - mesh_.vertices[vertex]));
+    return edges;
   }
 
   void link_corner(uint vertex, std::span<const uint> fan) {
@@ -231,7 +323,7 @@ class Builder {
   const MeshView& mesh_;
   std::span<const std::uint32_t> order_;
   std::vector<Point> normals_;
-  std::vector<std::pair<uint, uint>> partners_;  // both triangles of every manifold edge, the earlier first
+  std::vector<gpu::vec4> arcs_;  // of spokes to edges of untrusted triangles
   MeshLinks out_;
 };
 

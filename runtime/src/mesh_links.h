@@ -1,5 +1,5 @@
-// Where spokes can end on a trusted mesh, and which way they point there (docs/theory.md, Lemma D): what the dismissal
-// of cells by pairs asks about edges and vertices.
+// Where spokes can end on a mesh, and which way they point there (docs/theory.md, Lemma D; I where it is not trusted):
+// what the dismissal of cells by pairs asks about edges and vertices.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace medial_vk {
 
 struct MeshLinks {
   std::vector<gpu::TriangleLinks> links;  // by position in `order`
-  std::vector<gpu::vec4> corners;         // by vertex: axis and half-angle of a cap that holds all spokes to it
+  // By vertex: axis and half-angle of a cap that holds all spokes to it; then of arcs, to edges of untrusted triangles.
+  std::vector<gpu::vec4> corners;
 };
 
 /// `order` lists the triangles as the device does: links name positions in it. Linear in the size of the mesh, up to

@@ -166,6 +166,9 @@ Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& me
 Status DeviceMesh::upload_links(const Uploader& uploader, const MeshView& mesh) {
   static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
   const MeshLinks made = make_mesh_links(mesh, order);
+  has_untrusted = has_untrusted || std::ranges::any_of(made.links, [](const gpu::TriangleLinks& l) {
+                    return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
+                  });
   Status status = fill_texels(uploader, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
                               VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
   if (!status.ok()) return status;

@@ -1,4 +1,4 @@
-// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to H)?
+// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to I)?
 #ifndef MEDIAL_VK_CARRIER_PAIRS_GLSL
 #define MEDIAL_VK_CARRIER_PAIRS_GLSL
 #include "carriers.glsl"
@@ -20,10 +20,16 @@ void normals_of(uint name, out vec3 first, out vec3 second) {
   if (kind < kFirstCorner) second = triangle_texel(4u * neighbour_of(t, kind - kFirstEdge) + 3u).xyz;
 }
 
+// Is it listed by an untrusted triangle, with spokes from both sides?
+bool is_two_sided(uint name) {
+  return kHasUntrusted && (corners_and_flags(name / 8u).w & kLinkBothSides) != 0u;
+}
+
 // The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
 // two arcs differ by no more than some two ends, if those are closer than that.
 bool can_turn_between_normals(uint first, uint second, float theta) {
   if (first % 8u >= kFirstCorner || second % 8u >= kFirstCorner) return true;
+  if (is_two_sided(first) || is_two_sided(second)) return true;
   vec3 a, b, c, d;
   normals_of(first, a, b);
   normals_of(second, c, d);
@@ -63,33 +69,86 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   return wide;
 }
 
+// Are the corners of a carrier, of this kind and of a triangle with these corners, corners of another triangle?
+bool holds(uvec3 other, uint kind, uvec3 corners) {
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kFront;
+  uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
+  bool held = any(equal(other, uvec3(corners[k])));
+  if (!is_corner) held = held && any(equal(other, uvec3(corners[k == 2u ? 0u : k + 1u])));
+  if (!is_corner && !is_edge) held = held && any(equal(other, uvec3(corners.z)));
+  return held;
+}
+
 // Corners of a carrier: edges repeat one, vertices two.
 void corners_of(uint name, out vec3 p[3]) {
   TriangleTexels t = load_triangle(name / 8u);
   uint kind = name % 8u;
   vec3 a = t.a.xyz, b = corner_of(t, 1u), c = corner_of(t, 2u);
-  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kWhole;
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kFront;
   uint first = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
   p[0] = first == 0u ? a : first == 1u ? b : c;
   p[1] = is_corner ? p[0] : first == 0u ? b : first == 1u ? c : a;
   p[2] = is_edge ? p[1] : is_corner ? p[0] : c;
 }
 
-// Lemma E at one end, if it is asked there: the normals, and what -n.c must reach for one of them.
+// Is some point of the one and some point of the other in one triangle? It has one nearest point.
+bool share_triangle(uint first, uint second) {
+  if (!is_two_sided(first) && !is_two_sided(second)) return false;
+  uvec4 a = corners_and_flags(first / 8u), b = corners_and_flags(second / 8u);
+  return holds(a.xyz, second % 8u, b.xyz) || holds(b.xyz, first % 8u, a.xyz);
+}
+
+// Lemma E at one end, if it is asked there: the normals, and what -n.c must reach for one of them; or the arc of spokes
+// to an edge (Lemma I), its middle in `normal`.
 struct Facing {
   vec3 normal, other;
   float least;
   bool asked;
+  bool is_arc;
+  vec3 along;     // unit, of the edge
+  vec2 half_arc;  // cosine and sine of half the arc
+  float tilt;     // of the edge
 };
 
-Facing facing_of(uint name, float sine) {
-  Facing f = Facing(vec3(0.0), vec3(0.0), 0.0, false);
-  if (name % 8u >= kFirstCorner) return f;  // vertices and untrusted triangles
+Facing facing_of(uint name, float least_sine) {
+  Facing f = Facing(vec3(0.0), vec3(0.0), least_sine - 2.0 * kCosineSlack, false, false, vec3(0.0), vec2(0.0), 0.0);
+  uint t = name / 8u, kind = name % 8u;
+  if (is_two_sided(name)) {
+    f.asked = kind < kFirstCorner || kind == kFront;
+    f.is_arc = kind >= kFirstEdge && kind < kFirstCorner;
+    TriangleTexels texels = load_triangle(t);
+    f.normal = kind == kFront ? -texels.normal.xyz : texels.normal.xyz;
+    f.other = f.normal;
+    if (!f.is_arc) return f;
+    uint k = kind - kFirstEdge;
+    vec4 arc = corner_cap(neighbour_of(t, k));
+    vec3 e = corner_of(texels, k == 2u ? 0u : k + 1u) - corner_of(texels, k);
+    float size = max(length(e), 1e-30);
+    f.normal = arc.xyz;
+    float half_angle = min(arc.w, 1.5707963);
+    f.half_arc = vec2(cosine(half_angle), sine(half_angle));
+    f.along = e / size;
+    f.tilt = 1.2e-7 / size;
+    return f;
+  }
+  if (kind >= kFirstCorner) return f;  // vertices, and triangles as a whole
   normals_of(name, f.normal, f.other);
   float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(f.normal, f.other)));  // of the cap around both normals
-  f.least = (sine - kCosineSlack) * cos_phi - kCosineSlack;
+  f.least = (least_sine - kCosineSlack) * cos_phi - kCosineSlack;
   f.asked = cos_phi >= kLeastCosPhi;
   return f;
+}
+
+// The greatest -s.d of their spokes s.
+float depth_along(Facing f, vec3 d) {
+  float depth = max(-dot(f.normal, d), -dot(f.other, d));
+  if (kHasUntrusted && f.is_arc) {
+    vec3 across = d - dot(d, f.along) * f.along;
+    float size = length(across), x = -dot(f.normal, across), y = sqrt(max(0.0, size * size - x * x));
+    depth = x >= size * f.half_arc.x ? size : x * f.half_arc.x + y * f.half_arc.y;
+    depth += (f.tilt + 2.0 * kCosineSlack) * length(d);
+  }
+  return depth;
 }
 
 // Lemma E: may both face each other along some chord?
@@ -107,8 +166,7 @@ bool can_face(uint first, uint second, float sine) {
     vec3 chord = q[k % 3u] - p[k / 3u];
     bool apart = dot(chord, chord) > 0.0;  // else a corner of both
     float along = dot(chord, mean) - step.slack;
-    float depth_a = max(-dot(a.normal, chord), -dot(a.other, chord)) + step.slack;
-    float depth_b = max(dot(b.normal, chord), dot(b.other, chord)) + step.slack;
+    float depth_a = depth_along(a, chord) + step.slack, depth_b = depth_along(b, -chord) + step.slack;
     bounded = bounded && (!apart || along > 0.0);
     behind_a = behind_a || (apart && depth_a > 2.0 * step.slack);
     behind_b = behind_b || (apart && depth_b > 2.0 * step.slack);
@@ -136,8 +194,8 @@ bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
 
 // May a pair that turns enough, and that no third carrier beats, hold the spokes?
 bool is_feasible_survivor(Carrier a, Carrier b, float theta, float sine, Box box) {
-  return can_turn_between_normals(a.name, b.name, theta) && can_be_wide(a, b, sine, box) &&
-         can_face(a.name, b.name, sine);
+  return can_turn_between_normals(a.name, b.name, theta) && !share_triangle(a.name, b.name) &&
+         can_be_wide(a, b, sine, box) && can_face(a.name, b.name, sine);
 }
 
 #endif

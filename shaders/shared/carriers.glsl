@@ -1,5 +1,5 @@
 // The carriers of a box: the faces, edges and vertices on which the spokes of its medial points can end
-// (docs/theory.md, Lemmas A, C and D). A workgroup of eight lanes gathers them, nearest first. Include after "lanes.glsl"
+// (docs/theory.md, Lemmas A, C, D and I). A workgroup of eight lanes gathers them, nearest first. Include after "lanes.glsl"
 // and "links.glsl" and after declaring `cells` and `lists`.
 #ifndef MEDIAL_VK_CARRIERS_GLSL
 #define MEDIAL_VK_CARRIERS_GLSL
@@ -7,14 +7,22 @@
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
 const uint kMostEntries = 4096u;  // nor are those with more contacts
-// Contacts whose features are listed at a time, and features of a contact: at most a face, three edges, three vertices.
-const uint kEntriesAtOnce = 64u, kMostFeatures = 7u * kEntriesAtOnce;
-// What kind of carrier, in the low bits of its name: a trusted face, an edge 1 to 3, a vertex 4 to 6 of its triangle,
-// or an untrusted triangle as a whole.
-const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kWhole = 7u;
+// Contacts whose features are listed at a time, and features of a contact: at most two sides of a face, three edges,
+// three vertices.
+const uint kEntriesAtOnce = 64u, kMostFeatures = 8u * kEntriesAtOnce;
+// What kind of carrier, in the low bits of its name: a face, touched from behind, an edge 1 to 3, a vertex 4 to 6 of
+// its triangle, or an untrusted face touched from the front, which also stands for a triangle without a good normal as a
+// whole.
+const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kFront = 7u;
 
 const float kAngleSlack = 1e-5;   // of angles computed here
 const float kCosineSlack = 1e-6;  // of dot products of unit vectors
+
+// Some triangle of the mesh is not trusted. If none is, nothing is asked about that.
+layout(constant_id = 1) const bool kHasUntrusted = true;
+
+// Which of kLinkWhole and kLinkBothSides the flags of a triangle have.
+uint distrust_of(uint flags) { return kHasUntrusted ? flags & (kLinkWhole | kLinkBothSides) : 0u; }
 
 struct Box {
   vec3 centre, half_sides;
@@ -53,28 +61,33 @@ struct Feature {
   vec4 foot;     // projection of the centre on what it spans, from the centre; w: how wrong that may be
   vec4 span;     // unit normal or direction of that; w: which
   float tilt;    // how far rounding may turn it
-  bool meets;    // false: no point of the box projects into it
+  bool meets;    // false: no point of the box projects into it, or lies on its side
 };
 
-Feature face_feature(TriangleTexels texels, bool whole, Box box) {
+Feature face_feature(TriangleTexels texels, uint flags, bool front, Box box) {
   vec3 v = vector_to_triangle(box.centre, texels), n = texels.normal.xyz;
+  bool whole = (distrust_of(flags) & kLinkWhole) != 0u;
+  float behind = dot(n, texels.a.xyz - box.centre), reach = dot(box.half_sides, abs(n)) + step.slack;
   Feature f = Feature(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), true);
-  f.spokes = whole ? f.spokes : vec4(n, kAngleSlack);
-  f.foot = whole ? f.foot : vec4(n * dot(n, texels.a.xyz - box.centre), step.slack);
+  f.spokes = whole ? f.spokes : vec4(front ? -n : n, kAngleSlack);
+  f.foot = whole ? f.foot : vec4(n * behind, step.slack);
   f.span = whole ? f.span : vec4(n, kPlane);
+  f.meets = (distrust_of(flags) & kLinkBothSides) == 0u || (front ? -behind : behind) >= -reach;
   return f;
 }
 
 vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
 
-Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, Box box) {
+// `neighbour`: the triangle across it, or, with `arc`, the row of that.
+Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, bool has_arc, Box box) {
   vec3 a = corner_of(texels, k), e = corner_of(texels, k == 2u ? 0u : k + 1u) - a;
-  vec3 other = triangle_texel(4u * neighbour + 3u).xyz;
+  vec3 other = has_arc ? texels.normal.xyz : triangle_texel(4u * neighbour + 3u).xyz;
   vec3 sum = texels.normal.xyz + other;
   float size = length(sum);
   // Knife edges: the arc between opposite normals has no axis that float can tell.
   vec4 arc = size > 0.05 ? vec4(sum / size, arcsine(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
+  if (has_arc) arc = corner_cap(neighbour);
   float size_e = max(length(e), 1e-30);
   vec3 u = e / size_e;
   float tilt = 1.2e-7 / size_e, sway = tilt * length(box.centre - a);
@@ -92,19 +105,21 @@ Feature corner_feature(TriangleTexels texels, uint k, vec4 cone, Box box) {
 // All three kinds are computed and one is chosen: lanes hold different kinds, so every branch would be taken anyway.
 Feature feature_named(uint name, Box box) {
   uint t = name / 8u, kind = name % 8u;
-  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kWhole;
+  bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kFront;
   uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
   TriangleTexels texels = load_triangle(t);
-  Feature face = face_feature(texels, kind == kWhole, box);
-  Feature edge = edge_feature(texels, k, is_edge ? neighbour_of(t, k) : t, box);
-  Feature corner = corner_feature(texels, k, corner_cap(corners_and_flags(t)[k]), box);
+  uvec4 links = corners_and_flags(t);
+  bool has_arc = is_edge && (distrust_of(links.w) & kLinkBothSides) != 0u;
+  Feature face = face_feature(texels, links.w, kind == kFront, box);
+  Feature edge = edge_feature(texels, k, is_edge ? neighbour_of(t, k) : t, has_arc, box);
+  Feature corner = corner_feature(texels, k, corner_cap(links[k]), box);
   Feature f = face;
   f.nearest = is_edge ? edge.nearest : is_corner ? corner.nearest : face.nearest;
   f.spokes = is_edge ? edge.spokes : is_corner ? corner.spokes : face.spokes;
   f.foot = is_edge ? edge.foot : is_corner ? corner.foot : face.foot;
   f.span = is_edge ? edge.span : is_corner ? corner.span : face.span;
   f.tilt = is_edge ? edge.tilt : is_corner ? corner.tilt : face.tilt;
-  f.meets = !is_edge || edge.meets;
+  f.meets = is_edge ? edge.meets : is_corner || face.meets;
   return f;
 }
 
@@ -128,8 +143,9 @@ void add_carrier(Feature f, uint name, Box box) {
 // Names the features of one contact that may carry spokes.
 void list_features(uint t) {
   uint flags = corners_and_flags(t).w;
-  bool whole = (flags & kLinkWhole) != 0u || triangle_texel(4u * t + 3u).w < 0.5;
-  uint kinds = whole ? 1u << kWhole : 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
+  uint kinds = 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
+  kinds |= (distrust_of(flags) & kLinkBothSides) != 0u ? 1u << kFront : 0u;
+  kinds = (distrust_of(flags) & kLinkWhole) != 0u ? 1u << kFront : kinds;
   uint slot = atomicAdd(feature_count, uint(bitCount(kinds)));
   while (kinds != 0u) {
     feature_name[slot++] = 8u * t + uint(findLSB(kinds));

@@ -1,4 +1,4 @@
-// On which side of the boundary a whole ball lies that does not meet it. Include winding.glsl and closure.glsl before.
+// On which side of the boundary a whole cell lies that does not meet it. Include winding.glsl and closure.glsl before.
 //
 // On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than closure.glsl
 // says. Of meshes with too many open edges for that, only this is known: the winding number is harmonic on the ball,
@@ -26,15 +26,28 @@ uint side_by_harnack(vec3 centre, float radius, float clearance) {
   return kSideUnknown;
 }
 
-// `clearance`: a lower bound of the distance from the centre to the boundary.
-uint side_of_ball(vec3 centre, float radius, float clearance) {
+// How much the winding number changes within `radius` of the point where the closure was asked: by `along` as its
+// gradient says, and by what that changes; or no faster than it can anywhere. The gradient is right to a part of the
+// slope, and to what it changes over the slack of the points (docs/theory.md, "Rounding").
+float change_within(float radius, float along, Closure closure) {
+  float by_gradient = along + radius * (2e-3 * closure.slope + (radius + 2.0 * step.slack) * closure.bend);
+  return min(radius * closure.slope, by_gradient);
+}
+
+// `clearance`: a lower bound of the distance from the centre to the boundary. Outside: the cell; inside: what is within
+// epsilon of its ball, too, where its lines may end.
+uint side_of_cell(vec3 centre, float clearance) {
+  float radius = step.circumradius + step.epsilon;
   if (clearance <= radius) return kSideUnknown;
   if (step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
   Closure closure = closure_at(centre, radius);
   Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
   if (!w.complete) return kSideUnknown;
-  float change = w.bound + radius * closure.slope;
-  return w.number - change >= 0.5 ? kSideInside : w.number + change < 0.5 ? kSideOutside : kSideUnknown;
+  vec3 g = abs(closure.gradient);
+  float in_cell = change_within(step.circumradius, step.half_side * (g.x + g.y + g.z), closure);
+  float in_ball = change_within(radius, radius * length(g), closure);
+  bool outside = w.number + w.bound + in_cell < 0.5, inside = w.number - w.bound - in_ball >= 0.5;
+  return outside ? kSideOutside : inside ? kSideInside : kSideUnknown;
 }
 
 #endif

@@ -14,7 +14,19 @@ struct Closure {
   float number;  // winding number of the triangles that close the mesh
   float error;   // of it, up to a whole number
   float slope;   // within the radius that was asked, the winding number of the mesh changes no faster
+  vec3 gradient;  // of that at the point, or its opposite
+  float bend;     // half of the greatest second derivative within the radius
 };
+
+// The integral of r x dl / |r|^3 along an edge, r from p to l: in closed form, without cancellation where the edge is
+// seen under a large angle.
+vec3 pull_of_edge(vec3 a, vec3 b) {
+  vec3 across = cross(a, b - a);
+  float la = length(a), lb = length(b), along = dot(a, b);
+  float inverse = along > 0.0 ? 1.0 / max(la * lb + along, 1e-30)
+                              : (la * lb - along) / max(dot(across, across), 1e-30);
+  return across * ((la + lb) * inverse / max(la * lb, 1e-30));
+}
 
 // As winding_of_triangle, with a bound of its error. In the triangle's plane it is 0 or 1/2, and which of +1/2 and -1/2
 // does not matter here; on an edge, where all of it is lost, the bound is as large as that.
@@ -30,9 +42,10 @@ vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
 }
 
 // The gradient of the solid angle of a surface depends on its boundary alone (the law of Biot and Savart): it is at most
-// the integral of 1 / |x - l|^2 along the boundary.
+// the integral of 1 / |x - l|^2 along the boundary. Its derivatives are at most that of 2 / |x - l|^3: the matrix of
+// second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3.
 Closure closure_at(vec3 p, float radius) {
-  Closure sum = Closure(0.0, 0.0, 0.0);
+  Closure sum = Closure(0.0, 0.0, 0.0, vec3(0.0), 0.0);
   uint count = step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
   for (uint i = 0u; i < count; ++i) {
     OpenEdge e = open_edges[i];
@@ -43,9 +56,13 @@ Closure closure_at(vec3 p, float radius) {
     float squared = dot(edge, edge);
     float gap = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge) - radius - step.slack;
     sum.slope += gap > 0.0 ? e.from.w * sqrt(squared) / (gap * gap) : 1e30;
+    sum.bend += gap > 0.0 ? e.from.w * sqrt(squared) / (gap * gap * gap) : 1e30;
+    sum.gradient += e.from.w * pull_of_edge(e.from.xyz - p, e.to.xyz - p);
   }
   sum.error += 1.2e-7 * float(count);  // of the additions: terms are at most 1/2
   sum.slope /= kFourPi;
+  sum.bend /= kFourPi;
+  sum.gradient /= kFourPi;
   return sum;
 }
 

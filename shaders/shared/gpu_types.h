@@ -42,6 +42,7 @@ MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie 
 MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
 MEDIAL_VK_GPU_CONSTANT kCellSettled = 8u;     // given up: what may hide in it is near a face or near the angle
 MEDIAL_VK_GPU_CONSTANT kCellUntrusted = 2u;   // meets the boundary and touches a triangle without a trusted normal
+MEDIAL_VK_GPU_CONSTANT kBoundaryDepth = 5u;   // levels below the finest voxel at which such cells are given up
 
 // A segment that crosses the medial surface: the ends and the directions from them to the boundary.
 struct Line {
@@ -68,13 +69,16 @@ struct FoundPoint {
 struct TriangleLinks {
   uint corner[3];     // rows of the table of spokes to vertices
   uint flags;         // kLink*
-  uint neighbour[3];  // across its edges
+  uint neighbour[3];  // across its edges; see kLinkBothSides
   uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kNoLink = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kLinkEdge = 1u;     // shifted by k: a spoke may end on edge k, and this triangle lists it
 MEDIAL_VK_GPU_CONSTANT kLinkCorner = 8u;   // the same for corner k
-MEDIAL_VK_GPU_CONSTANT kLinkWhole = 64u;   // untrusted: listed as one convex set, spokes by directions only
+MEDIAL_VK_GPU_CONSTANT kLinkWhole = 64u;   // no good normal: listed as one convex set, spokes by directions only
+// Untrusted: spokes may end on both sides of the face (Lemma I). `neighbour` of an edge that it lists is the row, in
+// the table of spokes to vertices, of the arc of spokes to that edge.
+MEDIAL_VK_GPU_CONSTANT kLinkBothSides = 128u;
 
 // Where a line may cross a medial sheet: a point and the sheet's normal.
 struct Aim {

@@ -53,9 +53,10 @@ vec3 corner_sign(uint k) { return vec3(k & 1u, (k >> 1) & 1u, k >> 2) * 2.0 - 1.
 // to 2 slack / D.
 float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1.0 + circumradius / max(d, 1e-30)); }
 
-// Where the boundary itself passes through triangles whose normals prove nothing, subdividing follows the surface for
-// ever: one level below the finest voxel is enough.
-bool is_hopeless(uint flags) { return step.depth >= 1u && (flags & kCellUntrusted) != 0u; }
+// Where the boundary itself passes through triangles whose normals prove nothing, a cell may hold medial points of either
+// side, and subdividing follows them to the boundary: five levels below the finest voxel are enough. What hides there has
+// a radius below sqrt(3) / 32 of the voxel side.
+bool is_hopeless(uint flags) { return step.depth >= kBoundaryDepth && (flags & kCellUntrusted) != 0u; }
 
 // A number that is not negative, as bits in the same order. Devices may give a zero either sign.
 uint ordered_bits(float x) { return floatBitsToUint(x) & 0x7fffffffu; }

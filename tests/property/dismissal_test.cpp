@@ -68,9 +68,9 @@ std::ostream& operator<<(std::ostream& out, const DismissalCase& c) {
   return out << c.samples << " samples of " << c.solid << ", threshold " << c.object_angle;
 }
 
-class Dismissal : public testing::TestWithParam<DismissalCase> {};
+class DismissalOfSolids : public testing::TestWithParam<DismissalCase> {};
 
-TEST_P(Dismissal, LosesNoSalientSample) {
+TEST_P(DismissalOfSolids, LosesNoSalientSample) {
   const double object_angle = GetParam().object_angle;
   const std::size_t wanted = GetParam().samples;
   const auto& solids = test::analytic_solids();
@@ -102,7 +102,7 @@ std::string test_name(const testing::TestParamInfo<DismissalCase>& info) {
 }
 
 // 103,530 samples.
-INSTANTIATE_TEST_SUITE_P(Solids, Dismissal,
+INSTANTIATE_TEST_SUITE_P(Solids, DismissalOfSolids,
                          testing::Values(DismissalCase{"box", 0.6, 20'000}, DismissalCase{"l-shape", 0.3, 20'000},
                                          DismissalCase{"plate-with-hole", 0.9, 20'000},
                                          DismissalCase{"cup", 0.6, 16'000}, DismissalCase{"sphere", 0.3, 30},
@@ -110,6 +110,40 @@ INSTANTIATE_TEST_SUITE_P(Solids, Dismissal,
                                          DismissalCase{"prolate", 0.3, 1'000}, DismissalCase{"triaxial", 0.9, 9'000},
                                          DismissalCase{"torus", 0.3, 2'000}, DismissalCase{"flat-torus", 0.6, 3'000}),
                          test_name);
+
+// An L, a box that crosses it and one that stands apart, all with triangles missing: open edges, crossings, and sides
+// by winding numbers between 0 and 1.
+TEST(Dismissal, OfAMessLosesNoSalientSample) {
+  Mesh mess = test::make_l_shape(1, 0.35, 0.6), other = test::make_box({0.5, 0.4, 0.9});
+  test::rotate(other, {0.4, -0.3, 0.7}, 0.9);
+  test::append(mess, other);
+  Mesh open = test::make_box({0.4, 0.5, 0.3});
+  test::translate(open, {0.6, 0.5, 0.1});
+  test::append(mess, open);
+  std::erase_if(mess.triangles, [i = 0](const Triangle&) mutable { return ++i % 11 == 5; });
+  test::rotate(mess, {0.3, -0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(mess);
+  ASSERT_FALSE(mesh.report.closed);
+  ASSERT_GT(mesh.report.intersecting_faces, 0u);
+  const std::vector<MedialSample> samples = draw(mesh, 0.6, 4000);
+  ASSERT_GT(samples.size(), 1000u);
+  ExtractionParameters parameters;
+  parameters.resolution = 40;
+  {
+    SCOPED_TRACE("the reference");
+    const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    expect_none_lost(samples, result.value().extraction);
+  }
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  SCOPED_TRACE("the device");
+  Context context = test::make_context();
+  const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
+  expect_none_lost(samples, extraction);
+  const std::uint64_t visited =
+      extraction.counters.found + extraction.counters.undecided + extraction.counters.proved_empty;
+  EXPECT_LT(100 * extraction.counters.undecided, visited);
+}
 
 // The sampler itself, where everything is known: in a box the distance to the boundary is the least distance to a face,
 // a point is medial where two of them tie, and object angles are pi/4 or pi/2.

@@ -146,8 +146,8 @@ TEST(ReferenceDismissal, DismissedBoxesHoldNoSalientPoint) {
   EXPECT_GT(all.dismissed - all.by_one_cone, 150);
 }
 
-// Without trust only directions count: still right, where the boundary is away.
-TEST(ReferenceDismissal, UntrustedTrianglesByDirectionsOnly) {
+// Without trust nothing is known of sides: still right.
+TEST(ReferenceDismissal, UntrustedTrianglesFromEitherSide) {
   Random random(6);
   Tally all;
   for (reference::Mesh& mesh : make_solids(random)) {
@@ -156,6 +156,29 @@ TEST(ReferenceDismissal, UntrustedTrianglesByDirectionsOnly) {
   }
   EXPECT_EQ(all.wrong, 0) << "first at " << all.first_wrong;
   EXPECT_GT(all.dismissed, 800);
+}
+
+/// Two prisms that cross, as a rule, with a few triangles missing; nothing is trusted.
+reference::Mesh make_mess(Random& random) {
+  Mesh mesh = make_random_prism(random), other = make_random_prism(random);
+  test::rotate(other, {random(-1, 1), random(-1, 1), random(-1, 1)}, random(0, 3));
+  test::translate(other, {random(-0.5, 0.5), random(-0.5, 0.5), random(-0.5, 0.5)});
+  test::append(mesh, other);
+  std::erase_if(mesh.triangles, [&](const Triangle&) { return random(0, 1) < 0.1; });
+  reference::Mesh mess = test::to_reference(mesh);
+  mess.trusted.clear();
+  mess.closed = false;
+  return mess;
+}
+
+// Lemma I: open edges and crossings.
+TEST(ReferenceDismissal, AMessIsDismissedToo) {
+  Random random(8);
+  Tally all;
+  for (int i = 0; i < 12; ++i) try_boxes(make_mess(random), random, 500, all);
+  EXPECT_EQ(all.wrong, 0) << "first at " << all.first_wrong;
+  EXPECT_GT(all.dismissed, 3 * all.kept_without_sample) << all.dismissed << ' ' << all.kept_without_sample;
+  EXPECT_GT(all.dismissed - all.by_one_cone, 100);
 }
 
 /// Is some carrier at the foot, with this spoke among those that it allows?

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "cpu_reference/queries.h"
 #include "spoke_cones.h"
@@ -98,6 +101,64 @@ TEST(ReferenceSpokeCones, UntrustedTrianglesHoldTheirFeatures) {
   mesh.trusted.clear();
   EXPECT_EQ(count(mesh).edges, 0);
   EXPECT_EQ(count(mesh).vertices, 0);
+}
+
+/// Arcs of spokes to the edges of a mesh that nothing of is trusted, by the middle of the edge.
+std::vector<std::pair<Vector3d, reference::Arc>> arcs_of(const Mesh& solid) {
+  reference::Mesh mesh = test::to_reference(solid);
+  mesh.trusted.clear();
+  const SpokeCones cones(mesh, reference::Tree(mesh));
+  std::vector<std::pair<Vector3d, reference::Arc>> arcs;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const reference::Arc* arc = cones.arc(t, k);
+      if (arc == nullptr) continue;
+      const Vector3d a = mesh.vertices[mesh.triangles[t][k]], b = mesh.vertices[mesh.triangles[t][(k + 1) % 3]];
+      arcs.emplace_back((a + b) / 2, *arc);
+    }
+  }
+  return arcs;
+}
+
+// A box without its top: convex edges are touched from outside, across a quarter of a circle; those of the rim by all
+// directions that point into the wall or across it; diagonals of faces are flat.
+TEST(ReferenceSpokeCones, EdgesAreTouchedFromEitherSide) {
+  Mesh box = test::make_box({1, 1, 1});
+  std::erase_if(box.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return box.vertices[v][2] == 1; });
+  });
+  const auto arcs = arcs_of(box);
+  EXPECT_EQ(arcs.size(), 12u);
+  for (const auto& [middle, arc] : arcs) {
+    const bool at_rim = middle.z() == 1;
+    const Vector3d inwards = at_rim ? Vector3d(0, 0, -1) : (Vector3d(0.5, 0.5, 0.5) - middle).normalized().eval();
+    EXPECT_NEAR((arc.middle - inwards).norm(), 0, 1e-9) << middle.transpose();
+    EXPECT_NEAR(arc.angle, at_rim ? std::numbers::pi / 2 : std::numbers::pi / 4, 1e-8) << middle.transpose();
+    EXPECT_NEAR(arc.middle.dot(arc.along), 0, 1e-12);
+  }
+  // Turned over it is the same mesh.
+  test::turn_over(box);
+  EXPECT_EQ(arcs_of(box).size(), 12u);
+}
+
+// Three sheets that meet in an edge, all around it: no ball touches that from any side. Within half a turn one does.
+TEST(ReferenceSpokeCones, SheetsAroundAnEdge) {
+  for (const double step : {2.0, 0.5}) {
+    Mesh fan;
+    fan.vertices = {{0, 0, 0}, {0, 0, 1}};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      fan.vertices.push_back({std::cos(i * step), std::sin(i * step), 0.5});
+      fan.triangles.push_back(i == 1 ? Triangle{1, 0, i + 2} : Triangle{0, 1, i + 2});
+    }
+    int shared = 0;
+    for (const auto& [middle, arc] : arcs_of(fan)) {
+      if (middle.head<2>().norm() > 0) continue;
+      ++shared;
+      EXPECT_NEAR(arc.angle, std::numbers::pi / 2 - step, 1e-8);
+      EXPECT_NEAR((arc.middle - Vector3d(std::cos(step), std::sin(step), 0)).norm(), 0, 1e-9);
+    }
+    EXPECT_EQ(shared, step > 1 ? 0 : 1);
+  }
 }
 
 TEST(ReferenceSpokeCones, NeedlesAreNotTrusted) {
