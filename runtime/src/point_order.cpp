@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "point_math.h"
 
@@ -64,6 +65,36 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Point> points) {
   }
   std::vector<std::uint32_t> order(points.size());
   std::transform(keys.begin(), keys.end(), order.begin(), [](const Keyed& k) { return k.index; });
+  return order;
+}
+
+namespace {
+
+void halve(std::span<const Point> points, std::span<std::uint32_t> part) {
+  constexpr std::size_t kFew = 8;
+  if (part.size() <= kFew) return;
+  Point low = points[part[0]], high = low;
+  for (const std::uint32_t i : part) {
+    low = least(low, points[i]);
+    high = greatest(high, points[i]);
+  }
+  const Point sides = high - low;
+  const auto axis = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+  const std::size_t middle = part.size() / 2;
+  std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(middle), part.end(),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+                   });
+  halve(points, part.first(middle));
+  halve(points, part.subspan(middle));
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> order_by_halving(std::span<const Point> points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  halve(points, order);
   return order;
 }
 

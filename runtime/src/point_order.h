@@ -13,4 +13,8 @@ namespace medial_vk {
 /// points. Coordinates that are not finite come anywhere.
 std::vector<std::uint32_t> order_along_curve(std::span<const Point> points);
 
+/// Indices of the points, halved along the longest side of their box again and again: slower, but wherever most of them
+/// are, neighbours are found, and one far away spoils nothing. Finite coordinates only.
+std::vector<std::uint32_t> order_by_halving(std::span<const Point> points);
+
 }  // namespace medial_vk

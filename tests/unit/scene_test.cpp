@@ -84,6 +84,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   for (const Point& d : spiral_points(5100)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
   Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
   Scene copying = Scene::create(*context_, test::view_of(mesh)).value();
+  EXPECT_EQ(scene.impl().shares_memory, context_->impl().description.type == "cpu");
   copying.impl().shares_memory = false;
   const auto same = [](const std::vector<ClosestPoint>& a, const std::vector<ClosestPoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ClosestPoint& p, const ClosestPoint& q) {

@@ -55,12 +55,13 @@ struct BettiNumbers {
   bool operator==(const BettiNumbers&) const = default;
 };
 
-/// Measures a union of balls: centres and radii finite, radii not negative, fewer than 2^31 balls. Of balls that are
+/// Measures a union of balls: centres and radii finite, radii not negative, fewer than 2^30 balls. Of balls that are
 /// equal, the first counts. Balls of radius 0 are no part of the complex. A point where four spheres or more meet may
 /// be among the vertices of the envelope once, several times or not at all. Lengths below 2^-98 of the largest
 /// coordinate or radius are rounded to 2^-150 of it. Time: n log n for balls of a solid or along its medial surface,
-/// where each has a bounded number of neighbours; a ball with k neighbours takes k^2. Errors: kUsage (names the ball),
-/// kOutOfMemory.
+/// where each has a bounded number of neighbours, and some 700 bytes a ball; where cells of balls that are far apart
+/// meet by thousands, as between two rods, each ball by itself, and one that overlaps k others takes k^2. Errors:
+/// kUsage (names the ball), kOutOfMemory.
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options = {});
 
 /// Of the space that a dual complex triangulates, over Z/2; these are those of the union. The complex is as

@@ -14,7 +14,7 @@ namespace medial_vk {
 /// A complete binary tree over balls, halved along the longest principal axis of their centres. Balls along a sheet lie
 /// near a plane, and their radii change linearly to first order: a node is a box along the principal axes, thin across
 /// the sheet, with a linear bound of powers. Boxes along the coordinate axes with the largest radius in each rule out
-/// several times fewer balls (docs/benchmarks.md).
+/// several times fewer balls (docs/decisions.md).
 class BallTree {
  public:
   struct Node {

@@ -1,8 +1,10 @@
 #include "medial_vk/ball_union.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "balls/ball_in_cell.h"
+#include "balls/cell_builder.h"
 #include "balls/cell_simplices.h"
 #include "balls/regular_triangulation.h"
 #include "balls/simplex_lists.h"
@@ -10,13 +12,21 @@
 #include "host_memory.h"
 #include "parallel_blocks.h"
 #include "point_math.h"
+#include "point_order.h"
 
 namespace medial_vk {
 namespace {
 
 /// Balls that one thread measures in a row. It depends on nothing but their number, so that bytes do not depend on
-/// threads; large enough for the table of all balls that every PowerCell makes, small enough for even work.
-std::size_t block_of(std::size_t balls) { return std::clamp<std::size_t>(balls / 64, 64, 4096); }
+/// threads. Every block has a PowerCell, which makes a table of all balls: at most 65 of these.
+std::size_t block_of(std::size_t balls) { return std::max<std::size_t>(balls / 64, 64); }
+
+std::vector<std::uint32_t> order_of(std::span<const Ball> balls) {
+  std::vector<Point> centres;
+  centres.reserve(balls.size());
+  for (const Ball& ball : balls) centres.push_back(ball.centre);
+  return order_by_halving(centres);
+}
 
 /// What one block of balls adds to the lists.
 struct Pieces {
@@ -31,7 +41,10 @@ class Measuring {
         options_(options),
         threads_(thread_count(options.threads)),
         block_(block_of(balls.size())),
-        triangulation_(balls, threads_) {}
+        order_(order_of(balls)),
+        triangulation_(RegularTriangulation::create(balls, order_, threads_)) {
+    if (!triangulation_) tree_.emplace(balls, threads_);
+  }
 
   BallUnion run() {
     result_.volumes.resize(balls_.size());
@@ -50,13 +63,27 @@ class Measuring {
 
  private:
   void measure(std::size_t begin, std::size_t end) {
-    PowerCell cell(triangulation_.balls());
+    if (triangulation_) {
+      PowerCell cell(triangulation_->balls());
+      measure(begin, end, [&](std::uint32_t i) -> const PowerCell& {
+        cell.start(i, *triangulation_);
+        cell.sharpen();
+        return cell;
+      });
+    } else {
+      CellBuilder builder(balls_, *tree_);
+      measure(begin, end, [&](std::uint32_t i) -> const PowerCell& { return builder.build(i); });
+    }
+  }
+
+  template <class CellOf>
+  void measure(std::size_t begin, std::size_t end, const CellOf& cell_of) {
     SimplexCollector collector;
-    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const std::uint32_t i = order_[n];
       const Ball& ball = balls_[i];
       if (ball.radius == 0) continue;
-      cell.start(i, triangulation_);
-      cell.sharpen();
+      const PowerCell& cell = cell_of(i);
       const BallInCell part = measure_ball_in_cell(cell, ball.radius);
       result_.volumes[i] = part.volume;
       result_.areas[i] = part.area;
@@ -71,7 +98,9 @@ class Measuring {
   BallUnionOptions options_;
   unsigned threads_;
   std::size_t block_;
-  RegularTriangulation triangulation_;
+  std::vector<std::uint32_t> order_;
+  std::optional<RegularTriangulation> triangulation_;
+  std::optional<BallTree> tree_;  // without a triangulation: each cell is cut by itself
   std::vector<Pieces> pieces_;
   BallUnion result_;
 };

@@ -32,9 +32,9 @@ Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j)
           .is_apart = are_apart(a, b)};
 }
 
-// With unit normals, |p x q| <= 1, so every product
-/// in the numerator is at most |offset|, and the determinant carries an error of at most 32 roundings (6 products of 3
-/// factors with 4 roundings each, the factors' own 4 among them); the point then moves by numerator and denominator.
+// With unit normals, |p x q| <= 1, so every product in the numerator is at most |offset|, and the determinant carries
+// an error of at most 32 roundings (6 products of 3 factors with 4 roundings each, the factors' own 4 among them); the
+// point then moves by numerator and denominator.
 std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s) {
   const Point qs = cross(q.normal, s.normal);
   const double determinant = dot(p.normal, qs);

@@ -30,7 +30,7 @@ struct Bisector {
 /// No point in common, whatever rounding does: squares carry fewer than 16 roundings of half a unit.
 bool are_apart(const Ball& a, const Ball& b);
 
-/// The plane between balls i and j; |c| and r are at most 1.
+/// The plane between balls i and j; |c| and r are at most 64.
 Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j);
 
 /// Where three planes meet, and how far rounding may have moved it; HUGE_VAL where they are parallel to a line, or
@@ -41,8 +41,8 @@ std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, con
 // outside the ball, as edges that pass through it end there: where planes nearly have a line in common, anything may
 // happen along it, and volumes and simplices must not depend on which.
 inline constexpr double kSharpCorner = 0x1p-40;
-// The same wherever they are, at once: beyond this, more would be asked of the tree and decided exactly. In radii, or
-// in the distance from the centre.
+// The same wherever they are, at once: beyond this, more would be decided exactly, and asked of a tree. In radii, or in
+// the distance from the centre.
 inline constexpr double kRoughCorner = 0x1p-20;
 
 /// A plane that belongs to one cell only: normal . x <= offset, these very doubles.

@@ -29,7 +29,8 @@ inline std::pair<double, double> two_product(double a, double b) {
 /// A sum of two doubles that do not overlap, with a bound of what it may be wrong by: each operation adds less than 8
 /// units of 2^-106 of the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
 /// basic building blocks of double-word arithmetic", 2017: 3 and 5 units), but nothing if one number is zero or both
-/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact.
+/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no
+/// product is below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
 class DoubleDouble {
  public:
   DoubleDouble() = default;

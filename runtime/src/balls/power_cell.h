@@ -1,4 +1,5 @@
-// The power cell of a ball as a convex polyhedron: a box around the ball, cut by one bisector after the other.
+// The power cell of a ball as a convex polyhedron: a box around the ball, cut by one bisector after the other, or the
+// whole cell at once, cut by the walls of that box.
 #pragma once
 
 #include <array>

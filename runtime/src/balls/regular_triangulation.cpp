@@ -4,12 +4,10 @@
 #include <bit>
 #include <cfloat>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "parallel_blocks.h"
 #include "point_math.h"
-#include "point_order.h"
 
 namespace medial_vk {
 namespace {
@@ -75,6 +73,8 @@ class Inserting {
     tetrahedra_.push_back({corners, {kNone, kNone, kNone, kNone}});
     marks_.push_back(0);
   }
+
+  std::size_t size() const { return tetrahedra_.size() - free_.size(); }
 
   void insert(std::uint32_t ball) {
     const std::uint32_t t = locate(ball);
@@ -206,7 +206,6 @@ class Inserting {
       free_.pop_back();
       return t;
     }
-    if (tetrahedra_.size() == kNone) throw std::bad_alloc();  // no names are left
     tetrahedra_.emplace_back();
     marks_.push_back(0);
     return static_cast<std::uint32_t>(tetrahedra_.size() - 1);
@@ -261,32 +260,44 @@ class Inserting {
 /// Rounds at random, each half as large as the next, and neighbours after each other in each: few tetrahedra are made
 /// that do not last, and the next place is never far (N. Amenta, S. Choi, G. Rote, "Incremental Constructions con
 /// BRIO", 2003).
-std::vector<std::uint32_t> order_of_insertion(std::span<const Ball> balls) {
-  std::vector<Point> centres;
-  centres.reserve(balls.size());
-  for (const Ball& ball : balls) centres.push_back(ball.centre);
-  std::vector<std::uint32_t> order = order_along_curve(centres);
+std::vector<std::uint32_t> in_rounds(std::span<const std::uint32_t> order) {
+  std::vector<std::uint32_t> result(order.begin(), order.end());
   const auto round = [](std::uint32_t i) {
     std::uint64_t bits = (i + 1) * 0x9e3779b97f4a7c15u;
     bits = (bits ^ bits >> 32) * 0xd6e8feb86659fd93u;
     return std::countr_zero(bits >> 32 | std::uint64_t{1} << 32);
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return round(a) > round(b); });
-  return order;
+  std::stable_sort(result.begin(), result.end(), [&](std::uint32_t a, std::uint32_t b) { return round(a) > round(b); });
+  return result;
 }
+
+constexpr std::size_t kMostPerBall = 24, kMostAnyway = 4096;  // tetrahedra
 
 }  // namespace
 
-RegularTriangulation::RegularTriangulation(std::span<const Ball> balls, unsigned threads)
-    : balls_(balls.begin(), balls.end()) {
-  add_far_points();
+std::optional<RegularTriangulation> RegularTriangulation::create(std::span<const Ball> balls,
+                                                                 std::span<const std::uint32_t> order,
+                                                                 unsigned threads) {
+  RegularTriangulation made(balls);
   const auto far = static_cast<std::uint32_t>(balls.size());
-  Inserting inserting(balls_);
+  Inserting inserting(made.balls_);
   inserting.start({far, far + 1, far + 2, far + 3});
-  for (const std::uint32_t ball : order_of_insertion(balls)) inserting.insert(ball);
-  tetrahedra_ = inserting.take();
-  list_stars();
-  place_corners(threads);
+  // One more ball adds at most twice as many as there are balls: names never run out.
+  const std::size_t most = std::min<std::size_t>(kMostPerBall * balls.size() + kMostAnyway, 1u << 31);
+  for (const std::uint32_t ball : in_rounds(order)) {
+    inserting.insert(ball);
+    if (inserting.size() > most) return std::nullopt;
+  }
+  made.tetrahedra_ = inserting.take();
+  made.list_stars();
+  made.place_corners(threads);
+  return made;
+}
+
+RegularTriangulation::RegularTriangulation(std::span<const Ball> balls) {
+  balls_.reserve(balls.size() + kFarPoints);
+  balls_.assign(balls.begin(), balls.end());
+  add_far_points();
 }
 
 /// Four corners of a cube around the middle, 16 times as large as a cube around all balls: the tetrahedron between them
@@ -301,8 +312,8 @@ void RegularTriangulation::add_far_points() {
   }
   if (balls_.empty()) low = high = {};
   const Point middle = 0.5 * (low + high);
-  // Not so small that coordinates are no multiples of 2^-150 (unit_balls.h).
-  const double far = 16 * std::max(0.5 * largest_of(high - low), 0x1p-60);
+  // Never so small that the rounding of the middle, 2^-53, and of radii next to it matters.
+  const double far = 16 * std::max(0.5 * largest_of(high - low), 0x1p-40);
   for (const Point& sign : {Point{-1, -1, -1}, Point{1, 1, -1}, Point{-1, 1, 1}, Point{1, -1, 1}}) {
     balls_.push_back({middle + far * sign, 0});
   }
@@ -342,7 +353,10 @@ RegularTriangulation::Corner RegularTriangulation::place_corner(const Tetrahedro
   // Whether it is in the box of a cell, each cell asks again (PowerCell::sharpen).
   const double distance = length(at), radius = balls_[i].radius;
   const bool may_be_in_box = distance <= 2 * radius + slack;
-  const double smallest = std::min({radius, balls_[p].radius, balls_[q].radius, balls_[s].radius});
+  double smallest = HUGE_VAL;  // of those that have a part of the union
+  for (const std::uint32_t ball : t.balls) {
+    if (balls_[ball].radius > 0) smallest = std::min(smallest, balls_[ball].radius);
+  }
   const bool is_good = slack <= (may_be_in_box ? kSharpCorner * smallest : kRoughCorner * std::max(radius, distance));
   if (is_good) return {at, slack};
   const auto [exact_at, exact_slack] =

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +34,12 @@ class RegularTriangulation {
     double slack;
   };
 
-  /// Balls as scaled_balls() makes them: coordinates and radii up to 1; fewer than 2^31.
-  RegularTriangulation(std::span<const Ball> balls, unsigned threads);
+  /// Balls as scaled_balls() makes them: coordinates and radii up to 1; fewer than 2^30. `order`: all of them,
+  /// neighbours in space mostly after each other. Nothing if there are more than 24 tetrahedra a ball, with some room
+  /// for few balls: medial and random balls have 7, but two rods that pass each other, or a ring and its axis, n^2 / 4,
+  /// as every ball of one may be joined to all of the other, however far away.
+  static std::optional<RegularTriangulation> create(std::span<const Ball> balls, std::span<const std::uint32_t> order,
+                                                    unsigned threads);
 
   /// All balls as given, and the far points, as balls without a radius, after them.
   std::span<const Ball> balls() const { return balls_; }
@@ -49,6 +55,7 @@ class RegularTriangulation {
 
  private:
   static constexpr std::uint32_t kFarPoints = 4;
+  explicit RegularTriangulation(std::span<const Ball> balls);
   void add_far_points();
   void list_stars();
   void place_corners(unsigned threads);
@@ -58,7 +65,7 @@ class RegularTriangulation {
   std::vector<Tetrahedron> tetrahedra_;
   std::vector<Corner> corners_;                       // by tetrahedron
   std::vector<std::array<std::uint32_t, 4>> places_;  // by tetrahedron
-  std::vector<std::uint32_t> first_;                  // by ball: into around_
+  std::vector<std::size_t> first_;                    // by ball: into around_
   std::vector<std::uint32_t> around_;
 };
 
