@@ -44,6 +44,7 @@ struct Subject {
 
 std::vector<std::array<float, 3>> to_float(const std::vector<Point>& points) {
   std::vector<std::array<float, 3>> out;
+  out.reserve(points.size());
   for (const Point& p : points) {
     out.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
   }

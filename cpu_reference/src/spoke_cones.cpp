@@ -243,10 +243,11 @@ void SpokeCones::add_arcs(const Mesh& mesh, const Tree& tree) {
     const auto [t, k] = *owner;
     const Vector3d along = (tree.corner(t, (k + 1) % 3) - tree.corner(t, k)).normalized();
     std::vector<Vector3d> towards;
+    towards.reserve(sides.size());
     for (const auto& [u, j] : sides) {
       const Vector3d across = tree.normal(u).cross(along);
       const double sign = across.dot(tree.corner(u, (j + 2) % 3) - tree.corner(u, j)) > 0 ? 1 : -1;
-      towards.push_back(sign * across);
+      towards.emplace_back(sign * across);
     }
     const std::optional<Arc> arc = arc_across(along, towards);
     if (!arc) continue;
@@ -273,6 +274,7 @@ void SpokeCones::add_cones(const Mesh& mesh) {
     const auto [t, k] = *owner;
     const Vector3d& here = mesh.vertices[mesh.triangles[t][k]];
     std::vector<Vector3d> edges;
+    edges.reserve(ends.size());
     for (const int end : ends) edges.push_back((mesh.vertices[end] - here).normalized());
     if (const std::optional<Cap> cone = cone_across(edges)) cones_[t][k] = add(*cone);
   }

@@ -310,6 +310,7 @@ class Builder {
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     std::vector<Point> edges;
+    edges.reserve(ends.size());
     for (const uint end : ends) edges.push_back(unit(mesh_.vertices[end] - mesh_.vertices[vertex]));
     return edges;
   }
