@@ -56,6 +56,14 @@ void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction
   EXPECT_EQ(lost, 0u) << "of " << samples.size();
 }
 
+void expect_none_lost_by_the_reference(const std::vector<MedialSample>& samples, const PreparedMesh& mesh,
+                                       const ExtractionParameters& parameters) {
+  SCOPED_TRACE("the reference");
+  const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  expect_none_lost(samples, result.value().extraction);
+}
+
 /// Thresholds differ from solid to solid: low ones leave more voxels, high ones ask more of the proof. So do counts, as
 /// a sample takes more or less time: on faceted round solids it must climb far, at the centre of a sphere farthest.
 struct DismissalCase {
@@ -83,12 +91,7 @@ TEST_P(DismissalOfSolids, LosesNoSalientSample) {
   ExtractionParameters parameters;
   parameters.object_angle = object_angle;
   parameters.resolution = 40;
-  {
-    SCOPED_TRACE("the reference");
-    const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
-    ASSERT_TRUE(result.ok()) << result.error().message;
-    expect_none_lost(samples, result.value().extraction);
-  }
+  expect_none_lost_by_the_reference(samples, mesh, parameters);
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   SCOPED_TRACE("the device");
   Context context = test::make_context();
@@ -129,12 +132,7 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   ASSERT_GT(samples.size(), 1000u);
   ExtractionParameters parameters;
   parameters.resolution = 40;
-  {
-    SCOPED_TRACE("the reference");
-    const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
-    ASSERT_TRUE(result.ok()) << result.error().message;
-    expect_none_lost(samples, result.value().extraction);
-  }
+  expect_none_lost_by_the_reference(samples, mesh, parameters);
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   SCOPED_TRACE("the device");
   Context context = test::make_context();

@@ -55,8 +55,8 @@ class Scene {
 
   /// In any order; from some thousands on they are sorted in space, and neighbours share their walks.
   Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
-  /// The same into `out`, which a caller that asks often keeps: new memory costs a tenth of the queries. Also kUsage:
-  /// not as many as points. After an error `out` holds anything.
+  /// The same into `out`, which a caller that asks often keeps: pages of new memory cost time. Also kUsage: not as many
+  /// as points. After an error `out` holds anything.
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
   /// The same for groups of `group_size` points that follow each other and lie near each other compared with the
   /// distance between groups: samples of spheres, for example, with the centre among them. A group shares one walk.

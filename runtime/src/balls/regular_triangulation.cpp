@@ -23,7 +23,7 @@ struct Row {
 
 double largest_of(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-/// The faces of a cavity meet in edges, two in each: an edge is put here when it is met first, and taken when it is met
+/// The faces of a cavity meet in edges, two in each: an edge is put here when it is met first, and found when it is met
 /// again.
 class CavityEdges {
  public:
@@ -246,8 +246,7 @@ class Inserting {
   std::vector<Wall> no_walls_;
   ExactSide exact_;
   std::vector<Tetrahedron> tetrahedra_;
-  std::vector<std::uint32_t>
-      marks_;  // by tetrahedron: twice the insertion that asked it last, and whether it is in that cavity
+  std::vector<std::uint32_t> marks_;  // by tetrahedron: twice the insertion that asked it last; 1 more: in its cavity
   std::vector<std::uint32_t> free_;
   std::uint32_t last_ = 0, stamp_ = 0;
 
