@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // Writes the kept children of parents whose lists are of clusters, with lists of triangles: those of the contacts'
-// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child). One workgroup of eight
-// lanes per child.
+// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma J). One workgroup
+// of eight lanes per child.
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -18,7 +18,8 @@ layout(set = 0, binding = 4) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 5) readonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) readonly buffer States { uvec4 states[]; };
 layout(set = 0, binding = 7) readonly buffer Offsets { uvec4 offsets[]; };
-layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };  // y: cluster of the first witness
+// A lower bound of the distance from the centre (bits), and the cluster of the first witness.
+layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 9) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 10) buffer Lists { uint lists[]; };
 // x: between rounds, entries so far; z: cluster of the second witness
@@ -57,6 +58,8 @@ void main() {
   Witness front = witness_of(centre, nearest_of_cluster(centre, nearest[item].y, lane));
   Witness back =
       witness_of(centre, nearest_of_cluster(centre - step.circumradius * front.direction, counts[item].z, lane));
+  float clearance = uintBitsToFloat(nearest[item].x);
+  Prism prism = prism_at(clearance, front.distance);
   uint word_count = (parent.list_count + 31u) / 32u;
   uint base = 8u * parent.word_begin + (item % 8) * word_count;
   uint begin = step.first_entry == 0u ? 0u : counts[item].x;
@@ -68,10 +71,12 @@ void main() {
       Cluster c = clusters[parent_lists[parent.list_begin + 32u * w + uint(findLSB(word))]];
       for (uint k = 0u; k < c.count; k += kLanes) {
         uint t = c.first + min(k + lane, c.count - 1u);
-        vec3 v = vector_to_triangle(centre, load_triangle(t));
+        TriangleTexels texels = load_triangle(t);
+        vec3 v = vector_to_triangle(centre, texels);
         float d = length(v);
         vec3 g = v / max(d, 1e-30);
-        bool contact = k + lane < c.count && is_contact(front, d, g) && is_contact(back, d, g);
+        bool contact = k + lane < c.count && is_contact(front, d, g) && is_contact(back, d, g) &&
+                       is_contact(prism, v, texels.normal);
         uvec2 place = count_lanes(contact ? 1u : 0u);
         if (contact) lists[offset.y + position + place.x] = t;
         position += place.y;
@@ -84,7 +89,7 @@ void main() {
   counts[item].x = position;
   // All that there is so far: the last round completes it.
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
-                         state.w, front.name, 0u, kNoTriangle, 0u);
+                         state.w, front.name, 0u, kNoTriangle, clearance);
   atomicMax(counters[kLongestCellList], position);
   if (step.first_entry == 0u) COUNT(kKeptCount, 1u);
   COUNT(kContactCount, position - begin);

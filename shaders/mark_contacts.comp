@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses, for the ball
-// that the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One
+// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses and Lemma J, for
+// the ball that the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One
 // invocation per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
 // triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
 //
@@ -123,14 +123,14 @@ void main() {
   if (entry >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);
-  Witness front, back;
-  vec3 from = centre;
-  for (uint pass = 0;;) {
-    front = back;
-    back = witness_of(centre, witness_near(parent, child, from));
-    from = centre - step.circumradius * back.direction;
-    if (++pass == 2u) break;
-  }
+  // On the other side of the sheet that may pass: the parent's partner, if it has one. All eight children agree on that.
+  bool seeks = parent.partner == kNoTriangle;
+  Witness front = witness_of(centre, witness_near(parent, child, centre));
+  uint back_name = seeks ? witness_near(parent, child, centre - step.circumradius * front.direction) : parent.partner;
+  Witness back = witness_of(centre, back_name);
+  // The first witness is the nearest of a short list.
+  float clearance = max(parent.list_count < kWitnessSample ? front.distance : 0.0, parent.clearance - step.circumradius);
+  Prism prism = prism_at(clearance, front.distance);
   vec3 front_normal = triangle_texel(4u * front.name + 3u).xyz;
   uint end = min(parent.list_count, entry + kEntriesPerRound);
   uint word_count = (parent.list_count + 31u) / 32u;
@@ -151,8 +151,10 @@ void main() {
       float d = length(v);
       vec3 g = v / max(d, 1e-30);
       vec3 h = step.touch_half_side * g;
-      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && entry + k < end;
-      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h);
+      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && is_contact(prism, v, texels.normal) &&
+                     entry + k < end;
+      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h) &&
+                     touches_cube(prism, v, texels.normal);
       uint bit = 1u << (entry + k & 31u);
       word |= contact ? bit : 0u;
       touch_word |= touches ? bit : 0u;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -155,7 +156,14 @@ std::pair<Texel, Texel> box_texels(const BvhNode& node, std::uint32_t first, con
           Texel{box.upper[0], box.upper[1], box.upper[2], static_cast<float>(node.count)}};
 }
 
-std::array<Texel, kTexelsPerTriangle> triangle_texels(const std::array<Point, 3>& exact, bool trusted) {
+/// How far the rounding of its corners can turn a triangle, at most (docs/theory.md, "Rounding").
+double tilt(const Point& ab, const Point& ac) {
+  const double longest = std::max({length(ab), length(ac), length(ac - ab)});
+  return 1.2e-7 * longest / std::max(length(cross(ab, ac)), 1e-30);
+}
+
+/// `spread`: how far spokes may turn from its normal, as a sine; none if the normal is not trusted.
+std::array<Texel, kTexelsPerTriangle> triangle_texels(const std::array<Point, 3>& exact, std::optional<double> spread) {
   // Every triangle rounds a shared corner alike, so the float mesh is as watertight as the exact one.
   const std::array<float, 3> a = to_float(exact[0]);
   const Point ab = difference(to_float(exact[1]), a);
@@ -164,7 +172,8 @@ std::array<Texel, kTexelsPerTriangle> triangle_texels(const std::array<Point, 3>
   const double size = length(normal);
   return {Texel{a[0], a[1], a[2], static_cast<float>(inverse_square(ab))}, texel(ab, inverse_square(ac)),
           texel(ac, inverse_square(ac - ab)),
-          texel(size > 0 ? (1 / size) * normal : Point{0, 0, 0}, trusted && size > 0 ? 1.0 : 0.0)};
+          texel(size > 0 ? (1 / size) * normal : Point{0, 0, 0},
+                spread && size > 0 ? round_up(1 + std::min(1.0, *spread + 2 * tilt(ab, ac))) : 0.0)};
 }
 
 }  // namespace
@@ -181,12 +190,13 @@ FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit) {
 }
 
 std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_unit,
-                                        std::span<const std::uint8_t> flags) {
+                                        std::span<const std::uint8_t> flags, std::span<const float> spreads) {
   std::vector<Texel> texels(kTexelsPerTriangle * bvh.corners().size());
   parallel_blocks(bvh.corners().size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const bool trusted = !flags.empty() && (flags[bvh.order()[i]] & kTrustedNormal) != 0;
-      const auto four = triangle_texels(unit_corners(bvh.corners()[i], to_unit), trusted);
+      const std::optional<double> spread = trusted ? std::optional(spreads.empty() ? 1.0 : spreads[i]) : std::nullopt;
+      const auto four = triangle_texels(unit_corners(bvh.corners()[i], to_unit), spread);
       std::copy(four.begin(), four.end(), texels.begin() + kTexelsPerTriangle * static_cast<std::ptrdiff_t>(i));
     }
   });

@@ -27,6 +27,8 @@ constexpr double kFlat = 5e-6;
 constexpr double kLeastCornerSine = 1e-6;
 // Axes and angles are stored as floats.
 constexpr double kCapSlack = 1e-6;
+// Spokes to a face, an edge between faces that count as one, or a corner of such: within this of its normal.
+constexpr double kFaceSpread = 1e-5;
 // Vertices that a thread looks at in one go.
 constexpr std::size_t kBlock = 2048;
 
@@ -34,6 +36,9 @@ Point unit(const Point& v) {
   const double size = length(v);
   return size > 0 ? (1 / size) * v : Point{0, 0, 0};
 }
+
+// Of unit vectors; exact for small angles too.
+double angle_between(const Point& a, const Point& b) { return 2 * std::asin(std::min(1.0, 0.5 * length(b - a))); }
 
 struct Cap {
   Point axis;
@@ -53,7 +58,7 @@ std::optional<Cap> cap_around(std::span<const Point> directions) {
     axis = unit(axis + (1 / (step + 2.5)) * (*farthest - axis));
   }
   double angle = 0;
-  for (const Point& d : directions) angle = std::max(angle, 2 * std::asin(std::min(1.0, 0.5 * length(d - axis))));
+  for (const Point& d : directions) angle = std::max(angle, angle_between(d, axis));
   if (length(axis) == 0 || angle + kCapSlack >= kRightAngle) return std::nullopt;
   return Cap{axis, angle + kCapSlack};
 }
@@ -144,6 +149,7 @@ class Builder {
     measure_triangles();
     link_edges();
     link_corners();
+    measure_spreads();
     return std::move(out_);
   }
 
@@ -153,6 +159,7 @@ class Builder {
 
   void measure_triangles() {
     normals_.resize(order_.size());
+    turns_.resize(order_.size());
     out_.links.resize(order_.size());
     for (uint p = 0; p < order_.size(); ++p) {
       normals_[p] = unit(cross(corner(p, 1) - corner(p, 0), corner(p, 2) - corner(p, 0)));
@@ -258,7 +265,10 @@ class Builder {
     const bool flat = length(normals_[first.position] - normals_[second.position]) < kFlat;
     gpu::TriangleLinks& links = out_.links[first.position];
     links.neighbour[first.corner] = second.position;
-    if (reflex && !flat) links.flags |= gpu::kLinkEdge << first.corner;
+    if (!reflex || flat) return;
+    links.flags |= gpu::kLinkEdge << first.corner;
+    const double turn = angle_between(normals_[first.position], normals_[second.position]);
+    for (const uint p : {first.position, second.position}) turns_[p] = std::max(turns_[p], turn);
   }
 
   // A feature that a triangle without a good normal shares need not be listed: that triangle is listed as a whole.
@@ -271,6 +281,7 @@ class Builder {
     for (uint p = 0; p < order_.size(); ++p)
       for (const uint v : triangle(p)) fans[next[v]++] = p;
     out_.corners.resize(mesh_.vertices.size(), kNoSpoke);
+    loose_.resize(mesh_.vertices.size());
     const auto fan_of = [&](std::size_t v) {
       return std::span<const uint>(fans).subspan(begin[v], begin[v + 1] - begin[v]);
     };
@@ -284,8 +295,9 @@ class Builder {
   }
 
   void measure_corner(uint vertex, std::span<const uint> fan) {
+    loose_[vertex] = std::any_of(fan.begin(), fan.end(), [&](uint p) { return is_untrusted(p); }) ? 1 : 0;
     if (fan.empty() || std::any_of(fan.begin(), fan.end(), [&](uint p) { return is_whole(p); })) return;
-    if (std::any_of(fan.begin(), fan.end(), [&](uint p) { return is_untrusted(p); })) {
+    if (loose_[vertex] != 0) {
       out_.corners[vertex] = corner_cap_from_all_sides(edges_from(vertex, fan));
       return;
     }
@@ -315,6 +327,24 @@ class Builder {
     return edges;
   }
 
+  // Lemma J. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
+  void measure_spreads() {
+    out_.spreads.resize(order_.size());
+    parallel_blocks(order_.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p) {
+        double angle = turns_[p];
+        for (const uint v : triangle(static_cast<uint>(p))) angle = std::max(angle, turn_at_corner(v, normals_[p]));
+        out_.spreads[p] = angle + kFaceSpread < kRightAngle ? static_cast<float>(std::sin(angle + kFaceSpread)) : 1.0f;
+      }
+    });
+  }
+
+  double turn_at_corner(uint vertex, const Point& normal) const {
+    if (loose_[vertex] != 0) return kRightAngle;
+    const gpu::vec4& cap = out_.corners[vertex];
+    return cap.w < 0 ? 0 : angle_between(normal, Point{cap.x, cap.y, cap.z}) + cap.w;
+  }
+
   void link_corner(uint vertex, std::span<const uint> fan) {
     const Triangle& owner = triangle(fan.front());  // the earliest
     const uint k = owner[0] == vertex ? 0 : owner[1] == vertex ? 1 : 2;
@@ -324,7 +354,9 @@ class Builder {
   const MeshView& mesh_;
   std::span<const std::uint32_t> order_;
   std::vector<Point> normals_;
-  std::vector<gpu::vec4> arcs_;  // of spokes to edges of untrusted triangles
+  std::vector<double> turns_;        // by position: greatest angle to the normal of a triangle beyond a reflex edge
+  std::vector<std::uint8_t> loose_;  // by vertex: 1 if some triangle at it is not trusted
+  std::vector<gpu::vec4> arcs_;      // of spokes to edges of untrusted triangles
   MeshLinks out_;
 };
 

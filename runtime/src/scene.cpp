@@ -7,7 +7,6 @@
 #include "clusters.h"
 #include "context_impl.h"
 #include "device_tree.h"
-#include "mesh_links.h"
 #include "open_edges.h"
 #include "point_math.h"
 
@@ -20,6 +19,7 @@ Uploader upload_at_once(Context::Impl& context) {
   return [&context](const Buffer& buffer, std::span<const std::byte> bytes) { return upload(context, buffer, bytes); };
 }
 
+constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr std::uint32_t kMostClusters = 8192;
 constexpr std::uint32_t kTrianglesOfCluster = 16;
 
@@ -53,7 +53,7 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   device.order = device.bvh_.order();
   device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = device.measure(mesh); !status.ok()) return status.error();
-  if (Status status = device.upload_mesh(upload_at_once(context), context.limits, mesh); !status.ok())
+  if (Status status = device.upload_mesh(upload_at_once(context), context.limits, mesh, {}); !status.ok())
     return status.error();
   return device;
 }
@@ -74,9 +74,11 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Up
     return status;
   }
   if (Status status = measure(mesh); !status.ok()) return status;
-  if (Status status = upload_mesh(uploader, context.limits, mesh); !status.ok()) return status;
-  if (linked_vertices_ != 0) {
-    if (Status status = upload_all_links(uploader, mesh); !status.ok()) return status;
+  const bool linked = linked_vertices_ != 0;
+  const MeshLinks links = linked ? make_mesh_links(mesh, order) : MeshLinks{};
+  if (Status status = upload_mesh(uploader, context.limits, mesh, links.spreads); !status.ok()) return status;
+  if (linked) {
+    if (Status status = upload_all_links(uploader, mesh, links); !status.ok()) return status;
   }
   intact = true;
   return {};
@@ -106,22 +108,23 @@ Status DeviceMesh::measure(const MeshView& mesh) {
   return {};
 }
 
-Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh) {
-  const UnitTransform to_unit_box = {lower, longest};
-  const std::vector<Texel> triangle_data = make_triangle_texels(bvh_, to_unit_box, mesh.flags);
-  const std::vector<Texel> tree_data = make_tree_texels(bvh_, to_unit_box);
+Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                               std::span<const float> spreads) {
+  const std::vector<Texel> tree_data = make_tree_texels(bvh_, {lower, longest});
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
   // Links of vertices are a texel each.
-  use_texels =
-      std::max({triangle_data.size(), tree_data.size(), mesh.vertices.size()}) <= limits.maxTexelBufferElements;
-  constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
-  Status status =
-      fill_texels(uploader, std::as_bytes(std::span(triangle_data)), "triangles", kFloats, triangles, triangle_texels);
-  if (!status.ok()) return status;
-  status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats, tree,
-                       tree_texels);
+  use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), mesh.vertices.size()}) <=
+               limits.maxTexelBufferElements;
+  if (Status status = upload_triangles(uploader, mesh, spreads); !status.ok()) return status;
+  Status status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats,
+                              tree, tree_texels);
   if (!status.ok()) return status;
   return fill(uploader, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
+}
+
+Status DeviceMesh::upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads) {
+  const std::vector<Texel> made = make_triangle_texels(bvh_, {lower, longest}, mesh.flags, spreads);
+  return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
 }
 
 /// To a buffer that is created if there is none yet, or too small a one.
@@ -152,28 +155,30 @@ Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::by
 }
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
-  if (Status status = upload_all_links(upload_at_once(context), mesh); !status.ok()) return status;
+  const Uploader uploader = upload_at_once(context);
+  const MeshLinks links = make_mesh_links(mesh, order);
+  if (Status status = upload_triangles(uploader, mesh, links.spreads); !status.ok()) return status;
+  if (Status status = upload_all_links(uploader, mesh, links); !status.ok()) return status;
   linked_vertices_ = mesh.vertices.size();
   return {};
 }
 
-Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh) {
-  if (Status status = upload_links(uploader, mesh); !status.ok()) return status;
+Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {
+  if (Status status = upload_links(uploader, links); !status.ok()) return status;
   if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
   return upload_open_edges(uploader, mesh);
 }
 
-Status DeviceMesh::upload_links(const Uploader& uploader, const MeshView& mesh) {
+Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& made) {
   static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
-  const MeshLinks made = make_mesh_links(mesh, order);
   has_untrusted = has_untrusted || std::ranges::any_of(made.links, [](const gpu::TriangleLinks& l) {
                     return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
                   });
   Status status = fill_texels(uploader, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
                               VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
   if (!status.ok()) return status;
-  return fill_texels(uploader, std::as_bytes(std::span(made.corners)), "spokes to vertices",
-                     VK_FORMAT_R32G32B32A32_SFLOAT, corner_cones, corner_texels);
+  return fill_texels(uploader, std::as_bytes(std::span(made.corners)), "spokes to vertices", kFloats, corner_cones,
+                     corner_texels);
 }
 
 Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mesh) {

@@ -15,6 +15,7 @@
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "memory.h"
+#include "mesh_links.h"
 #include "tree_types.h"
 #include "unit_transform.h"
 
@@ -99,9 +100,11 @@ struct DeviceMesh {
  private:
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
   Status measure(const MeshView& mesh);
-  Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh);
-  Status upload_all_links(const Uploader& uploader, const MeshView& mesh);
-  Status upload_links(const Uploader& uploader, const MeshView& mesh);
+  Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                     std::span<const float> spreads);
+  Status upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads);
+  Status upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links);
+  Status upload_links(const Uploader& uploader, const MeshLinks& links);
   Status upload_open_edges(const Uploader& uploader, const MeshView& mesh);
   Status upload_clusters(const Uploader& uploader, const MeshView& mesh);
   Status fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind, const char* purpose,

@@ -45,6 +45,41 @@ bool touches_cube(Witness w, float d, vec3 h) {
   return touches;
 }
 
+// Lemma J: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
+// of the list does not meet the boundary. If it lies outside, its list is of no use: nothing is looked for there.
+struct Prism {
+  bool is_asked;
+  float spokes;  // no spoke of a point of the ball is longer, and some room
+};
+
+// `clearance`, `distance`: a lower and an upper bound of the distance from the centre to the boundary.
+Prism prism_at(float clearance, float distance) {
+  bool is_clear = step.open_edges == 0u && clearance > step.list_radius + 2.0 * step.slack;
+  return Prism(is_clear, distance + 2.0 * step.list_radius);
+}
+
+// How far beside a triangle the points may be that have spokes to it.
+float room_beside(Prism prism, vec4 normal) {
+  float room = 4.0 * step.slack + prism.spokes * (normal.w - 1.0);
+  return prism.is_asked && normal.w > 0.5 ? room : 1e15;
+}
+
+// `v`: from the centre to the nearest point of the triangle.
+vec3 beside(vec3 v, vec4 normal) { return v - dot(v, normal.xyz) * normal.xyz; }
+
+bool is_contact(Prism prism, vec3 v, vec4 normal) {
+  vec3 aside = beside(v, normal);
+  float reach = step.list_radius + room_beside(prism, normal);
+  return dot(aside, aside) <= reach * reach;
+}
+
+// The cube reaches as far in direction `aside` as its half-sides, times the parts of that direction.
+bool touches_cube(Prism prism, vec3 v, vec4 normal) {
+  vec3 aside = beside(v, normal);
+  float reach = length(aside) * room_beside(prism, normal) + step.touch_half_side * dot(abs(aside), vec3(1.0));
+  return dot(aside, aside) <= reach;
+}
+
 bool is_in_grid(uvec3 coordinates) {
   return step.depth > 0u ||
          all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
