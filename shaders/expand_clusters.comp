@@ -58,8 +58,7 @@ void main() {
   Witness front = witness_of(centre, nearest_of_cluster(centre, nearest[item].y, lane));
   Witness back =
       witness_of(centre, nearest_of_cluster(centre - step.circumradius * front.direction, counts[item].z, lane));
-  float clearance = uintBitsToFloat(nearest[item].x);
-  Prism prism = prism_at(clearance, front.distance);
+  Prism prism = prism_at(front.distance, clears_boundary(uintBitsToFloat(nearest[item].x)));
   uint word_count = (parent.list_count + 31u) / 32u;
   uint base = 8u * parent.word_begin + (item % 8) * word_count;
   uint begin = step.first_entry == 0u ? 0u : counts[item].x;
@@ -89,7 +88,7 @@ void main() {
   counts[item].x = position;
   // All that there is so far: the last round completes it.
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
-                         state.w, front.name, 0u, kNoTriangle, clearance);
+                         state.w, front.name, 0u, kNoTriangle, 0u);
   atomicMax(counters[kLongestCellList], position);
   if (step.first_entry == 0u) COUNT(kKeptCount, 1u);
   COUNT(kContactCount, position - begin);

@@ -91,6 +91,79 @@ uint sides_seen(float depth, bool trusted) {
   return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
 }
 
+// What a walk over the entries of a list finds; the members of the same names above.
+struct Marks {
+  uvec4 count;
+  vec4 axis;
+  uvec2 first;
+  uint partner;
+};
+
+Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Prism prism, uint entry, uint end,
+           Marks marks) {
+  vec3 front_normal = triangle_texel(4u * front.name + 3u).xyz;
+  uint base = 8u * parent.word_begin + child * ((parent.list_count + 31u) / 32u);
+  uint word = 0, touch_word = 0;
+  float partner_away = 3e38, least_turn = sin(dismissal_angle(front.distance));
+  marks.partner = kNoTriangle;
+  for (;;) {
+    uint next = parent.list_begin + entry, last = parent.list_begin + end - 1u;
+    uint mine_name = lists[min(next + child, last)];
+    TriangleTexels mine = load_triangle(mine_name);
+    [[unroll]] for (uint k = 0; k < 8u; ++k) {
+      TriangleTexels texels = triangle_of_lane(mine, min(next + k, last), k);
+      uint name = name_of_lane(mine_name, min(next + k, last), k);
+      vec3 v = vector_to_triangle(centre, texels);
+      float d = length(v);
+      vec3 g = v / max(d, 1e-30);
+      vec3 h = step.touch_half_side * g;
+      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && is_contact(prism, v, texels.normal) &&
+                     entry + k < end;
+      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h) &&
+                     touches_cube(prism, v, texels.normal);
+      uint bit = 1u << (entry + k & 31u);
+      word |= contact ? bit : 0u;
+      touch_word |= touches ? bit : 0u;
+      bool trusted = texels.normal.w > 0.5;
+      float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
+      marks.count.z = touches && cosine < marks.axis.w ? name : marks.count.z;
+      // The sheet between the two is about (D_t - D_0) / |g_t - g_0| from the centre (equation 2.11).
+      float turn = length(g - front.direction);
+      float away = (d - front.distance) / max(turn, 1e-30) - 0.2 * step.circumradius * turn;
+      bool is_partner = touches && turn >= least_turn && away < partner_away;
+      marks.partner = is_partner ? name : marks.partner;
+      partner_away = is_partner ? away : partner_away;
+      marks.count.w |= touches && !trusted ? kSeenUntrusted : 0u;
+      // Of all triangles that may be the nearest, in the end: those before a clearly nearer one are forgotten.
+      float behind_first = d - uintBitsToFloat(marks.first.x);
+      marks.count.w &= behind_first < -6.0 * step.slack ? ~(kSeenInFront | kSeenBehind) : 0xffffffffu;
+      marks.count.w |= behind_first <= 6.0 * step.slack ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
+      marks.first = behind_first < 0.0 ? uvec2(floatBitsToUint(d), name) : marks.first;
+      marks.axis.xyz += touches ? texels.normal.xyz : vec3(0.0);
+      marks.axis.w = touches ? min(marks.axis.w, cosine) : marks.axis.w;
+    }
+    entry += 8u;
+    if ((entry & 31u) == 0u || entry >= end) {
+      uint w = base + (min(entry, end) - 1u) / 32u;
+      masks[w] = word;
+      touch_masks[w] = touch_word;
+      marks.count.xy += uvec2(bitCount(word), bitCount(touch_word));
+      word = 0;
+      touch_word = 0;
+    }
+    if (entry >= end) return marks;
+  }
+}
+
+// Of the eight children of a parent, where they walk together.
+bool is_so_of_any(bool mine) {
+#ifdef LOCKSTEP
+  return or_of_lanes(mine ? 1u : 0u) != 0u;
+#else
+  return mine;
+#endif
+}
+
 // What becomes of a child, once all contacts have been seen.
 void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, float nearest_distance, uvec4 count,
             float least_cosine) {
@@ -118,9 +191,8 @@ void main() {
   uint item = invocation_index();
   if (item >= 8u * counters[kParents]) return;
   Cell parent = parents[item / 8];
-  uint child = item % 8;
-  uint entry = step.first_entry;
-  if (entry >= parent.list_count) return;
+  uint child = item % 8, begin = step.first_entry;
+  if (begin >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);
   // On the other side of the sheet that may pass: the parent's partner, if it has one. All eight children agree on that.
@@ -128,74 +200,28 @@ void main() {
   Witness front = witness_of(centre, witness_near(parent, child, centre));
   uint back_name = seeks ? witness_near(parent, child, centre - step.circumradius * front.direction) : parent.partner;
   Witness back = witness_of(centre, back_name);
-  // The first witness is the nearest of a short list.
-  float clearance = max(parent.list_count < kWitnessSample ? front.distance : 0.0, parent.clearance - step.circumradius);
-  Prism prism = prism_at(clearance, front.distance);
-  vec3 front_normal = triangle_texel(4u * front.name + 3u).xyz;
-  uint end = min(parent.list_count, entry + kEntriesPerRound);
-  uint word_count = (parent.list_count + 31u) / 32u;
-  uint base = 8u * parent.word_begin + child * word_count;
-  uvec4 count = entry == 0 ? uvec4(0u) : counts[item];
-  vec4 axis = entry == 0 ? vec4(0.0, 0.0, 0.0, 2.0) : axes[item];
-  uvec2 first = entry == 0 ? uvec2(kFarthestBits, 0u) : nearest[item];
-  uint word = 0, touch_word = 0, partner = kNoTriangle;
-  float partner_away = 3e38, least_turn = sin(dismissal_angle(front.distance));
+  uint end = min(parent.list_count, begin + kEntriesPerRound);
+  bool is_first = begin == 0u, is_last = end >= parent.list_count;
+  Marks before = Marks(uvec4(0u), vec4(0.0, 0.0, 0.0, 2.0), uvec2(kFarthestBits, 0u), kNoTriangle), marks;
+  if (!is_first) before = Marks(counts[item], axes[item], nearest[item], kNoTriangle);
+  // Whether Lemma J may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
+  // then the cell is marked once more without it, which is rare if only half of the promise is believed.
+  float promise = parent.list_count < kWitnessSample ? front.distance : 0.5 * front.distance;
+  Prism prism = prism_at(front.distance, is_first && is_last && clears_boundary(promise));
   for (;;) {
-    uint next = parent.list_begin + entry, last = parent.list_begin + end - 1u;
-    uint mine_name = lists[min(next + child, last)];
-    TriangleTexels mine = load_triangle(mine_name);
-    [[unroll]] for (uint k = 0; k < 8u; ++k) {
-      TriangleTexels texels = triangle_of_lane(mine, min(next + k, last), k);
-      uint name = name_of_lane(mine_name, min(next + k, last), k);
-      vec3 v = vector_to_triangle(centre, texels);
-      float d = length(v);
-      vec3 g = v / max(d, 1e-30);
-      vec3 h = step.touch_half_side * g;
-      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && is_contact(prism, v, texels.normal) &&
-                     entry + k < end;
-      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h) &&
-                     touches_cube(prism, v, texels.normal);
-      uint bit = 1u << (entry + k & 31u);
-      word |= contact ? bit : 0u;
-      touch_word |= touches ? bit : 0u;
-      bool trusted = texels.normal.w > 0.5;
-      float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
-      count.z = touches && cosine < axis.w ? name : count.z;
-      // The sheet between the two is about (D_t - D_0) / |g_t - g_0| from the centre (equation 2.11).
-      float turn = length(g - front.direction);
-      float away = (d - front.distance) / max(turn, 1e-30) - 0.2 * step.circumradius * turn;
-      bool is_partner = touches && turn >= least_turn && away < partner_away;
-      partner = is_partner ? name : partner;
-      partner_away = is_partner ? away : partner_away;
-      count.w |= touches && !trusted ? kSeenUntrusted : 0u;
-      // Of all triangles that may be the nearest, in the end: those before a clearly nearer one are forgotten.
-      float behind_first = d - uintBitsToFloat(first.x);
-      count.w &= behind_first < -6.0 * step.slack ? ~(kSeenInFront | kSeenBehind) : 0xffffffffu;
-      count.w |= behind_first <= 6.0 * step.slack ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
-      first = behind_first < 0.0 ? uvec2(floatBitsToUint(d), name) : first;
-      axis.xyz += touches ? texels.normal.xyz : vec3(0.0);
-      axis.w = touches ? min(axis.w, cosine) : axis.w;
-    }
-    entry += 8u;
-    if ((entry & 31u) == 0u || entry >= end) {
-      uint w = base + (min(entry, end) - 1u) / 32u;
-      masks[w] = word;
-      touch_masks[w] = touch_word;
-      count.xy += uvec2(bitCount(word), bitCount(touch_word));
-      word = 0;
-      touch_word = 0;
-    }
-    if (entry >= end) break;
+    marks = mark(parent, child, centre, front, back, prism, begin, end, before);
+    bool is_wrong = prism.is_asked && !clears_boundary(uintBitsToFloat(marks.first.x));
+    prism.is_asked = prism.is_asked && !is_wrong;
+    if (!is_so_of_any(is_wrong)) break;
   }
-  bool is_last = end >= parent.list_count;
-  counts[item] = uvec4(count.xy, is_last ? partner : count.z, count.w);
-  axes[item] = axis;
-  nearest[item] = first;
+  counts[item] = uvec4(marks.count.xy, is_last ? marks.partner : marks.count.z, marks.count.w);
+  axes[item] = marks.axis;
+  nearest[item] = marks.first;
   if (!is_last) return;
   uint sampled = parent.list_count / (1u + parent.list_count / kWitnessSample);
-  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + 2u * sampled));
+  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + (seeks ? 2u : 1u) * sampled));
   if (is_in_grid(coordinates))
-    settle(item, centre, parent.flags, first.y, uintBitsToFloat(first.x), count, axis.w);
+    settle(item, centre, parent.flags, marks.first.y, uintBitsToFloat(marks.first.x), marks.count, marks.axis.w);
   else
     states[item] = uvec4(0u);
 }

@@ -27,7 +27,7 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching
   uint voxel = kFinest ? offset.x : parent.voxel;
   cells[offset.x] =
       Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, touching,
-           counts[item].z, uintBitsToFloat(nearest[item].x));
+           counts[item].z, 0u);
   if (kFinest) {
     winners[voxel] = 0xffffffffu;
     verdicts[voxel] = 0u;

@@ -35,7 +35,7 @@ struct Cell {
   uint nearest;     // triangle nearest to the centre; not where lists are of clusters, nor just below
   uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
   uint partner;     // of the contacts that touch, one whose sheet with the nearest passes close to the centre
-  float clearance;  // the distance from the centre to the boundary, or less
+  uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kNoTriangle = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid

@@ -52,11 +52,13 @@ struct Prism {
   float spokes;  // no spoke of a point of the ball is longer, and some room
 };
 
-// `clearance`, `distance`: a lower and an upper bound of the distance from the centre to the boundary.
-Prism prism_at(float clearance, float distance) {
-  bool is_clear = step.open_edges == 0u && clearance > step.list_radius + 2.0 * step.slack;
-  return Prism(is_clear, distance + 2.0 * step.list_radius);
+// `clearance`: the distance from the centre to the boundary, or less.
+bool clears_boundary(float clearance) {
+  return step.open_edges == 0u && clearance > step.list_radius + 2.0 * step.slack;
 }
+
+// `distance`: that, or more.
+Prism prism_at(float distance, bool is_asked) { return Prism(is_asked, distance + 2.0 * step.list_radius); }
 
 // How far beside a triangle the points may be that have spokes to it.
 float room_beside(Prism prism, vec4 normal) {
