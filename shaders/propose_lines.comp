@@ -120,9 +120,12 @@ vec3 widest_turn(Cell cell, uint lane, vec3 point) {
     nearest_distance =
         min(nearest_distance, squared_distance_to_triangle(point, load_triangle(lists[cell.list_begin + entry])));
   nearest_distance = sqrt(least_of_lanes(nearest_distance));
-  vec3 a = opposite_direction(cell, lane, point, nearest_distance, vec3(0.0));
-  vec3 b = opposite_direction(cell, lane, point, nearest_distance, a);
-  a = opposite_direction(cell, lane, point, nearest_distance, b);
+  vec3 a = vec3(0.0), b;
+  for (uint k = 0;;) {
+    b = a;
+    a = opposite_direction(cell, lane, point, nearest_distance, b);
+    if (++k == 3u) break;
+  }
   return unit_or_zero(a - b);
 }
 

@@ -1,24 +1,33 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Prefix sums of uvec4, step 2 of 3: one workgroup turns the block sums into offsets, and stores the totals. A total
-// above its limit means that a buffer is too small: the overflow counter says so and all later dispatches are empty.
+// above its limit means that a buffer is too small: the overflow counter says so and all later dispatches are empty. Few
+// elements need no other step: their sums are made here.
 #include "gpu_types.h"
 
 layout(local_size_x_id = 0) in;  // 64
 layout(push_constant) uniform Push { ScanConstants scan; };
 layout(set = 0, binding = 0) buffer BlockSums { uvec4 block_sums[]; };
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 2) readonly buffer Elements { uvec4 elements[]; };
+layout(set = 0, binding = 3) writeonly buffer Sums { uvec4 sums[]; };
 
 shared uvec4 lane_sums[64];
+
+uvec4 part(uint i, bool few) {
+  if (few) return elements[i];
+  return block_sums[i];
+}
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
   uint count = counters[scan.items_counter] * scan.items_multiplier;
-  uint blocks = (count + 1023u) / 1024u;
-  uint run = (blocks + 63u) / 64u;
-  uint begin = min(blocks, lane * run), end = min(blocks, begin + run);
+  bool few = count <= kFewElements;
+  uint parts = few ? count : (count + 1023u) / 1024u;
+  uint run = (parts + 63u) / 64u;
+  uint begin = min(parts, lane * run), end = min(parts, begin + run);
   uvec4 sum = uvec4(0);
-  for (uint i = begin; i < end; ++i) sum += block_sums[i];
+  for (uint i = begin; i < end; ++i) sum += part(i, few);
   lane_sums[lane] = sum;
   barrier();
   uvec4 offset = uvec4(0), total = uvec4(0);
@@ -27,9 +36,12 @@ void main() {
     total += lane_sums[i];
   }
   for (uint i = begin; i < end; ++i) {
-    uvec4 block = block_sums[i];
-    block_sums[i] = offset;
-    offset += block;
+    uvec4 next = offset + part(i, few);
+    if (few)
+      sums[i] = offset;
+    else
+      block_sums[i] = offset;
+    offset = next;
   }
   if (lane != 0u) return;
   counters[scan.total_x] = total.x;

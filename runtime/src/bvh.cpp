@@ -104,6 +104,29 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
   }
 }
 
+/// The same for a limit that stays: calls `visit` with every leaf. Boxes are looked at before they go on the stack, so
+/// most never do.
+template <class Visit>
+void for_each_leaf(const std::vector<BvhNode>& nodes, const Point& p, double squared_limit, Visit visit) {
+  std::array<std::uint32_t, Bvh::kMaxDepth + 1> stack;
+  std::size_t size = 0;
+  if (squared_distance(nodes[0].box, p) <= squared_limit) stack[size++] = 0;
+  while (size > 0) {
+    std::uint32_t node = stack[--size];
+    bool is_near = true;
+    while (is_near && nodes[node].count == 0) {
+      const std::uint32_t first = nodes[node].first;
+      const double to_first = squared_distance(nodes[first].box, p);
+      const double to_second = squared_distance(nodes[first + 1].box, p);
+      const std::uint32_t nearer = to_second < to_first ? 1 : 0;
+      is_near = std::min(to_first, to_second) <= squared_limit;
+      if (std::max(to_first, to_second) <= squared_limit) stack[size++] = first + 1 - nearer;
+      node = first + nearer;
+    }
+    if (is_near) visit(node);
+  }
+}
+
 }  // namespace
 
 Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned threads) {
@@ -167,18 +190,32 @@ void Bvh::improve(const Point& p, std::uint32_t position, BvhHit& best) const {
 void Bvh::gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const {
   positions.clear();
   const double limit = radius * radius;
-  walk_near_first(
-      nodes_, centre, [&] { return limit; },
-      [&](std::uint32_t i) {
-        if (!clearly_beyond(centre, corners_[i], limit)) positions.push_back(i);
-        return false;
-      });
+  for_each_leaf(nodes_, centre, limit, [&](std::uint32_t leaf) {
+    const std::uint32_t end = nodes_[leaf].first + nodes_[leaf].count;
+    for (std::uint32_t i = nodes_[leaf].first; i < end; ++i)
+      if (!clearly_beyond(centre, corners_[i], limit)) positions.push_back(i);
+  });
+}
+
+void Bvh::gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const {
+  leaves.clear();
+  for_each_leaf(nodes_, centre, radius * radius, [&](std::uint32_t leaf) { leaves.push_back(leaf); });
 }
 
 BvhHit Bvh::closest_of(const Point& p, const std::vector<std::uint32_t>& positions) const {
   BvhHit best;
   for (const std::uint32_t position : positions) improve(p, position, best);
   return best;
+}
+
+std::size_t Bvh::find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const {
+  // A little more than the square, so that what is skipped would not be found for rounding either.
+  const double limit = radius * radius * (1 + 1e-12);
+  const auto found = std::ranges::find_if(positions, [&](std::uint32_t i) {
+    return !clearly_beyond(p, corners_[i], limit) &&
+           std::sqrt(nearest_on_triangle(p, corners_[i]).squared_distance) < radius;
+  });
+  return static_cast<std::size_t>(found - positions.begin());
 }
 
 bool Bvh::any_within(const Point& centre, double radius) const {

@@ -12,7 +12,6 @@ namespace {
 
 using gpu::uint;
 
-constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
 constexpr uint kTopCellsAlongSide = 8;
 // Contact lists hold clusters as long as a cell's ball is this much larger than half of them.
 constexpr double kCellPerCluster = 1.0;
@@ -125,7 +124,6 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   };
   const Request requests[] = {
       {&counters_, gpu::kCounterCount * 4, "counters"},
-      {&arguments_, VkDeviceSize{kMostArguments} * 12, "dispatch arguments"},
       {&cells_[0], c * sizeof(gpu::Cell), "cells"},
       {&cells_[1], c * sizeof(gpu::Cell), "cells"},
       {&cells_[2], c * sizeof(gpu::Cell), "finest voxels"},
@@ -164,7 +162,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   Result<Buffer> readback = arena_.create_buffer(gpu::kCounterCount * 4, MemoryKind::kReadback, "counters");
   if (!readback.ok()) return readback.error();
   counters_readback_ = readback.value();
-  return {};
+  return arguments_.create(arena_, counters_, *stop_, parameters_.kernel_times);
 }
 
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
@@ -215,26 +213,10 @@ void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
   if (!parameters_.kernel_times) r.begin_stage(stage);
 }
 
-std::uint32_t CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
-  // What a dispatch of kernels adds to while others read it is never reused.
-  const bool lasts = constants.items_counter != gpu::kAsked && constants.items_counter != gpu::kOpen;
-  if (constants.queries_per_item == 0 && lasts) {
-    const auto known = std::ranges::find_if(prepared_, [&](gpu::DispatchConstants p) {
-      p.argument = constants.argument;
-      p.queries_per_item = 0;
-      return std::memcmp(&p, &constants, sizeof(p)) == 0;
-    });
-    if (known != prepared_.end()) return known->argument;
-  }
-  if (parameters_.kernel_times) r.begin_stage("prepare_dispatch");
-  const std::uint32_t argument = next_argument_++ % kMostArguments;
-  gpu::DispatchConstants c = constants;
-  c.argument = argument;
-  if (lasts) prepared_.push_back(c);
-  const BufferRange buffers[] = {counters_.range(), arguments_.range(), stop_->range()};
-  r.dispatch({"prepare_dispatch", 3, 0, sizeof(c), 1, {}}, buffers, {}, bytes_of(c), 1);
-  r.barrier();
-  return argument;
+VkDeviceSize CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
+  // Kernels add to these while others read them.
+  if (constants.items_counter == gpu::kAsked || constants.items_counter == gpu::kOpen) arguments_.counters_change();
+  return arguments_.offset_of(r, constants);
 }
 
 void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step) {
@@ -250,7 +232,8 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.entry_limit = extent.entry_limit;
   // Of kernels that read no lists, all rounds are one.
   d.first_entry = extent.list_counter == gpu::kNoCounter ? 0 : step.first_entry;
-  const std::uint32_t argument = prepare(r, d);
+  const VkDeviceSize groups = prepare(r, d);
+  if (arguments_.plans()) return;
   if (parameters_.kernel_times) {
     const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
     r.begin_stage(kernel.shader + variant + "@" + std::to_string(step.level));
@@ -265,7 +248,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   key.workgroup_size = kernel.workgroup_size;
   if (kernel.reads != Reads::kNoMesh) key.shader += storage_suffix(mesh_->use_texels);
   key.constants = kernel.constants;
-  r.dispatch_indirect(key, kernel.buffers, texels, bytes_of(step), arguments_, VkDeviceSize{argument} * 12);
+  r.dispatch_indirect(key, kernel.buffers, texels, bytes_of(step), arguments_.buffer(), groups);
   r.barrier();
 }
 
@@ -302,20 +285,22 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   d.items_divisor = 16;  // elements per lane
   d.group_size = 64;
   d.item_limit = 0xffffffffu;
+  d.least_items = gpu::kFewElements + 1;
   d.list_counter = gpu::kNoCounter;
-  const VkDeviceSize offset = VkDeviceSize{prepare(r, d)} * 12;
+  const VkDeviceSize groups = prepare(r, d);
+  arguments_.counters_change();
+  if (arguments_.plans()) return;
   if (parameters_.kernel_times) r.begin_stage("scan");
   const auto push = bytes_of(constants);
   const BufferRange blocks[] = {states_.range(), block_sums_.range(), counters_.range()};
-  r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_, offset);
+  r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_.buffer(), groups);
   r.barrier();
-  const BufferRange sums[] = {block_sums_.range(), counters_.range()};
+  const BufferRange sums[] = {block_sums_.range(), counters_.range(), states_.range(), offsets_.range()};
   const BufferRange add[] = {states_.range(), block_sums_.range(), counters_.range(), offsets_.range()};
-  r.dispatch({"scan_sums", 2, 0, sizeof(constants), 64, {}}, sums, {}, push, 64);
+  r.dispatch({"scan_sums", 4, 0, sizeof(constants), 64, {}}, sums, {}, push, 64);
   r.barrier();
-  r.dispatch_indirect({"scan_add", 4, 0, sizeof(constants), 64, {}}, add, {}, push, arguments_, offset);
+  r.dispatch_indirect({"scan_add", 4, 0, sizeof(constants), 64, {}}, add, {}, push, arguments_.buffer(), groups);
   r.barrier();
-  forget_arguments();
 }
 
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
@@ -371,6 +356,11 @@ Result<std::vector<T>> read_first(Context::Impl& context, const Buffer& from, st
   std::vector<T> values(count);
   if (count == 0) return values;
   const VkDeviceSize bytes = count * sizeof(T);
+  // Elsewhere memory that is mapped may be slow to read.
+  if (from.mapped != nullptr && context.description.type == "cpu") {
+    std::memcpy(values.data(), from.mapped, bytes);
+    return values;
+  }
   Arena staging(context);
   Result<Buffer> buffer = staging.create_buffer(bytes, MemoryKind::kReadback, "result");
   if (!buffer.ok()) return buffer.error();

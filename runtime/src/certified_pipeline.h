@@ -16,6 +16,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "dispatch_arguments.h"
 #include "gpu_types.h"
 #include "medial_vk/extraction.h"
 #include "recorder.h"
@@ -95,7 +96,7 @@ class CertifiedPipeline {
   // Of the whole run. With kernel_times every dispatch is a stage of its own instead.
   void begin_stage(Recorder& r, const char* stage) const;
   void clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters);
-  void start_level(Recorder& r, std::uint32_t source, bool same_level = false);
+  void record_steps(Recorder& r, std::uint32_t first, std::uint32_t count);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
   void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
@@ -156,10 +157,8 @@ class CertifiedPipeline {
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   void scan(Recorder& r, const gpu::ScanConstants& constants);
-  // The index of the arguments that `constants` make, which may be there already.
-  std::uint32_t prepare(Recorder& r, const gpu::DispatchConstants& constants);
-  // Counters change: arguments that were made of them are not used any more.
-  void forget_arguments() { prepared_.clear(); }
+  // Where in arguments_ the group counts are.
+  VkDeviceSize prepare(Recorder& r, const gpu::DispatchConstants& constants);
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;
@@ -174,10 +173,9 @@ class CertifiedPipeline {
   std::uint32_t clustered_levels_ = 0;       // of these, the first ones, whose parents have lists of clusters
   std::uint32_t narrowing_steps_ = 0;
   std::uint32_t rounds_ = 1;  // recorded for lists longer than kEntriesPerRound
-  std::uint32_t next_argument_ = 0;
-  std::vector<gpu::DispatchConstants> prepared_;  // arguments that are still right
+  DispatchArguments arguments_;
 
-  Buffer counters_, counters_readback_, arguments_;
+  Buffer counters_, counters_readback_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;

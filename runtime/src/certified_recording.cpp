@@ -8,8 +8,15 @@ namespace medial_vk {
 using gpu::uint;
 
 Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
-  next_argument_ = 0;
-  forget_arguments();
+  Recorder nothing(*context_);
+  arguments_.begin_plan();
+  record_steps(nothing, first, count);
+  arguments_.begin();
+  record_steps(r, first, count);
+  return r.status();
+}
+
+void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint32_t count) {
   begin_stage(r, "contacts");
   record_top_cells(r, first, count);
   // Levels alternate between two sets of buffers; the finest voxels have their own, which live to the end.
@@ -30,7 +37,7 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
       record_classification(r, step, left);
       record_drop_found(r, step, left, cells_[0], false);
     } else {
-      start_level(r, gpu::kCells);
+      arguments_.start(r, gpu::kStartChildren);
     }
     parents = lists = target;
   }
@@ -48,7 +55,6 @@ Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t
   record_collection(r);
   r.copy(counters_, 0, counters_readback_, 0, gpu::kCounterCount * 4);
   r.barrier_to_host();
-  return r.status();
 }
 
 void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count) {
@@ -85,14 +91,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
   run(r, write_entries, groups, step);
-  start_level(r, gpu::kCells);
-}
-
-void CertifiedPipeline::start_level(Recorder& r, std::uint32_t source, bool same_level) {
-  const BufferRange counters[] = {counters_.range()};
-  r.dispatch({"start_level", 1, 0, 0, 1, {source, same_level ? 1u : 0u}}, counters, {}, {}, 1);
-  r.barrier();
-  forget_arguments();
+  arguments_.start(r, gpu::kStartChildren);
 }
 
 void CertifiedPipeline::clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters) {
@@ -128,7 +127,6 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   if (finest) {  // every finest voxel that is kept gets a slot
     r.copy(counters_, gpu::kCells * 4, counters_, gpu::kVoxels * 4, 4);
     r.barrier();
-    forget_arguments();
   }
   write_children(r, step, level, touch_masks_, finest);
 }
@@ -153,6 +151,7 @@ void CertifiedPipeline::write_children(Recorder& r, const gpu::StepConstants& st
               Reads::kNoMesh,
               {finest ? 1u : 0u}},
              {gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step);
+  arguments_.counters_change();  // the longest list
 }
 
 void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepConstants& step,
@@ -184,6 +183,7 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
               kEightLanes,
               Lanes::kEight},
              {gpu::kParents, 8 * kEightLanes, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step, clusters_per_round());
+  arguments_.counters_change();  // the longest list
 }
 
 void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
@@ -279,6 +279,7 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   for (uint first = 0; first < capacity_.cells;) {
     const uint block = step.depth > 1 ? std::max(first, kBlock) : kBlock;
     judge_pairs(r, step, level, first, block);
+    arguments_.counters_change();  // a stop waits for one block
     first += block;
   }
 }
@@ -295,7 +296,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
-  start_level(r, gpu::kKept, searched_once);
+  arguments_.start(r, searched_once ? gpu::kStartAgain : gpu::kStartBelow);
 }
 
 void CertifiedPipeline::record_collection(Recorder& r) {

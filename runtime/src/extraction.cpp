@@ -94,7 +94,10 @@ class CertifiedRun {
     if (fill.overflow) return fill;
     auto points = pipeline_.read_points(counters[gpu::kFound]);
     if (!points.ok()) return points.error();
-    for (const gpu::FoundPoint& p : points.value()) extraction_.spheres.push_back(to_input_units(p, mesh_));
+    std::vector<MedialSphere>& spheres = extraction_.spheres;
+    const std::size_t needed = spheres.size() + points.value().size();
+    if (needed > spheres.capacity()) spheres.reserve(std::max(needed, 2 * spheres.capacity()));
+    for (const gpu::FoundPoint& p : points.value()) spheres.push_back(to_input_units(p, mesh_));
     auto undecided = pipeline_.read_undecided(counters[gpu::kUndecided]);
     if (!undecided.ok()) return undecided.error();
     for (const gpu::UndecidedCell& u : undecided.value()) extraction_.undecided.push_back(to_input_units(u, mesh_));

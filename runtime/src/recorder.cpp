@@ -235,6 +235,15 @@ void Recorder::fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize byte
   context_->vk.vkCmdFillBuffer(commands_, buffer.handle, offset, bytes, word);
 }
 
+void Recorder::update(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes) {
+  if (bytes.empty() || !status_.ok()) return;
+  if (offset % 4 != 0 || bytes.size() % 4 != 0 || bytes.size() > 65536 || !inside(buffer, offset, bytes.size())) {
+    return fail(recording_error("an update", range_text(offset, bytes.size(), buffer)));
+  }
+  if (rehearses()) return;
+  context_->vk.vkCmdUpdateBuffer(commands_, buffer.handle, offset, bytes.size(), bytes.data());
+}
+
 void Recorder::copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset,
                     VkDeviceSize bytes) {
   if (bytes == 0 || !status_.ok()) return;

@@ -40,6 +40,8 @@ class Recorder {
   /// Makes all writes so far visible to all later compute, indirect and transfer reads and writes.
   void barrier();
   void fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word);
+  /// At most 65,536 bytes, which travel in the command buffer.
+  void update(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
   void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset, VkDeviceSize bytes);
   /// Between what is recorded here and what a host records before or after it, whatever that is.
   void barrier_to_others();

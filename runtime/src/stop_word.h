@@ -1,5 +1,5 @@
 // A word that the device looks at before every dispatch of a recorded sequence: once the host raises it, the dispatches
-// that are left are empty (prepare_dispatch.comp). So a job stops within one dispatch, without round trips while it
+// that are left are empty (prepare.glsl). So a job stops within one dispatch, without round trips while it
 // runs.
 //
 // Host-coherent memory needs no flush, but Vulkan promises nothing about when a dispatch sees what the host writes

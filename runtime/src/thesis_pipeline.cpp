@@ -186,12 +186,13 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
 }
 
 VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t divisor, std::uint32_t group_size,
-                                     std::uint32_t first, std::uint32_t count) {
+                                     std::uint32_t first, std::uint32_t count, std::uint32_t least_items) {
   gpu::DispatchConstants constants{};
   constants.items_counter = items.counter;
   constants.items_multiplier = items.multiplier;
   constants.items_divisor = divisor;
   constants.group_size = group_size;
+  constants.least_items = least_items;
   constants.first_item = first;
   constants.item_limit = count;
   constants.list_counter = gpu::kNoCounter;
@@ -237,13 +238,14 @@ void ThesisPipeline::run(Recorder& r, const char* shader, Items items, gpu::Thes
 void ThesisPipeline::scan(Recorder& r, Items items, std::uint32_t total) {
   const gpu::ScanConstants constants{items.counter, items.multiplier, total,       gpu::kIgnored,
                                      gpu::kIgnored, 0xffffffffu,      0xffffffffu, 0xffffffffu};
-  const VkDeviceSize groups = prepare(r, items, 16);  // elements per lane
+  constexpr std::uint32_t kElementsPerLane = 16;
+  const VkDeviceSize groups = prepare(r, items, kElementsPerLane, 64, 0, 0xffffffffu, gpu::kFewElements + 1);
   const auto push = bytes_of(constants);
   const std::array<BufferRange, 3> blocks = {states_.range(), block_sums_.range(), counters_.range()};
   r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_, groups);
   r.barrier();
-  const std::array<BufferRange, 2> sums = {block_sums_.range(), counters_.range()};
-  r.dispatch({"scan_sums", 2, 0, sizeof(constants), 64, {}}, sums, {}, push, 64);
+  const std::array<BufferRange, 4> sums = {block_sums_.range(), counters_.range(), states_.range(), offsets_.range()};
+  r.dispatch({"scan_sums", 4, 0, sizeof(constants), 64, {}}, sums, {}, push, 64);
   r.barrier();
   const std::array<BufferRange, 4> add = {states_.range(), block_sums_.range(), counters_.range(), offsets_.range()};
   r.dispatch_indirect({"scan_add", 4, 0, sizeof(constants), 64, {}}, add, {}, push, arguments_, groups);

@@ -76,7 +76,7 @@ class ThesisPipeline {
   /// arguments_.
   VkDeviceSize prepare(Recorder& r, Items items, std::uint32_t divisor = 1,
                        std::uint32_t group_size = TreeQueries::kWorkgroupSize, std::uint32_t first = 0,
-                       std::uint32_t count = 0xffffffffu);
+                       std::uint32_t count = 0xffffffffu, std::uint32_t least_items = 0);
   /// The items, `most` at most, so many at a time: a multiple of `group_size`.
   Slices slices(Items items, std::uint64_t most, std::uint32_t per_slice, std::uint32_t group_size);
   QueryCount query_count(Items items, std::uint64_t most);

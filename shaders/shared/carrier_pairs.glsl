@@ -151,6 +151,15 @@ float depth_along(Facing f, vec3 d) {
   return depth;
 }
 
+// The next corner comes first. Loops over corners turn them, since an index that changes is slow, and code for every
+// pair of corners takes long to translate.
+void rotate(inout vec3 p[3]) {
+  vec3 first = p[0];
+  p[0] = p[1];
+  p[1] = p[2];
+  p[2] = first;
+}
+
 // Lemma E: may both face each other along some chord?
 bool can_face(uint first, uint second, float sine) {
   Facing a = facing_of(first, sine), b = facing_of(second, sine);
@@ -158,12 +167,16 @@ bool can_face(uint first, uint second, float sine) {
   vec3 p[3], q[3], mean = vec3(0.0);
   corners_of(first, p);
   corners_of(second, q);
-  [[unroll]] for (uint k = 0; k < 9u; ++k) mean += unit_or_zero(q[k % 3u] - p[k / 3u]);
+  for (uint i = 0;;) {
+    [[unroll]] for (uint k = 0; k < 3u; ++k) mean += unit_or_zero(q[k] - p[0]);
+    rotate(p);
+    if (++i == 3u) break;
+  }
   mean = unit_or_zero(mean);
   float most_a = -1.0, most_b = -1.0;
   bool behind_a = false, behind_b = false, bounded = true;
-  [[unroll]] for (uint k = 0; k < 9u; ++k) {
-    vec3 chord = q[k % 3u] - p[k / 3u];
+  for (uint k = 0;;) {
+    vec3 chord = q[0] - p[0];
     bool apart = dot(chord, chord) > 0.0;  // else a corner of both
     float along = dot(chord, mean) - step.slack;
     float depth_a = depth_along(a, chord) + step.slack, depth_b = depth_along(b, -chord) + step.slack;
@@ -173,6 +186,9 @@ bool can_face(uint first, uint second, float sine) {
     float inverse = apart ? 1.0 / max(along, 1e-30) : 0.0;
     most_a = max(most_a, depth_a * inverse);
     most_b = max(most_b, depth_b * inverse);
+    rotate(q);
+    if (++k % 3u == 0u) rotate(p);
+    if (k == 9u) break;
   }
   bool a_faces = !a.asked || (behind_a && (!bounded || most_a >= a.least));
   bool b_faces = !b.asked || (behind_b && (!bounded || most_b >= b.least));

@@ -172,12 +172,14 @@ struct ScanConstants {
   uint limit_x, limit_y, limit_z;  // a total above its limit raises the overflow counter
 };
 
-// Arguments of prepare_dispatch: groups = ceil(counter * multiplier / (group_size)) unless the dispatch is not needed.
+// What an indirect dispatch is sized by (prepare.glsl): groups = ceil(counter * multiplier / divisor / group_size) unless
+// it is not needed.
 struct DispatchConstants {
   uint items_counter;
   uint items_multiplier;
   uint items_divisor;
   uint group_size;
+  uint least_items;    // not needed for fewer
   uint first_item;     // items before this one are not counted
   uint item_limit;     // at most this many items from first_item on
   uint queries_per_item;  // closest-point queries that an item asks: they are counted
@@ -186,6 +188,19 @@ struct DispatchConstants {
   uint entry_limit;    // the rounds that are recorded read no list beyond this
   uint argument;       // index of the three words to write
 };
+
+// Arguments of prepare_dispatches: which rows of the table of DispatchConstants, and what it does before.
+struct PrepareConstants {
+  uint first, count;
+  uint start;  // kStart*
+};
+MEDIAL_VK_GPU_CONSTANT kStartNothing = 0u;
+MEDIAL_VK_GPU_CONSTANT kStartChildren = 1u;  // the cells kept by the last level become the parents of the next
+MEDIAL_VK_GPU_CONSTANT kStartBelow = 2u;     // the same with the cells that a search has left
+MEDIAL_VK_GPU_CONSTANT kStartAgain = 3u;     // the cells left by the first search of a level are those of the second
+
+// Prefix sums of no more elements are made by one workgroup.
+MEDIAL_VK_GPU_CONSTANT kFewElements = 2048u;
 
 // Counters on the device.
 MEDIAL_VK_GPU_CONSTANT kNoCounter = 0xffffffffu;

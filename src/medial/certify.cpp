@@ -1,10 +1,14 @@
 #include "medial/certify.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "medial/near_triangles.h"
 #include "mesh/parallel_for.h"
 #include "mesh/solid.h"
 
@@ -31,35 +35,51 @@ double half_angle(const std::array<float, 3>& a, const std::array<float, 3>& b) 
   return std::atan2(norm(u - v), norm(u + v));
 }
 
+/// What a thread needs: the leaves of the tree near the spheres at hand, and the triangles near one of them.
+struct Surroundings {
+  Region region;
+  std::vector<std::uint32_t> nearby;
+};
+
 class Certifier {
  public:
   Certifier(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side, const VoxelGrid& grid)
       : bvh_(bvh),
+        triangles_(bvh),
         parameters_(parameters),
         grid_(grid),
         longest_(longest_side),
         epsilon_(parameters.epsilon * grid.voxel_size),
         rounding_(distance_rounding(bvh)) {}
 
+  /// Takes the tree's leaves near these spheres, for certify() of each.
+  void surround(const std::vector<MedialSphere>& spheres, std::span<const std::uint32_t> group, Surroundings& s) const {
+    const Point& centre = spheres[group[group.size() / 2]].centre;
+    double radius = 0;
+    for (const std::uint32_t i : group)
+      radius = std::max(radius, norm(spheres[i].centre - centre) + expected_radius(spheres[i]) + 2 * epsilon_);
+    triangles_.surround(centre, radius * (1 + 1e-9), s.region);
+  }
+
   /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
   /// (contacts of three sheets that nearly tie) double can.
-  bool certify_or_mend(MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
+  bool certify_or_mend(MedialSphere& s, Surroundings& around) const {
     const MedialSphere as_found = s;
-    if (certify(s, nearby)) return true;
+    if (certify(s, around)) return true;
     for (const MedialSphere& mended : narrowed(as_found)) {
       s = mended;
-      if (certify(s, nearby)) return true;
+      if (certify(s, around)) return true;
     }
     return false;
   }
 
-  /// Makes the sphere's numbers exact, with `nearby` as scratch memory; false if it fails a condition of the
-  /// certificate.
-  bool certify(MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
+  /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
+  bool certify(MedialSphere& s, Surroundings& around) const {
     if (!in_its_voxel(s)) return false;
     // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
-    const double expected = s.radius + 1e-5 * longest_, reach = expected + 2 * epsilon_;
-    bvh_.gather_within(s.centre, reach, nearby);
+    const double expected = expected_radius(s), reach = expected + 2 * epsilon_;
+    std::vector<std::uint32_t>& nearby = around.nearby;
+    triangles_.gather(around.region, s.centre, reach, nearby);
     BvhHit nearest = bvh_.closest_of(s.centre, nearby);
     if (!(nearest.squared_distance <= expected * expected)) {
       nearest = bvh_.closest(s.centre);
@@ -70,19 +90,21 @@ class Certifier {
     s.radius = distance - rounding_;
     const Point toward = (1 / distance) * (nearest.point - s.centre);
     const Point grown_centre = s.centre - epsilon_ * toward;
-    const BvhHit grown = bvh_.closest_of(grown_centre, nearby);
+    set_spokes(s, unit_float(toward));
     // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near
-    // is no nearer than that.
-    if (std::sqrt(grown.squared_distance) >= distance + epsilon_ - 4 * rounding_) return false;
-    const std::array<float, 3> a = unit_float(toward), beyond = unit_float(grown.point - grown_centre);
-    set_spokes(s, a);
-    if (tip_is_near(s, nearby) && is_salient(s)) return set_angle(s);
+    // is no nearer than that. The tip is asked first, as what is near to it is within the grown ball as a rule.
+    const bool near = tip_is_near(s, nearby);
+    if (!any_within(grown_centre, distance + epsilon_ - 4 * rounding_, nearby)) return false;
+    if (near && is_salient(s)) return set_angle(s);
     // Where many contacts tie (the centre of a sphere), the exact nearest one may lie between the two of the device.
-    s.spoke_b = beyond;
+    s.spoke_b = unit_float(bvh_.closest_of(grown_centre, nearby).point - grown_centre);
     return tip_is_near(s, nearby) && is_salient(s) && set_angle(s);
   }
 
  private:
+  // At most, if the device is right.
+  double expected_radius(const MedialSphere& s) const { return s.radius + 1e-5 * longest_; }
+
   struct End {
     Point point, toward;
     double distance;
@@ -139,10 +161,17 @@ class Certifier {
     s.spoke_b = unit_float(widen(b));
   }
 
+  // Is one of the nearby triangles closer to p than that? It comes first then: the next question is often about it too.
+  bool any_within(const Point& p, double radius, std::vector<std::uint32_t>& nearby) const {
+    const std::size_t found = bvh_.find_within(p, radius, nearby);
+    if (found == nearby.size()) return false;
+    std::swap(nearby.front(), nearby[found]);
+    return true;
+  }
+
   // Lemma 2.4: the tip of spoke b is within 2 epsilon of the boundary.
-  bool tip_is_near(const MedialSphere& s, const std::vector<std::uint32_t>& nearby) const {
-    const BvhHit nearest = bvh_.closest_of(s.centre + s.radius * widen(s.spoke_b), nearby);
-    return std::sqrt(nearest.squared_distance) < 2 * epsilon_ * (1 - 1e-6);
+  bool tip_is_near(const MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
+    return any_within(s.centre + s.radius * widen(s.spoke_b), 2 * epsilon_ * (1 - 1e-6), nearby);
   }
 
   bool is_salient(const MedialSphere& s) const {
@@ -151,10 +180,46 @@ class Certifier {
   }
 
   const Bvh& bvh_;
+  NearTriangles triangles_;
   const ExtractionParameters& parameters_;
   const VoxelGrid& grid_;
   double longest_, epsilon_, rounding_;
 };
+
+/// Spheres in cubes of two voxels along a side: neighbours, whose queries look at the same leaves.
+class NeighbourGroups {
+ public:
+  explicit NeighbourGroups(const std::vector<MedialSphere>& spheres) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(spheres.size());
+    for (const MedialSphere& s : spheres) keys.emplace_back(key_of(s), static_cast<std::uint32_t>(keys.size()));
+    std::ranges::sort(keys);
+    order_.reserve(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i == 0 || keys[i].first != keys[i - 1].first) begins_.push_back(i);
+      order_.push_back(keys[i].second);
+    }
+    begins_.push_back(keys.size());
+  }
+
+  std::size_t size() const { return begins_.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t group) const {
+    return std::span(order_).subspan(begins_[group], begins_[group + 1] - begins_[group]);
+  }
+
+ private:
+  static std::uint64_t key_of(const MedialSphere& s) {
+    std::uint64_t key = 0;
+    for (const std::uint32_t coordinate : s.voxel) key = key << 21 | coordinate >> 1;
+    return key;
+  }
+
+  std::vector<std::uint32_t> order_;  // indices of spheres, group by group
+  std::vector<std::size_t> begins_;   // of groups in order_, and its end
+};
+
+/// What a thread takes: enough that threads do not meet, little enough that none waits long for another at the end.
+constexpr std::size_t kGroupsAtOnce = 32;
 
 /// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
 /// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.
@@ -179,22 +244,25 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
   const Certifier certifier(bvh, parameters, longest_side, extraction.grid);
   std::vector<std::uint8_t> passed(spheres.size());
   const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-  const auto certify_part = [&](std::size_t part) {
-    std::vector<std::uint32_t> nearby;
-    for (std::size_t i = part * spheres.size() / count; i < (part + 1) * spheres.size() / count; ++i)
-      passed[i] = certifier.certify_or_mend(spheres[i], nearby) ? 1 : 0;
-  };
-  parallel_for(count, 1, certify_part);
+  const NeighbourGroups groups(spheres);
+  std::atomic<std::size_t> next = 0;
+  parallel_for(count, 1, [&](std::size_t) {
+    Surroundings around;
+    for (std::size_t first = next.fetch_add(kGroupsAtOnce); first < groups.size();
+         first = next.fetch_add(kGroupsAtOnce)) {
+      for (std::size_t g = first; g < std::min(first + kGroupsAtOnce, groups.size()); ++g) {
+        certifier.surround(spheres, groups[g], around);
+        for (const std::uint32_t i : groups[g]) passed[i] = certifier.certify_or_mend(spheres[i], around) ? 1 : 0;
+      }
+    }
+  });
 
-  CertifyReport report;
-  std::vector<MedialSphere> kept;
-  kept.reserve(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-    if (passed[i]) kept.push_back(spheres[i]);
   if (parameters.mode == Mode::kCertified) list_dropped(passed, extraction);
-  report.passed = kept.size();
-  report.rejected = spheres.size() - kept.size();
-  spheres = std::move(kept);
+  CertifyReport report;
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    if (passed[i] != 0) spheres[report.passed++] = spheres[i];
+  report.rejected = spheres.size() - report.passed;
+  spheres.resize(report.passed);
   extraction.counters.found -= report.rejected;
   extraction.counters.undecided += report.rejected;
   return report;

@@ -1,6 +1,7 @@
 #include "medial/extract.h"
 
 #include <algorithm>
+#include <future>
 #include <new>
 #include <utility>
 
@@ -38,14 +39,17 @@ Result<CertifiedExtraction> run_stages(const PreparedMesh& mesh, const Extractio
                                        const StageProgress& progress) {
   CertifiedExtraction out;
   Stopwatch stopwatch;
+  // While the device is at work the processors have time; not every piece of work keeps all of them busy.
+  constexpr std::uint32_t kLeafSize = 4;
+  std::future<Result<Bvh>> indexing = std::async(std::launch::async | std::launch::deferred,
+                                                 [&] { return Bvh::build(mesh.view(), kLeafSize, threads); });
   Result<Extraction> extraction = extract(mesh, parameters, backend, context, progress_of_stage(progress, "extract"));
   if (!extraction) return extraction.error();
   out.extraction = std::move(extraction).value();
   out.host_times.push_back({"extract", stopwatch.lap()});
 
   if (progress && !progress("certify", 0.0)) return interrupted();
-  constexpr std::uint32_t kLeafSize = 4;
-  const Result<Bvh> bvh = Bvh::build(mesh.view(), kLeafSize, threads);
+  const Result<Bvh> bvh = indexing.get();
   if (!bvh) return bvh.error();
   out.host_times.push_back({"index", stopwatch.lap()});
 

@@ -117,10 +117,10 @@ const std::vector<Layout>& shared_layouts() {
        sizeof(gpu::DispatchConstants),
        {MEDIAL_VK_MEMBER(DispatchConstants, items_counter), MEDIAL_VK_MEMBER(DispatchConstants, items_multiplier),
         MEDIAL_VK_MEMBER(DispatchConstants, items_divisor), MEDIAL_VK_MEMBER(DispatchConstants, group_size),
-        MEDIAL_VK_MEMBER(DispatchConstants, first_item), MEDIAL_VK_MEMBER(DispatchConstants, item_limit),
-        MEDIAL_VK_MEMBER(DispatchConstants, queries_per_item), MEDIAL_VK_MEMBER(DispatchConstants, list_counter),
-        MEDIAL_VK_MEMBER(DispatchConstants, first_entry), MEDIAL_VK_MEMBER(DispatchConstants, entry_limit),
-        MEDIAL_VK_MEMBER(DispatchConstants, argument)}},
+        MEDIAL_VK_MEMBER(DispatchConstants, least_items), MEDIAL_VK_MEMBER(DispatchConstants, first_item),
+        MEDIAL_VK_MEMBER(DispatchConstants, item_limit), MEDIAL_VK_MEMBER(DispatchConstants, queries_per_item),
+        MEDIAL_VK_MEMBER(DispatchConstants, list_counter), MEDIAL_VK_MEMBER(DispatchConstants, first_entry),
+        MEDIAL_VK_MEMBER(DispatchConstants, entry_limit), MEDIAL_VK_MEMBER(DispatchConstants, argument)}},
       {"SplitBall",
        sizeof(gpu::SplitBall),
        {MEDIAL_VK_MEMBER(SplitBall, high), MEDIAL_VK_MEMBER(SplitBall, middle), MEDIAL_VK_MEMBER(SplitBall, low)}},
@@ -191,6 +191,7 @@ TEST(GpuTypes, PushConstantsFitEveryDevice) {
   EXPECT_LE(sizeof(gpu::StepConstants), 128u);
   EXPECT_LE(sizeof(gpu::ScanConstants), 128u);
   EXPECT_LE(sizeof(gpu::DispatchConstants), 128u);
+  EXPECT_LE(sizeof(gpu::PrepareConstants), 128u);
 }
 
 // Structures in storage buffers that the table above forgets.

@@ -55,10 +55,15 @@ class Bvh {
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
   /// For several closest points near one another: leaf positions of all triangles within `radius` of `centre`, and of
-  /// some that are a little farther away, replace `positions`; closest_of() then asks no others.
+  /// some that are a little farther away, replace `positions`; closest_of() and find_within() then ask no others.
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
+  /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
+  void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
   /// As closest(), among the triangles at these leaf positions.
   BvhHit closest_of(const Point& p, const std::vector<std::uint32_t>& positions) const;
+  /// Index in `positions` of the first of these triangles that is closer to p than `radius` (positive), or their
+  /// number.
+  std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
   /// Is there a point of the mesh at a distance below `radius` from `centre`? Stops at the first.
   bool any_within(const Point& centre, double radius) const;
 

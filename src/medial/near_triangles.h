@@ -1,0 +1,45 @@
+// Which triangles are near a ball, for many balls beside each other: the tree is walked once for all of them, and its
+// triangles are then looked at four at a time, in float.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/bvh.h"
+
+namespace medial_vk {
+
+/// A ball, and the leaves of the tree that reach into it.
+struct Region {
+  Point centre = {0, 0, 0};
+  double radius = -1;
+  std::vector<std::uint32_t> leaves;
+};
+
+class NearTriangles {
+ public:
+  /// `bvh` outlives it.
+  explicit NearTriangles(const Bvh& bvh);
+
+  void surround(const Point& centre, double radius, Region& region) const;
+  /// As Bvh::gather_within(), in another order; quick where the ball lies in `region`.
+  void gather(const Region& region, const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
+
+ private:
+  static constexpr std::size_t kLanes = 4;
+  struct Query {
+    std::array<float, 3> centre;
+    float squared_limit;
+  };
+
+  std::array<float, 3> rounded(const Point& p) const;
+  unsigned lanes_near(const Query& query, std::size_t position) const;
+
+  const Bvh& bvh_;
+  Point origin_ = {0, 0, 0};
+  double scale_ = 1;
+  std::array<std::vector<float>, 9> corners_;  // by leaf position: x, y, z of the first corner, and so on
+};
+
+}  // namespace medial_vk

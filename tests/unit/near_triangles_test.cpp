@@ -1,0 +1,62 @@
+// What the certificate asks of triangles near a ball, against all triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "medial/near_triangles.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+Bvh tree_of(Mesh mesh, double scale, const Point& shift) {
+  for (Point& p : mesh.vertices)
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scale * p[axis] + shift[axis];
+  Result<Bvh> bvh = Bvh::build(test::view_of(mesh));
+  EXPECT_TRUE(bvh.ok());
+  return std::move(bvh).value();
+}
+
+/// Balls around points anywhere in the box, just large enough for some triangle, within a region and beside it.
+void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
+  const NearTriangles triangles(bvh);
+  const BvhBox& box = bvh.nodes().front().box;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> share(0, 1);
+  Region region;
+  std::vector<std::uint32_t> found;
+  for (int i = 0; i < 300; ++i) {
+    Point p;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      p[axis] = box.lower[axis] + share(random) * (box.upper[axis] - box.lower[axis]);
+    const double radius = std::sqrt(bvh.closest(p).squared_distance) * (1 + 1e-9 + 0.2 * share(random));
+    if (i % 3 == 0) triangles.surround(p, 1.5 * radius, region);
+    triangles.gather(region, p, radius, found);
+    std::ranges::sort(found);
+    std::vector<std::uint32_t> one(1);
+    for (one[0] = 0; one[0] < bvh.corners().size(); ++one[0]) {
+      const bool is_near = bvh.closest_of(p, one).squared_distance <= radius * radius;
+      EXPECT_TRUE(!is_near || std::ranges::binary_search(found, one[0]));
+      EXPECT_EQ(bvh.find_within(p, radius, one) == 0, std::sqrt(bvh.closest_of(p, one).squared_distance) < radius);
+    }
+    EXPECT_LT(found.size(), bvh.corners().size());
+  }
+}
+
+TEST(NearTriangles, NoneIsMissing) {
+  expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1, {0, 0, 0}), 1);
+}
+
+TEST(NearTriangles, NoneIsMissingFarFromTheOrigin) {
+  expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1, {1e6, -3e6, 2e5}), 2);
+}
+
+TEST(NearTriangles, NoneIsMissingOfTinyAndOfHugeMeshes) {
+  expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1e-15, {0, 0, 0}), 3);
+  expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1e20, {0, 0, 0}), 4);
+}
+
+}  // namespace
+}  // namespace medial_vk
