@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // Writes the kept children of parents whose lists are of clusters, with lists of triangles: those of the contacts'
-// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma J). One workgroup
+// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One workgroup
 // of eight lanes per child.
 #include "lanes.glsl"
 #include "step.glsl"

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses and Lemma J, for
+// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses and Lemma L, for
 // the ball that the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One
 // invocation per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
 // triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
@@ -204,7 +204,7 @@ void main() {
   bool is_first = begin == 0u, is_last = end >= parent.list_count;
   Marks before = Marks(uvec4(0u), vec4(0.0, 0.0, 0.0, 2.0), uvec2(kFarthestBits, 0u), kNoTriangle), marks;
   if (!is_first) before = Marks(counts[item], axes[item], nearest[item], kNoTriangle);
-  // Whether Lemma J may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
+  // Whether Lemma L may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
   // then the cell is marked once more without it, which is rare if only half of the promise is believed.
   float promise = parent.list_count < kWitnessSample ? front.distance : 0.5 * front.distance;
   Prism prism = prism_at(front.distance, is_first && is_last && clears_boundary(promise));

@@ -327,7 +327,7 @@ class Builder {
     return edges;
   }
 
-  // Lemma J. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
+  // Lemma L. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
   void measure_spreads() {
     out_.spreads.resize(order_.size());
     parallel_blocks(order_.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {

@@ -15,7 +15,7 @@ struct MeshLinks {
   std::vector<gpu::TriangleLinks> links;  // by position in `order`
   // By vertex: axis and half-angle of a cap that holds all spokes to it; then of arcs, to edges of untrusted triangles.
   std::vector<gpu::vec4> corners;
-  // By position: sine of an angle that no spoke to a point of the triangle is farther from its normal (Lemma J), not
+  // By position: sine of an angle that no spoke to a point of the triangle is farther from its normal (Lemma L), not
   // above 1; 1 also where nothing is known.
   std::vector<float> spreads;
 };

@@ -7,7 +7,7 @@
 // foot on the wrong side of an edge the two differ by no more than that: below 2e-6 for any query in the box.
 //
 // A triangle is four texels: (a, 1/|ab|^2) (b - a, 1/|ac|^2) (c - a, 1/|bc|^2) (unit normal, 0 if it is not trusted and
-// else 1 + the sine of how far spokes to the triangle may turn from it: Lemma J).
+// else 1 + the sine of how far spokes to the triangle may turn from it: Lemma L).
 // Inverse lengths of zero-length edges are 0.
 #ifndef MEDIAL_VK_CLOSEST_POINT_GLSL
 #define MEDIAL_VK_CLOSEST_POINT_GLSL

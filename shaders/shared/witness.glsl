@@ -45,7 +45,7 @@ bool touches_cube(Witness w, float d, vec3 h) {
   return touches;
 }
 
-// Lemma J: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
+// Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
 // of the list does not meet the boundary. If it lies outside, its list is of no use: nothing is looked for there.
 struct Prism {
   bool is_asked;

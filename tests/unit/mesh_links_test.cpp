@@ -1,4 +1,4 @@
-// How far spokes turn from the normals of the triangles that they end on (docs/theory.md, Lemma J).
+// How far spokes turn from the normals of the triangles that they end on (docs/theory.md, Lemma L).
 #include "mesh_links.h"
 
 #include <gtest/gtest.h>
