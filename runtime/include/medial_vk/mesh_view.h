@@ -16,8 +16,8 @@ enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
   /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
   kTrustedNormal = 1u << 0,
-  /// No other triangle meets it but in a vertex or an edge that they share by index. Helps where normals are not trusted;
-  /// says nothing of one that is.
+  /// No other triangle meets it but in a vertex or an edge that they share by index. It tells more where normals are
+  /// not trusted; of trusted ones it is part of what that means.
   kUncrossed = 1u << 1,
 };
 
