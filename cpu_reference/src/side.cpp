@@ -82,7 +82,7 @@ double Sides::slope_within(const Vector3d& p, double way) const {
 
 Sides::Known Sides::ask(const Vector3d& p, double empty, double tolerance) const {
   const double winding = winding_number(tree_, p, tolerance), reach = empty / 2;
-  const Known known = {p, reach, slope_within(p, reach), winding - tolerance, winding + tolerance};
+  Known known = {p, reach, slope_within(p, reach), winding - tolerance, winding + tolerance};
   memory_[next_++ % memory_.size()] = known;
   return known;
 }
