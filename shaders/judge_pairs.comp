@@ -31,6 +31,7 @@ layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 7) readonly buffer Verdicts { uint verdicts[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 #include "pair_queue.glsl"
+#include "foot_sides.glsl"
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
@@ -75,11 +76,12 @@ struct Remains {
 };
 
 // All lanes: the pairs that are queued, or, if the width is not wanted, until one is feasible.
-void rate_pairs(inout Remains r, float theta, float sine, float nearest_distance, bool wants_width, Box box) {
+void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float nearest_distance, bool wants_width, Box box) {
   for (;;) {
     Carrier a, b;
     bool feasible = take_pair(a, b);
     feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
+    if (kHasUntrusted) feasible = feasible && !is_outside_pair(a.name, b.name, cell, nearest_distance);
     r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
     r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
     if (!has_enough_queued() || (r.feasible && !wants_width)) return;
@@ -95,7 +97,7 @@ Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bo
   if (more) {
     for (;;) {
       fill_queue(theta, box);
-      rate_pairs(r, theta, sine_of_angle, nearest_distance, wants_width, box);
+      rate_pairs(r, cell, theta, sine_of_angle, nearest_distance, wants_width, box);
       if (!has_more_blocks() || (r.feasible && !wants_width)) break;
     }
   }

@@ -24,6 +24,7 @@ class Collector {
     Carrier face = blank(3);
     face.corners = {tree_.corner(t, 0), tree_.corner(t, 1), tree_.corner(t, 2)};
     if (trusted) {
+      face.vertices = cones_.corners(t);
       face.spokes = Cap::around(tree_.normal(t), kFaceAngle);
       span_by(face, tree_.normal(t), tree_.normal(t), 1);
     }
@@ -68,6 +69,8 @@ class Collector {
     const Vector3d& a = tree_.corner(t, k);
     const Vector3d& b = tree_.corner(t, (k + 1) % 3);
     edge.corners = {a, b, b};
+    const auto& corners = cones_.corners(t);
+    edge.vertices = {corners[k], corners[(k + 1) % 3], corners[(k + 1) % 3]};
     edge.spokes = spokes;
     if (!spokes.holds_all()) span_by(edge, tree_.normal(t), tree_.normal(other), 2);
     add(edge, foot_on_edge(a, b));

@@ -23,7 +23,7 @@ struct Carrier {
   double normal_cosine;  // of the greatest angle between one of them and an axis near all
   Cap spokes;
   const Arc* arc = nullptr;                            // that holds the spokes to an edge of an untrusted triangle
-  std::array<int, 3> vertices = {-1, -1, -1};          // of the mesh: the corners
+  std::array<int, 3> vertices = {-1, -1, -1};          // of the mesh: the corners of a face or an edge
   std::array<int, 3> triangle_corners = {-1, -1, -1};  // of the untrusted triangle that lists it; -1: of a trusted one
   double distance = 0;                                 // from the centre of the box
   Eigen::Vector3d direction;                           // to the nearest point; 0 at distance 0

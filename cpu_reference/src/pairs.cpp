@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "common_corner.h"
+
 namespace medial_vk::reference {
 namespace {
 
@@ -36,7 +38,7 @@ class PairTest {
 
   bool can_be_salient(const Carrier& a, const Carrier& b) const {
     return spokes_can_part(a.spokes, b.spokes) && !are_of_one_triangle(a, b) && can_face(a, b) && can_face(b, a) &&
-           !is_beaten_by_a_third(a, b);
+           can_be_at_corner(a, b) && !is_beaten_by_a_third(a, b);
   }
 
  private:
@@ -47,6 +49,12 @@ class PairTest {
   }
 
   bool can_face(const Carrier& a, const Carrier& b) const;
+
+  /// Lemma J, where a triangle that lists one of them is not trusted.
+  bool can_be_at_corner(const Carrier& a, const Carrier& b) const {
+    const bool asked = a.triangle_corners[0] >= 0 || b.triangle_corners[0] >= 0;
+    return !asked || can_meet_at_corner(a, b, angle_);
+  }
 
   // Lemma F, at the share for which the mean direction is nearest to the third's.
   bool is_beaten_by_a_third(const Carrier& a, const Carrier& b) const {

@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::size_t kMostEdges = 16384;  // that are looked at one by one
+
 /// One number per place: vertices at the same coordinates are the same.
 std::vector<int> places(const Mesh& mesh) {
   const auto key = [&](int v) {
@@ -50,50 +52,60 @@ Sides::Sides(const Mesh& mesh, const Tree& tree) : mesh_(mesh), tree_(tree) {
   Mesh rim;
   rim.vertices = mesh.vertices;
   for (const auto& [edge, times] : open_edges(mesh)) {
+    rim_.push_back({mesh.vertices[edge.first], mesh.vertices[edge.second], std::abs(times)});
     rim.triangles.emplace_back(edge.first, edge.second, edge.second);
     rim_length_ += std::abs(times) * (mesh.vertices[edge.first] - mesh.vertices[edge.second]).norm();
   }
-  if (!rim.triangles.empty()) rim_ = std::make_unique<Tree>(rim);
+  if (rim_.size() > kMostEdges) rim_tree_ = std::make_unique<Tree>(rim);
 }
 
 // Where there is no boundary point the winding number is smooth, and its gradient is that of the solid angle of a
-// surface spanning the open edges: by the law of Biot and Savart at most (length of the rim) / (4 pi d^2), d the
-// distance to the rim. A closed mesh has no rim, and the winding number is constant. `way` is the length of a segment
-// without boundary points from a point at distance `rim_gap` from the rim.
-double Sides::change(double way, double rim_gap) const {
-  if (!rim_) return 0;
-  const double gap = rim_gap - way;
-  return gap > 0 ? way * rim_length_ / (4 * std::numbers::pi * gap * gap) : std::numeric_limits<double>::infinity();
+// surface spanning the open edges: by the law of Biot and Savart at most the integral of 1 / 4 pi d^2 along the rim, d
+// the distance to it. Of an edge that is longer than pi times its distance no more than that counts (docs/theory.md,
+// "Outside"). A closed mesh has no rim, and the winding number is constant.
+double Sides::slope_within(const Vector3d& p, double way) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
+  if (rim_tree_) {
+    const double gap = rim_tree_->closest(p).distance - way;
+    return gap > 0 ? rim_length_ / (4 * kPi * gap * gap) : kInfinity;
+  }
+  double sum = 0;
+  for (const Edge& e : rim_) {
+    const Vector3d along = e.to - e.from;
+    const double size = along.norm(), share = std::clamp(along.dot(p - e.from) / along.squaredNorm(), 0.0, 1.0);
+    const double away = (e.from + share * along - p).norm(), gap = away - way;
+    if (!(gap > 0)) return kInfinity;
+    sum += e.times * std::min(size, kPi * away) / (gap * gap);
+  }
+  return (1 + 1e-9) * sum / (4 * kPi);
 }
 
 Sides::Known Sides::ask(const Vector3d& p, double empty, double tolerance) const {
-  const double winding = winding_number(tree_, p, tolerance);
-  const double rim_gap = rim_ ? rim_->closest(p).distance : 0;
-  Known known = {p, empty, rim_gap, winding - tolerance, winding + tolerance};
+  const double winding = winding_number(tree_, p, tolerance), reach = empty / 2;
+  Known known = {p, reach, slope_within(p, reach), winding - tolerance, winding + tolerance};
   memory_[next_++ % memory_.size()] = known;
   return known;
 }
 
-/// The tightest bounds at p that follow from a remembered point whose empty ball holds p.
+/// The tightest bounds at p that follow from a remembered point, if there are any.
 Sides::Known Sides::recall(const Vector3d& p) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Known best = {p, 0, 0, -kInfinity, kInfinity};
   for (const Known& known : memory_) {
     const double way = (known.point - p).norm();
-    if (way >= known.empty) continue;
-    const double more = change(way, known.rim_gap);
-    if (known.high - known.low + 2 * more >= best.high - best.low) continue;
-    best = {p, known.empty - way, rim_ ? known.rim_gap - way : 0, known.low - more, known.high + more};
+    if (!(way < known.reach)) continue;
+    const double more = way > 0 ? way * known.slope : 0;
+    if (known.high - known.low + 2 * more < best.high - best.low) best = {p, 0, 0, known.low - more, known.high + more};
   }
   return best;
 }
 
 Side Sides::of_ball(const Vector3d& centre, double radius, const Closest& nearest) const {
   if (nearest.distance <= radius) return Side::kMixed;
-  if (!rim_) return inside(centre, nearest) ? Side::kInside : Side::kOutside;
-  if (change(radius, rim_->closest(centre).distance) >= 0.5) return Side::kMixed;
+  if (rim_.empty()) return inside(centre, nearest) ? Side::kInside : Side::kOutside;
+  const double more = radius * slope_within(centre, radius);
+  if (!(more < 0.5)) return Side::kMixed;
   const auto side = [&](const Known& known) {
-    const double more = change(radius, known.rim_gap);
     if (known.low - more >= 0.5) return Side::kInside;
     return known.high + more < 0.5 ? Side::kOutside : Side::kMixed;
   };
@@ -105,9 +117,10 @@ Side Sides::of_ball(const Vector3d& centre, double radius, const Closest& neares
 }
 
 // A trusted triangle has the inside behind it and the outside in front, and the segment from p to the nearest point
-// meets the boundary there only. At an edge or a corner that argument needs all the neighbours: ask the winding number.
+// meets the boundary there only. At an edge or a corner that argument needs all the neighbours, and on an open mesh the
+// winding number changes along the segment: ask it.
 bool Sides::inside(const Vector3d& p, const Closest& nearest) const {
-  if (!mesh_.trusted.empty() && mesh_.trusted[nearest.triangle] && nearest.feature == Feature::kFace) {
+  if (rim_.empty() && !mesh_.trusted.empty() && mesh_.trusted[nearest.triangle] && nearest.feature == Feature::kFace) {
     return (p - nearest.point).dot(tree_.normal(nearest.triangle)) < 0;
   }
   Known known = recall(p);

@@ -201,6 +201,8 @@ void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step
 
 void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   begin_stage(r, "pairs");
+  if (mesh_->has_untrusted && step.depth > 0 && step.open_edges <= gpu::kMostOpenEdges)
+    run(r, side_kernel("measure_levels", {counters_.range(), level.cells->range()}), {gpu::kCells}, step);
   judge_pairs(r, step, level, 0, capacity_.cells);
   begin_stage(r, "search");
   run(r,

@@ -167,6 +167,8 @@ class Builder {
       const Triangle& t = triangle(p);
       out_.links[p] = {{t[0], t[1], t[2]}, 0, {gpu::kNoLink, gpu::kNoLink, gpu::kNoLink}, 0};
       if (!trusted || length(normals_[p]) == 0) distrust(p);
+      const bool uncrossed = !mesh_.flags.empty() && (mesh_.flags[order_[p]] & (kTrustedNormal | kUncrossed)) != 0;
+      if (uncrossed) out_.links[p].flags |= gpu::kLinkUncrossed;
     }
   }
 

@@ -1,7 +1,8 @@
-// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to I)?
+// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to J)?
 #ifndef MEDIAL_VK_CARRIER_PAIRS_GLSL
 #define MEDIAL_VK_CARRIER_PAIRS_GLSL
 #include "carriers.glsl"
+#include "common_corner.glsl"
 
 const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: docs/theory.md, "Rounding"
 
@@ -211,7 +212,8 @@ bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
 // May a pair that turns enough, and that no third carrier beats, hold the spokes?
 bool is_feasible_survivor(Carrier a, Carrier b, float theta, float sine, Box box) {
   return can_turn_between_normals(a.name, b.name, theta) && !share_triangle(a.name, b.name) &&
-         can_be_wide(a, b, sine, box) && can_face(a.name, b.name, sine);
+         can_be_wide(a, b, sine, box) && can_face(a.name, b.name, sine) &&
+         (!kHasUntrusted || can_meet_at_corner(a.name, b.name, sine));
 }
 
 #endif

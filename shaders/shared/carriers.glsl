@@ -78,16 +78,22 @@ Feature face_feature(TriangleTexels texels, uint flags, bool front, Box box) {
 
 vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
 
-// `neighbour`: the triangle across it, or, with `arc`, the row of that.
-Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, bool has_arc, Box box) {
-  vec3 a = corner_of(texels, k), e = corner_of(texels, k == 2u ? 0u : k + 1u) - a;
-  vec3 other = has_arc ? texels.normal.xyz : triangle_texel(4u * neighbour + 3u).xyz;
-  vec3 sum = texels.normal.xyz + other;
+// The spokes to an edge of a triangle with this normal: the middle of their arc and half of it. `neighbour`: the triangle
+// across it, or, with `has_arc`, the row of the arc.
+vec4 edge_arc(vec3 normal, uint neighbour, bool has_arc) {
+  vec3 other = has_arc ? normal : triangle_texel(4u * neighbour + 3u).xyz;
+  vec3 sum = normal + other;
   float size = length(sum);
   // Knife edges: the arc between opposite normals has no axis that float can tell.
-  vec4 arc = size > 0.05 ? vec4(sum / size, arcsine(min(1.0, 0.5 * length(texels.normal.xyz - other))) + kAngleSlack)
+  vec4 arc = size > 0.05 ? vec4(sum / size, arcsine(min(1.0, 0.5 * length(normal - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
   if (has_arc) arc = corner_cap(neighbour);
+  return arc;
+}
+
+Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, bool has_arc, Box box) {
+  vec3 a = corner_of(texels, k), e = corner_of(texels, k == 2u ? 0u : k + 1u) - a;
+  vec4 arc = edge_arc(texels.normal.xyz, neighbour, has_arc);
   float size_e = max(length(e), 1e-30);
   vec3 u = e / size_e;
   float tilt = 1.2e-7 / size_e, sway = tilt * length(box.centre - a);

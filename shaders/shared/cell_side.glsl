@@ -13,6 +13,7 @@ const float kSpill = 0.05;
 
 uint side_by_harnack(vec3 centre, float radius, float clearance) {
   float gap = clearance - radius;
+  if (gap <= 0.0) return kSideUnknown;
   float harnack = clearance * (clearance + radius) / (gap * gap);
   for (float tolerance = 0.2; tolerance > 0.01; tolerance *= 0.2) {
     // Not even a winding number of 0 or 1 could decide.
@@ -38,15 +39,16 @@ float change_within(float radius, float along, Closure closure) {
 // epsilon of its ball, too, where its lines may end.
 uint side_of_cell(vec3 centre, float clearance) {
   float radius = step.circumradius + step.epsilon;
-  if (clearance <= radius) return kSideUnknown;
+  if (clearance <= step.circumradius) return kSideUnknown;
   if (step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
-  Closure closure = closure_at(centre, radius);
+  bool asks_ball = clearance > radius;
+  Closure closure = closure_at(centre, asks_ball ? radius : step.circumradius);
   Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
   if (!w.complete) return kSideUnknown;
   vec3 g = abs(closure.gradient);
   float in_cell = change_within(step.circumradius, step.half_side * (g.x + g.y + g.z), closure);
   float in_ball = change_within(radius, radius * length(g), closure);
-  bool outside = w.number + w.bound + in_cell < 0.5, inside = w.number - w.bound - in_ball >= 0.5;
+  bool outside = w.number + w.bound + in_cell < 0.5, inside = asks_ball && w.number - w.bound - in_ball >= 0.5;
   return outside ? kSideOutside : inside ? kSideInside : kSideUnknown;
 }
 

@@ -43,7 +43,8 @@ vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
 
 // The gradient of the solid angle of a surface depends on its boundary alone (the law of Biot and Savart): it is at most
 // the integral of 1 / |x - l|^2 along the boundary. Its derivatives are at most that of 2 / |x - l|^3: the matrix of
-// second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3.
+// second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3. Of an edge at distance d that is longer than pi d, or
+// 2 d, no more than that counts (docs/theory.md, "Outside").
 Closure closure_at(vec3 p, float radius) {
   Closure sum = Closure(0.0, 0.0, 0.0, vec3(0.0), 0.0);
   uint count = step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
@@ -54,9 +55,10 @@ Closure closure_at(vec3 p, float radius) {
     sum.error += e.from.w * part.y;
     vec3 edge = e.to.xyz - e.from.xyz, v = p - e.from.xyz;
     float squared = dot(edge, edge);
-    float gap = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge) - radius - step.slack;
-    sum.slope += gap > 0.0 ? e.from.w * sqrt(squared) / (gap * gap) : 1e30;
-    sum.bend += gap > 0.0 ? e.from.w * sqrt(squared) / (gap * gap * gap) : 1e30;
+    float away = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge);
+    float gap = away - radius - step.slack, size = sqrt(squared), inverse = gap > 0.0 ? 1.0 / gap : 1e10;
+    sum.slope += e.from.w * min(size, 3.1415927 * (away + step.slack)) * inverse * inverse;
+    sum.bend += e.from.w * min(size, 2.0 * (away + step.slack)) * inverse * inverse * inverse;
     sum.gradient += e.from.w * pull_of_edge(e.from.xyz - p, e.to.xyz - p);
   }
   sum.error += 1.2e-7 * float(count);  // of the additions: terms are at most 1/2

@@ -12,9 +12,10 @@ float dismissal_angle(float nearest_distance) {
 const float kAxisSlack = 1e-6;
 
 // Whether a kept cell must ask on which side of the boundary it lies: its ball does not meet that, and no ancestor
-// knew.
+// knew. Inside must hold of what is within epsilon as well. On an open mesh a cell may be outside where that is not known.
 bool must_ask_side(uint flags, float nearest_distance) {
-  return (flags & kCellInside) == 0u && nearest_distance > step.circumradius + step.epsilon + step.slack;
+  float reach = step.circumradius + (step.open_edges == 0u ? step.epsilon : 0.0) + step.slack;
+  return (flags & kCellInside) == 0u && nearest_distance > reach;
 }
 
 #endif

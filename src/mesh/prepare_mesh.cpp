@@ -90,9 +90,10 @@ void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const S
     if (beside < -margin) ++report.faces_without;
     const Triangle& t = prepared.mesh.triangles[i];
     if (!intersections.known || intersections.crossed[i]) continue;
+    prepared.flags[i] = kUncrossed;
     if (!regular[t[0]] || !regular[t[1]] || !regular[t[2]]) continue;
     if (!(beside >= margin && beside < 1 - margin) || !has_accurate_normal(prepared.mesh, t)) continue;
-    prepared.flags[i] = kTrustedNormal;
+    prepared.flags[i] |= kTrustedNormal;
     ++report.trusted_triangles;
   }
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <numbers>
 #include <ostream>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -141,6 +142,80 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   const std::uint64_t visited =
       extraction.counters.found + extraction.counters.undecided + extraction.counters.proved_empty;
   EXPECT_LT(100 * extraction.counters.undecided, visited);
+}
+
+/// Numbers that every standard library draws alike.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  double operator()(double low, double high) { return low + (high - low) * 0x1p-32 * static_cast<double>(engine_()); }
+  std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(engine_() % n); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+std::uint32_t add_vertex(Mesh& mesh, const Point& near, double away, Random& random) {
+  Point p = near;
+  for (double& x : p) x += random(-away, away);
+  mesh.vertices.push_back(p);
+  return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+}
+
+/// Triangles that leave edges and vertices of the mesh, inwards and outwards, either way up.
+void add_fins(Mesh& mesh, std::size_t count, double size, Random& random) {
+  const std::size_t own = mesh.triangles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle from = mesh.triangles[random.below(own)];
+    Triangle fin = {from[0], from[1], add_vertex(mesh, mesh.vertices[from[0]], size, random)};
+    if (i % 3 == 0) fin[1] = add_vertex(mesh, mesh.vertices[from[0]], size, random);
+    if (i % 2 == 0) std::swap(fin[0], fin[1]);
+    mesh.triangles.push_back(fin);
+  }
+}
+
+/// Sheets around a vertex inside, some of them nearly flat: all sides of them are inside.
+void add_fan(Mesh& mesh, const Point& at, std::size_t count, double flatness, Random& random) {
+  mesh.vertices.push_back(at);
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  for (std::size_t i = 0; i <= count; ++i) add_vertex(mesh, at, 0.15, random);
+  for (std::uint32_t i = 1; i <= count + 1; ++i) {
+    Point& p = mesh.vertices[middle + i];
+    p[2] = at[2] + flatness * (p[2] - at[2]);
+  }
+  for (std::uint32_t i = 1; i <= count; ++i) mesh.triangles.push_back({middle, middle + i, middle + i + 1});
+}
+
+// Lemmas J and K: what leaves a vertex, and faces that are touched from outside.
+TEST(Dismissal, AtFinsAndFansLosesNoSalientSample) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Context context = test::make_context();
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Mesh mess = test::make_ellipsoid({0.6, 0.55, 0.5}, 10);
+    add_fins(mess, 14, 0.25, random);
+    for (int i = 0; i < 4; ++i) {
+      const Point at = {random(-0.3, 0.3), random(-0.3, 0.3), random(-0.3, 0.3)};
+      add_fan(mess, at, 3 + random.below(3), i % 2 == 0 ? 1 : 0.1, random);
+    }
+    if (seed == 2) mess.triangles.erase(mess.triangles.begin() + 7);
+    test::rotate(mess, {0.3, -0.5, 0.8}, 0.7);
+    const PreparedMesh mesh = test::prepare(mess);
+    ASSERT_FALSE(mesh.report.closed);
+    ASSERT_GT(mesh.report.non_manifold_edges, 5u);
+    for (const double angle : {0.4, 0.9}) {
+      const std::vector<MedialSample> samples = draw(mesh, angle, 1500);
+      ASSERT_EQ(samples.size(), 1500u);
+      ExtractionParameters parameters;
+      parameters.object_angle = angle;
+      parameters.resolution = 40;
+      const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
+      expect_none_lost(samples, extraction);
+      const ExtractionCounters& c = extraction.counters;
+      EXPECT_LT(100 * c.undecided, c.found + c.undecided + c.proved_empty) << c.undecided;
+    }
+  }
 }
 
 // The sampler itself, where everything is known: in a box the distance to the boundary is the least distance to a face,

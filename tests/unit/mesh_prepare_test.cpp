@@ -355,7 +355,7 @@ TEST(Prepare, MessIsNeverTrusted) {
     const bool at_corner = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
       return corner.mesh.vertices[v] == Point{1, 1, 1};
     });
-    EXPECT_EQ(corner.flags[i], at_corner ? 0 : kTrustedNormal);
+    EXPECT_EQ(corner.flags[i], at_corner ? kUncrossed : kUncrossed | kTrustedNormal);
   }
   const PreparedMesh cross = prepare(together(make_sphere(1, 500), moved(make_sphere(1, 500), {1.03, 0.02, 0.01})));
   EXPECT_GT(cross.report.intersecting_faces, 40u);

@@ -16,6 +16,9 @@ enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
   /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
   kTrustedNormal = 1u << 0,
+  /// No other triangle meets it but in a vertex or an edge that they share by index. It tells more where normals are
+  /// not trusted; of trusted ones it is part of what that means.
+  kUncrossed = 1u << 1,
 };
 
 /// A borrowed triangle mesh. Triangles are counter-clockwise seen from outside. No triangle may be degenerate, all
