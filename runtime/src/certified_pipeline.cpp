@@ -21,6 +21,11 @@ constexpr double kCellPerCluster = 1.0;
 // aim, no limit: a top cell that has more takes longer.
 constexpr double kCellsAtOnceOfCpu = 40000;
 
+// A solid keeps so many voxels per square of the resolution (measured: 1 to 3 at the finest level, twice that below
+// it). A buffer that overflows costs the whole piece of work; one that is fuller than a CPU should have it costs
+// nothing, and small pieces cost as many dispatches as large ones.
+constexpr double kMostKept = 6, kLikelyKept = 1.5;
+
 // How full the fullest buffer should be: neighbouring pieces of work hold similar amounts of medial surface, not equal
 // ones.
 constexpr double kFull = 0.6;
@@ -85,8 +90,9 @@ double CertifiedPipeline::aim() const {
 }
 
 std::uint32_t CertifiedPipeline::likely_chunk() const {
-  const double kept = 6.0 * parameters_.resolution * parameters_.resolution;
-  const double share = std::min(1.0, aim() / kFull * capacity_.cells / kept);
+  const double area = std::pow(parameters_.resolution, 2);
+  double share = std::min(1.0, capacity_.cells / (kMostKept * area));
+  if (context_->description.type == "cpu") share = std::min(share, kCellsAtOnceOfCpu / (kLikelyKept * area));
   return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
 }
 

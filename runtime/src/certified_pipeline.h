@@ -51,8 +51,7 @@ class CertifiedPipeline {
   }
   /// Share of the buffers that a piece of work should fill.
   double aim() const;
-  /// A first guess of how many top cells do so: a solid keeps some six voxels per square of the resolution (measured: 1
-  /// to 3 at the finest level, twice that below it).
+  /// A first guess of how many top cells do so.
   std::uint32_t likely_chunk() const;
   std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
   double cell_size(std::uint32_t level) const;

@@ -22,6 +22,12 @@ bool is_same(gpu::DispatchConstants a, const gpu::DispatchConstants& b) {
   return a.queries_per_item == 0 && std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
+// Where it is, or would be.
+std::size_t row_of(const gpu::DispatchConstants& wanted, const std::vector<gpu::DispatchConstants>& rows) {
+  const auto known = std::ranges::find_if(rows, [&](const auto& row) { return is_same(row, wanted); });
+  return static_cast<std::size_t>(known - rows.begin());
+}
+
 }  // namespace
 
 Status DispatchArguments::create(Arena& arena, const Buffer& counters, const StopWord& stop, bool is_stage) {
@@ -70,13 +76,14 @@ VkDeviceSize DispatchArguments::offset_of(Recorder& recorder, const gpu::Dispatc
 void DispatchArguments::note(const gpu::DispatchConstants& wanted) {
   if (is_stale_) batches_.emplace_back();
   is_stale_ = false;
-  std::vector<gpu::DispatchConstants>* rows = &batches_.back().rows;
-  auto row = std::ranges::find_if(*rows, [&](const auto& known) { return is_same(known, wanted); });
-  if (row == rows->end()) {
-    if (rows->size() == kMostInBatch) rows = &batches_.emplace_back().rows;
-    row = rows->insert(rows->end(), wanted);
+  std::size_t row = row_of(wanted, batches_.back().rows);
+  if (row == kMostInBatch) {
+    batches_.emplace_back();
+    row = 0;
   }
-  calls_.push_back({batches_.size() - 1, static_cast<std::size_t>(row - rows->begin())});
+  std::vector<gpu::DispatchConstants>& rows = batches_.back().rows;
+  if (row == rows.size()) rows.push_back(wanted);
+  calls_.push_back({batches_.size() - 1, row});
 }
 
 void DispatchArguments::record_batch(Recorder& recorder) {

@@ -1,6 +1,6 @@
-// A word that the device looks at before every dispatch of a recorded sequence: once the host raises it, the dispatches
-// that are left are empty (prepare.glsl). So a job stops within one dispatch, without round trips while it
-// runs.
+// A word that the device looks at whenever it sizes dispatches of a recorded sequence: once the host raises it, those
+// that are left are empty (prepare.glsl). So a job stops within the few dispatches that are sized together
+// (dispatch_arguments.h), without round trips while it runs.
 //
 // Host-coherent memory needs no flush, but Vulkan promises nothing about when a dispatch sees what the host writes
 // after the submission. Drivers show it at the next barrier; if one did not, the job would stop later, at the next
