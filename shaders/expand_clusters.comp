@@ -58,7 +58,8 @@ void main() {
   Witness front = witness_of(centre, nearest_of_cluster(centre, nearest[item].y, lane));
   Witness back =
       witness_of(centre, nearest_of_cluster(centre - step.circumradius * front.direction, counts[item].z, lane));
-  Prism prism = prism_at(front.distance, clears_boundary(uintBitsToFloat(nearest[item].x)));
+  bool is_inside = (state.w & kCellInside) != 0u;
+  Prism prism = prism_at(front.distance, is_inside && clears_boundary(uintBitsToFloat(nearest[item].x)));
   uint word_count = (parent.list_count + 31u) / 32u;
   uint base = 8u * parent.word_begin + (item % 8) * word_count;
   uint begin = step.first_entry == 0u ? 0u : counts[item].x;

@@ -94,7 +94,7 @@ void main() {
   uvec4 offset = offsets[item];
   if (lane == 0u) {
     cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, 0u, offset.y, total, offset.z,
-                           states[item].w, 0u, 0u, 0u, 0u);
+                           states[item].w, 0u, 0u, kNoTriangle, 0u);
     atomicMax(counters[kLongestCellList], total);
   }
   uint position = offset.y + place.x;

@@ -38,6 +38,11 @@ const float kAngleMargin = 0.05;
 const float kSettleMargin = 0.02;  // above the last level: what is given up is at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 
+// Of rounds over queued pairs that an invocation makes: some 60 iterations each where directions at corners are asked, 12
+// elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl). Cells with more pairs stay.
+const uint kMostRounds = kHasUntrusted ? 512u : 4096u;
+uint rounds = 0u;
+
 const float kParallel = 0.98;  // cosine above which aims at the same place count as one
 
 bool is_same(Aim a, Aim b) {
@@ -84,7 +89,8 @@ void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float neare
     if (kHasUntrusted) feasible = feasible && !is_outside_pair(a.name, b.name, cell, nearest_distance);
     r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
     r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
-    if (!has_enough_queued() || (r.feasible && !wants_width)) return;
+    r.decided = r.decided && ++rounds <= kMostRounds;
+    if (!has_enough_queued() || !r.decided || (r.feasible && !wants_width)) return;
   }
 }
 
@@ -98,7 +104,7 @@ Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bo
     for (;;) {
       fill_queue(theta, box);
       rate_pairs(r, cell, theta, sine_of_angle, nearest_distance, wants_width, box);
-      if (!has_more_blocks() || (r.feasible && !wants_width)) break;
+      if (!has_more_blocks() || !r.decided || (r.feasible && !wants_width)) break;
     }
   }
   r.width = -least_of_lanes(-r.width);

@@ -91,7 +91,7 @@ uint sides_seen(float depth, bool trusted) {
   return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
 }
 
-// What a walk over the entries of a list finds; the members of the same names above.
+// What a walk over the entries of a list finds: as in Counts, Axes and Nearest, and the partner.
 struct Marks {
   uvec4 count;
   vec4 axis;
@@ -164,6 +164,12 @@ bool is_so_of_any(bool mine) {
 #endif
 }
 
+// Does the witness have the centre behind it?
+bool is_behind(Witness w) {
+  vec4 normal = triangle_texel(4u * w.name + 3u);
+  return (sides_seen(w.distance * dot(w.direction, normal.xyz), normal.w > 0.5) & kSeenInFront) == 0u;
+}
+
 // What becomes of a child, once all contacts have been seen.
 void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, float nearest_distance, uvec4 count,
             float least_cosine) {
@@ -207,10 +213,14 @@ void main() {
   // Whether Lemma L may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
   // then the cell is marked once more without it, which is rare if only half of the promise is believed.
   float promise = parent.list_count < kWitnessSample ? front.distance : 0.5 * front.distance;
-  Prism prism = prism_at(front.distance, is_first && is_last && clears_boundary(promise));
+  bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
+  Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
+  uint walks = 0u;
   for (;;) {
     marks = mark(parent, child, centre, front, back, prism, begin, end, before);
-    bool is_wrong = prism.is_asked && !clears_boundary(uintBitsToFloat(marks.first.x));
+    ++walks;
+    bool is_inside = in_parent || (marks.count.w & kSeenInFront) == 0u;
+    bool is_wrong = prism.is_asked && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
     prism.is_asked = prism.is_asked && !is_wrong;
     if (!is_so_of_any(is_wrong)) break;
   }
@@ -219,7 +229,7 @@ void main() {
   nearest[item] = marks.first;
   if (!is_last) return;
   uint sampled = parent.list_count / (1u + parent.list_count / kWitnessSample);
-  if (child == 0u) COUNT_TESTS(8u * (parent.list_count + (seeks ? 2u : 1u) * sampled));
+  if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
   if (is_in_grid(coordinates))
     settle(item, centre, parent.flags, marks.first.y, uintBitsToFloat(marks.first.x), marks.count, marks.axis.w);
   else

@@ -21,6 +21,8 @@ uvec4 part(uint i, bool few) {
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
+  // After an overflow nobody has written elements: what is there may not tell of another. (All lanes read before any writes.)
+  if (counters[kOverflow] != 0u) return;
   uint count = counters[scan.items_counter] * scan.items_multiplier;
   bool few = count <= kFewElements;
   uint parts = few ? count : (count + 1023u) / 1024u;

@@ -56,7 +56,7 @@ Closure closure_at(vec3 p, float radius) {
     vec3 edge = e.to.xyz - e.from.xyz, v = p - e.from.xyz;
     float squared = dot(edge, edge);
     float away = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge);
-    float gap = away - radius - step.slack, size = sqrt(squared), inverse = gap > 0.0 ? 1.0 / gap : 1e10;
+    float gap = away - radius - step.slack, size = sqrt(squared), inverse = 1.0 / max(gap, 1e-10);
     sum.slope += e.from.w * min(size, 3.1415927 * (away + step.slack)) * inverse * inverse;
     sum.bend += e.from.w * min(size, 2.0 * (away + step.slack)) * inverse * inverse * inverse;
     sum.gradient += e.from.w * pull_of_edge(e.from.xyz - p, e.to.xyz - p);

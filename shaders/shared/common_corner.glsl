@@ -121,8 +121,11 @@ bool can_meet_edges(Leaving a, Leaving b, float sine) {
   Circle c = circle_across(a.along);
   c.arcs[0] = arc_of_spokes(c, a, 2.0 * error);
   c.arcs[1] = arc_where(c, -b.along, sine * sqrt(2.0 * max(0.0, apart - 2.0 * error)) - 2.0 * error);
-  float least = apart * cosine(min(b.arc.w, 3.1415926));
-  c.arcs[2] = arc_where(c, apart * b.arc.xyz + dot(a.along, b.arc.xyz) * b.along, least - 10.0 * error);
+  // Of an edge between two faces that nearly touch, nothing is known of the spokes: its arc has no middle across it.
+  bool has_arc = b.arc.w < 3.1415926;
+  vec3 condition = arc_where(c, apart * b.arc.xyz + dot(a.along, b.arc.xyz) * b.along,
+                             apart * cosine(min(b.arc.w, 3.1415926)) - 10.0 * error);
+  c.arcs[2] = has_arc ? condition : kWholeCircle;
   return have_common_point(c.arcs);
 }
 

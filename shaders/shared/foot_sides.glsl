@@ -3,8 +3,8 @@
 #ifndef MEDIAL_VK_FOOT_SIDES_GLSL
 #define MEDIAL_VK_FOOT_SIDES_GLSL
 
-// lavapipe's loop budget: of the entries that an invocation looks at here.
-const uint kMostCrossingTests = 8192u;
+// Of the entries that an invocation looks at here: lavapipe's loop budget (tree.glsl) is that of eight of them.
+const uint kMostCrossingTests = 1024u;
 uint crossing_tests = 0u;
 
 const int kUnclear = 2;
@@ -12,7 +12,7 @@ const int kUnclear = 2;
 // Where a segment from the origin to y crosses a triangle, given from there: how the winding number changes, -1 from
 // behind to in front; 0 if it does not cross. Unclear next to sides and ends.
 int crossing(TriangleTexels t, vec3 p, vec3 y) {
-  float clear = 4.0 * step.slack + tilt_of(t) * length(p), size = length(y);
+  float size = length(y), clear = 4.0 * step.slack + tilt_of(t) * (length(p) + size);
   float before = dot(t.normal.xyz, p), after = dot(t.normal.xyz, p - y);
   if (min(before, after) > clear || max(before, after) < -clear) return 0;
   vec3 corner[3] = vec3[3](p, p + t.ab.xyz, p + t.ac.xyz);

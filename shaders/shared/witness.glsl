@@ -46,7 +46,7 @@ bool touches_cube(Witness w, float d, vec3 h) {
 }
 
 // Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
-// of the list does not meet the boundary. If it lies outside, its list is of no use: nothing is looked for there.
+// of the list lies in the solid as a whole.
 struct Prism {
   bool is_asked;
   float spokes;  // no spoke of a point of the ball is longer, and some room
@@ -62,7 +62,7 @@ Prism prism_at(float distance, bool is_asked) { return Prism(is_asked, distance 
 
 // How far beside a triangle the points may be that have spokes to it.
 float room_beside(Prism prism, vec4 normal) {
-  float room = 4.0 * step.slack + prism.spokes * (normal.w - 1.0);
+  float room = 8.0 * step.slack + prism.spokes * (normal.w - 1.0);
   return prism.is_asked && normal.w > 0.5 ? room : 1e15;
 }
 
