@@ -169,15 +169,15 @@ Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& me
   return upload_open_edges(uploader, mesh);
 }
 
-Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& made) {
+Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links) {
   static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
-  has_untrusted = has_untrusted || std::ranges::any_of(made.links, [](const gpu::TriangleLinks& l) {
+  has_untrusted = has_untrusted || std::ranges::any_of(links.links, [](const gpu::TriangleLinks& l) {
                     return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
                   });
-  Status status = fill_texels(uploader, std::as_bytes(std::span(made.links)), "what triangles share with neighbours",
+  Status status = fill_texels(uploader, std::as_bytes(std::span(links.links)), "what triangles share with neighbours",
                               VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
   if (!status.ok()) return status;
-  return fill_texels(uploader, std::as_bytes(std::span(made.corners)), "spokes to vertices", kFloats, corner_cones,
+  return fill_texels(uploader, std::as_bytes(std::span(links.corners)), "spokes to vertices", kFloats, corner_cones,
                      corner_texels);
 }
 

@@ -82,8 +82,8 @@ Mesh make_box_with_cavity() {
 
 TEST(MeshLinks, NoSpokeTurnsFartherThanItsTriangleAllows) {
   // A coarse torus has reflex edges around its hole, a cavity nothing else.
-  for (const Mesh& mesh : {test::make_turned_torus(12, 9), test::bent(test::make_turned_torus(16, 11)),
-                           make_box_with_cavity()}) {
+  for (const Mesh& mesh :
+       {test::make_turned_torus(12, 9), test::bent(test::make_turned_torus(16, 11)), make_box_with_cavity()}) {
     const Turns turns = expect_spokes_within_spreads(mesh);
     EXPECT_GT(turns.slanted, 50);
     EXPECT_GT(turns.closest_call, 0.8);  // what it allows is not idle
@@ -92,7 +92,8 @@ TEST(MeshLinks, NoSpokeTurnsFartherThanItsTriangleAllows) {
 }
 
 TEST(MeshLinks, ConvexSolidsAreTouchedAlongNormalsOnly) {
-  for (const Mesh& mesh : {test::make_box({1, 0.7, 0.4}), test::make_sphere(1, 300), test::make_ellipsoid({1, 0.6, 0.35}, 30)}) {
+  for (const Mesh& mesh :
+       {test::make_box({1, 0.7, 0.4}), test::make_sphere(1, 300), test::make_ellipsoid({1, 0.6, 0.35}, 30)}) {
     const Normals normals = trusted_normals(mesh);
     const Bvh bvh = Bvh::build({mesh.vertices, mesh.triangles, normals.flags, true}).value();
     const MeshLinks links = make_mesh_links({mesh.vertices, mesh.triangles, normals.flags, true}, bvh.order());
@@ -110,8 +111,8 @@ TEST(MeshLinks, NothingIsSaidBesideTrianglesThatAreNotTrusted) {
   const Triangle& distrusted = mesh.triangles[0];
   for (std::size_t i = 0; i < links.spreads.size(); ++i) {
     const Triangle& t = mesh.triangles[bvh.order()[i]];
-    const bool beside = std::ranges::any_of(
-        t, [&](std::uint32_t v) { return std::ranges::find(distrusted, v) != distrusted.end(); });
+    const bool beside =
+        std::ranges::any_of(t, [&](std::uint32_t v) { return std::ranges::find(distrusted, v) != distrusted.end(); });
     if (beside) {
       EXPECT_EQ(links.spreads[i], 1.0f);
     } else {

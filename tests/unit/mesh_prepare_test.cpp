@@ -167,9 +167,7 @@ Mesh box_with_cut_side(const Point& middle, bool with_cap) {
     int at = 0;
     while (at < 3 && (t[at] > 1 || t[(at + 1) % 3] > 1)) ++at;
     const std::uint32_t a = t[at % 3], b = t[(at + 1) % 3], apex = t[(at + 2) % 3];
-    if (at == 3) {
-      triangles.push_back(t);
-    } else if (has_cap && with_cap) {
+    if (at == 3 || (has_cap && with_cap)) {
       triangles.push_back(t);
     } else {
       triangles.push_back({a, 8, apex});
