@@ -3,16 +3,39 @@
 # adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No names: an empty list.
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
+#   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
+# Of these, what is for lanes in lockstep and texel buffers is made again as NAME_with_8_0, NAME_with_64_0_8: all
+# specialization constants, from 0 on, have these values, and what they leave dead is gone. For drivers that take long to
+# translate.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
+# Sets in the caller: the name of `variant` with the constants `values` (comma-separated), and flags of spirv-opt.
+function(_medial_vk_freeze variant values name_out flags_out)
+  string(REPLACE "," ";" list "${values}")
+  set(id 0)
+  set(settings)
+  foreach(value ${list})
+    list(APPEND settings "${id}:${value}")
+    math(EXPR id "${id} + 1")
+  endforeach()
+  list(JOIN settings " " settings)
+  string(REPLACE "false" "0" words "${values}")
+  string(REPLACE "true" "1" words "${words}")
+  string(REPLACE "," "_" words "${words}")
+  set(${name_out} ${variant}_with_${words} PARENT_SCOPE)
+  set(${flags_out} "--set-spec-const-default-value=${settings}" --freeze-spec-const --fold-spec-const-op-composite
+      PARENT_SCOPE)
+endfunction()
+
 function(medial_vk_embed_shaders target shader_dir)
+  cmake_parse_arguments(arg "" "" "FROZEN" ${ARGN})
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${out})
   file(GLOB includes CONFIGURE_DEPENDS ${shader_dir}/shared/*.glsl ${shader_dir}/shared/*.h)
   set(spirv_files)
-  foreach(name ${ARGN})
+  foreach(name ${arg_UNPARSED_ARGUMENTS})
     set(source ${shader_dir}/${name}.comp)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     set(variants ${name})
@@ -42,6 +65,22 @@ function(medial_vk_embed_shaders target shader_dir)
         DEPENDS ${source} ${includes}
         COMMENT "Shader ${variant}" VERBATIM)
       list(APPEND spirv_files ${spv})
+    endforeach()
+    set(usual ${name})
+    if(uses_lanes)
+      set(usual ${name}_lockstep)
+    endif()
+    foreach(frozen ${arg_FROZEN})
+      if(frozen MATCHES "^${name}=(.*)$")
+        _medial_vk_freeze(${usual} ${CMAKE_MATCH_1} variant flags)
+        set(spv ${out}/${variant}.spv)
+        add_custom_command(OUTPUT ${spv}
+          COMMAND ${SPIRV_OPT} ${flags} -O ${out}/${usual}.spv.raw -o ${spv}
+          COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spv}
+          DEPENDS ${out}/${usual}.spv
+          COMMENT "Shader ${variant}" VERBATIM)
+        list(APPEND spirv_files ${spv})
+      endif()
     endforeach()
   endforeach()
   add_custom_command(OUTPUT ${out}/embedded_shaders.cpp

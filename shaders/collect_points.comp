@@ -1,10 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Packs the points of the finest voxels, and the voxels that stay undecided, in the order of the voxels' slots. Run
-// twice: to count what became of every voxel, then, after prefix sums, to write.
+// twice: to count what became of every voxel, then, after prefix sums, to write (step.second_task).
 #include "step.glsl"
-
-layout(constant_id = 1) const bool kWrite = false;
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) readonly buffer Verdicts { uint verdicts[]; };
@@ -26,7 +24,7 @@ UndecidedCell describe(uint index) {
 void main() {
   uint index = invocation_index();
   if (index >= counters[kVoxels]) return;
-  if (kWrite) {
+  if (step.second_task != 0u) {
     if (states[index].y != 0u) undecided[offsets[index].y] = describe(index);
     if (states[index].x != 0u) result[offsets[index].x] = points[index];
     return;

@@ -30,7 +30,7 @@ bool is_inside_by_tree(vec3 point) {
 }
 
 bool is_inside(vec3 point) {
-  if (step.open_edges > kMostOpenEdges) return is_inside_by_tree(point);
+  if (kIsOpen && step.open_edges > kMostOpenEdges) return is_inside_by_tree(point);
   Winding w = exact_winding_number(winding_number(point, kRoughTolerance), closure_at(point, 0.0));
   return w.complete && w.number - 0.5 >= w.bound;
 }

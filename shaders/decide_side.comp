@@ -12,8 +12,6 @@
 #include "tree.glsl"
 #include "winding.glsl"
 
-layout(constant_id = 1) const bool kTop = false;
-
 layout(set = 0, binding = 7) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "closure.glsl"
 #include "cell_side.glsl"
@@ -26,11 +24,12 @@ layout(set = 0, binding = 6) readonly buffer Asked { uint asked[]; };
 
 void main() {
   uint index = invocation_index();
-  if (index >= counters[kTop ? kParents : kAsked]) return;
-  uint item = kTop ? index : asked[index];
+  if (index >= counters[step.items_counter]) return;
+  bool is_top = step.items_counter == kParents;  // one program for both: a driver takes long to translate it
+  uint item = is_top ? index : asked[index];
   vec3 centre;
   float clearance;
-  if (kTop) {
+  if (is_top) {
     centre = cell_centre(top_cell_coordinates(step.first_item + item));
     clearance = uintBitsToFloat(states[item].w);
     states[item].w = 0u;

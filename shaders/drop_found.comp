@@ -1,11 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // After the search of a level: cells of voxels that have their point are done. What is left is subdivided, or stays
-// undecided: at the last level, or where subdividing is hopeless or settles nothing. After the first of two searches all
-// that is left is searched again.
+// undecided: at the last level, or where subdividing is hopeless or settles nothing. After the first of two searches
+// (step.second_task) all that is left is searched again.
 #include "step.glsl"
-
-layout(constant_id = 1) const bool kSearchedOnce = false;
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
@@ -19,7 +17,7 @@ void main() {
   bool found = (verdicts[voxel] & kVerdictFound) != 0u;
   bool done = found || (cells[index].flags & kCellEmpty) != 0u;
   uint flags = cells[index].flags;
-  bool last = !kSearchedOnce && (step.last_level != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
+  bool last = step.second_task == 0u && (step.last_level != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
   if (!done && last) atomicOr(verdicts[voxel], kVerdictUndecided);
   states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

@@ -4,12 +4,10 @@
 // The contact lists of the top cells, of clusters or of their triangles: Lemma A for the box of every cluster, with one
 // witness for the ball of the list, the known point that is nearest to the centre. One workgroup per cell. Each lane
 // looks at one run of clusters, so that lists are in order. Run twice: to count, then, without the cells that lie
-// outside, to write.
+// outside, to write (step.second_task).
 #include "lanes.glsl"
 #include "step.glsl"
 #include "witness.glsl"
-
-layout(constant_id = 1) const bool kWrite = false;
 
 layout(set = 0, binding = 0) readonly buffer Clusters { Cluster clusters[]; };
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
@@ -73,10 +71,11 @@ uint find_witness(vec3 centre) {
 void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x, lanes = gl_WorkGroupSize.x;
-  if (item >= counters[kParents] || (kWrite && states[item].x == 0u)) return;  // all lanes of the workgroup
+  bool writes = step.second_task != 0u;
+  if (item >= counters[kParents] || (writes && states[item].x == 0u)) return;  // all lanes of the workgroup
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);
   vec3 centre = cell_centre(coordinates);
-  uint name = kWrite ? nearest[item].y : find_witness(centre);
+  uint name = writes ? nearest[item].y : find_witness(centre);
   Witness witness = witness_at(name, clusters[name].point.xyz - centre);
   uint run = (step.cluster_count + lanes - 1u) / lanes;
   uint begin = min(step.cluster_count, lane * run), end = min(step.cluster_count, begin + run);
@@ -84,7 +83,7 @@ void main() {
   for (uint i = begin; i < end; ++i) count += is_listed(witness, centre, i) ? entries_of(i) : 0u;
   uvec2 place = count_all_lanes(count);
   uint total = place.y;
-  if (!kWrite) {
+  if (!writes) {
     if (lane != 0u) return;
     nearest[item].y = name;
     // decide_side.comp replaces the clearance by flags.

@@ -8,7 +8,7 @@
 // empty. If there is, no more are asked, and of those that no third carrier beats, the ones that tie nearest to the
 // boundary say where to aim.
 //
-// After the search (step.classifies), of cells that it leaves: what must a salient medial point that hides there be like
+// After the search (step.second_task), of cells that it leaves: what must a salient medial point that hides there be like
 // (docs/theory.md, "What undecided means")? The pairs that remain bound its width (equation 3.1), and the same test on the
 // part of the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. A voxel
 // takes the gravest reason and the largest width of its cells. Above the last level only cells that can hide nothing else
@@ -145,7 +145,7 @@ void classify(uint index, Cell cell, float d0, bool has_inner, Remains narrower,
 
 void main() {
   uint index = step.first_item + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  bool exists = index < counters[kCells], classifies = step.classifies != 0u;
+  bool exists = index < counters[kCells], classifies = step.second_task != 0u;
   Cell cell = cells[exists ? index : 0u];
   bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
   if (classifies) {

@@ -117,20 +117,23 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
       float d = length(v);
       vec3 g = v / max(d, 1e-30);
       vec3 h = step.touch_half_side * g;
-      bool contact = is_contact(front, d, g) && is_contact(back, d, g) && is_contact(prism, v, texels.normal) &&
-                     entry + k < end;
-      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h) &&
-                     touches_cube(prism, v, texels.normal);
+      bool near_front = is_contact(front, d, g), near_back = is_contact(back, d, g);
+      bool near_prism = is_contact(prism, v, texels.normal), is_entry = entry + k < end;
+      bool contact = near_front && near_back && near_prism && is_entry;
+      bool cube_by_front = touches_cube(front, d, h), cube_by_back = touches_cube(back, d, h);
+      bool cube_by_prism = touches_cube(prism, v, texels.normal);
+      bool touches = contact && cube_by_front && cube_by_back && cube_by_prism;
       uint bit = 1u << (entry + k & 31u);
       word |= contact ? bit : 0u;
       touch_word |= touches ? bit : 0u;
       bool trusted = texels.normal.w > 0.5;
       float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
-      marks.count.z = touches && cosine < marks.axis.w ? name : marks.count.z;
+      bool turned = cosine < marks.axis.w, is_turned = touches && turned;
+      marks.count.z = is_turned ? name : marks.count.z;
       // The sheet between the two is about (D_t - D_0) / |g_t - g_0| from the centre (equation 2.11).
       float turn = length(g - front.direction);
       float away = (d - front.distance) / max(turn, 1e-30) - 0.2 * step.circumradius * turn;
-      bool is_partner = touches && turn >= least_turn && away < partner_away;
+      bool turns = turn >= least_turn, is_closer = away < partner_away, is_partner = touches && turns && is_closer;
       marks.partner = is_partner ? name : marks.partner;
       partner_away = is_partner ? away : partner_away;
       marks.count.w |= touches && !trusted ? kSeenUntrusted : 0u;

@@ -1,10 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Writes the kept children and their contact lists, the contacts that touch the cube first: the prefix sums of `states`
-// say where.
+// say where. Where the children are finest voxels (step.second_task), each gets a slot of its own.
 #include "step.glsl"
-
-layout(constant_id = 1) const bool kFinest = false;  // the children are finest voxels: each gets a slot of its own
 
 layout(set = 0, binding = 0) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 1) readonly buffer ParentLists { uint parent_lists[]; };
@@ -24,11 +22,12 @@ layout(set = 0, binding = 13) writeonly buffer Reasons { uvec2 reasons[]; };
 
 void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching) {
   uvec3 c = child_coordinates(parent, item % 8);
-  uint voxel = kFinest ? offset.x : parent.voxel;
+  bool is_finest = step.second_task != 0u;
+  uint voxel = is_finest ? offset.x : parent.voxel;
   cells[offset.x] =
       Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, touching,
            counts[item].z, 0u);
-  if (kFinest) {
+  if (is_finest) {
     winners[voxel] = 0xffffffffu;
     verdicts[voxel] = 0u;
     reasons[voxel] = uvec2(0u);

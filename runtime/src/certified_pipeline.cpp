@@ -241,8 +241,8 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
   if (parameters_.kernel_times) {
-    const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
-    r.begin_stage(kernel.shader + variant + "@" + std::to_string(step.level));
+    const std::uint32_t variant = kernel.constants.empty() ? step.second_task : kernel.constants.front();
+    r.begin_stage(std::string(kernel.shader) + "/" + std::to_string(variant) + "@" + std::to_string(step.level));
   }
   ProgramKey key;
   key.shader = kernel.shader;
@@ -312,7 +312,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
   buffers.insert(buffers.begin(), {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree)});
   buffers.push_back(mesh_->open_edges.range());
-  return {shader, std::move(buffers), Reads::kTree};
+  return {shader, std::move(buffers), Reads::kTree, {mesh_->open_edge_count > 0 ? 1u : 0u}};
 }
 
 void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,

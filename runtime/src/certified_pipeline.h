@@ -99,9 +99,10 @@ class CertifiedPipeline {
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
   void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
+  void decide_sides(Recorder& r, gpu::StepConstants step, std::uint32_t counter, const Buffer& parents);
   void decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // The entries whose bits `first_masks` has come first in a child's list.
-  void write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& first_masks,
+  void write_children(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& first_masks,
                       bool finest);
   // One line for every cell. What it does not settle goes to `left`.
   void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
@@ -110,7 +111,7 @@ class CertifiedPipeline {
   void record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level);
-  void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left,
+  void record_drop_found(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left,
                          bool searched_once);
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
@@ -150,7 +151,7 @@ class CertifiedPipeline {
                   std::uint32_t entries = gpu::kEntriesPerRound);
   // A kernel that asks winding numbers: the tree comes before its own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
-  // The pairs of carriers of cells from `first` on, before their search or after (step.classifies).
+  // The pairs of carriers of cells from `first` on, before their search or after (step.second_task).
   void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,
                    std::uint32_t limit);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,

@@ -73,24 +73,20 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.voxels_per_cell *= 2;
   step.first_item = first;
   const std::uint32_t lanes = step.lists == gpu::kListsTriangles ? kGatherLanesForTriangles : kGatherLanes;
-  const Kernel count_entries{"gather_contacts",
-                             {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
-                              nearest_.range(), cells_[0].range(), lists_[0].range()},
-                             Reads::kNoMesh,
-                             {0},
-                             lanes,
-                             Lanes::kEight};
-  Kernel write_entries = count_entries;
-  write_entries.constants = {1};
+  const Kernel gather{"gather_contacts",
+                      {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
+                       nearest_.range(), cells_[0].range(), lists_[0].range()},
+                      Reads::kNoMesh,
+                      {},
+                      lanes,
+                      Lanes::kEight};
   const Extent groups{gpu::kParents, lanes};
-  run(r, count_entries, groups, step);
-  Kernel side = side_kernel("decide_side",
-                            {counters_.range(), cells_[0].range(), nearest_.range(), states_.range(), asked_.range()});
-  side.constants = {1};
-  run(r, side, {gpu::kParents}, step);
+  run(r, gather, groups, step);
+  decide_sides(r, step, gpu::kParents, cells_[0]);
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
-  run(r, write_entries, groups, step);
+  step.second_task = 1;
+  run(r, gather, groups, step);
   arguments_.start(r, gpu::kStartChildren);
 }
 
@@ -131,25 +127,31 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   write_children(r, step, level, touch_masks_, finest);
 }
 
-void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
-                                                   const LevelBuffers& level) {
+// Of top cells, all of them (kParents), or of the children that ask (kAsked).
+void CertifiedPipeline::decide_sides(Recorder& r, gpu::StepConstants step, std::uint32_t counter,
+                                     const Buffer& parents) {
+  step.items_counter = counter;
   run(r,
       side_kernel("decide_side",
-                  {counters_.range(), level.parents->range(), nearest_.range(), states_.range(), asked_.range()}),
-      {gpu::kAsked}, step);
+                  {counters_.range(), parents.range(), nearest_.range(), states_.range(), asked_.range()}),
+      {counter}, step);
+}
+
+void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
+                                                   const LevelBuffers& level) {
+  decide_sides(r, step, gpu::kAsked, *level.parents);
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
 }
 
-void CertifiedPipeline::write_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
+void CertifiedPipeline::write_children(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
                                        const Buffer& first_masks, bool finest) {
+  step.second_task = finest ? 1 : 0;
   run_rounds(r,
              {"write_children",
               {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
                first_masks.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
-               level.lists->range(), counts_.range(), winners_.range(), verdicts_.range(), reasons_.range()},
-              Reads::kNoMesh,
-              {finest ? 1u : 0u}},
+               level.lists->range(), counts_.range(), winners_.range(), verdicts_.range(), reasons_.range()}},
              {gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step);
   arguments_.counters_change();  // the longest list
 }
@@ -274,7 +276,7 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   const bool some_settle = step.settles != 0u || (step.depth >= gpu::kBoundaryDepth && mesh_->has_untrusted);
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
-  step.classifies = 1;
+  step.second_task = 1;
   // Where little is subdivided these are many, with long lists; a stop waits for one block. Deeper they are few, and
   // most blocks would be empty: there each is as large as all before it.
   constexpr uint kBlock = 4096;
@@ -286,15 +288,11 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   }
 }
 
-void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
+void CertifiedPipeline::record_drop_found(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
                                           const Buffer& left, bool searched_once) {
   const Extent cells{gpu::kCells};
-  run(r,
-      {"drop_found",
-       {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()},
-       Reads::kNoMesh,
-       {searched_once ? 1u : 0u}},
-      cells, step);
+  step.second_task = searched_once ? 1 : 0;
+  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, step);
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
@@ -303,15 +301,14 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
 
 void CertifiedPipeline::record_collection(Recorder& r) {
   begin_stage(r, "flux");
-  const gpu::StepConstants step = level_constants(coarse_levels_);
-  Kernel collect{"collect_points",
-                 {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
-                  result_.range(), cells_[2].range(), reasons_.range(), undecided_.range()},
-                 Reads::kNoMesh,
-                 {0}};
+  gpu::StepConstants step = level_constants(coarse_levels_);
+  const Kernel collect{"collect_points",
+                       {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(),
+                        voxel_points_.range(), result_.range(), cells_[2].range(), reasons_.range(),
+                        undecided_.range()}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
-  collect.constants = {1};
+  step.second_task = 1;
   run(r, collect, {gpu::kVoxels}, step);
   for (uint first = 0; first < capacity_.cells; first += capacity_.flux_block) record_flux(r, first);
 }

@@ -62,7 +62,7 @@ class Context::Impl {
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
-  const EmbeddedShader* shader(const std::string& name) const;
+  const EmbeddedShader* shader(const ProgramKey& key) const;
   Result<OwnedProgram> build_program(const ProgramKey& key) const;
 
   bool owns_device_ = true;  // false: the host does, and the instance

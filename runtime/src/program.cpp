@@ -139,13 +139,20 @@ void ProgramDeleter::operator()(Program* program) const {
   delete program;
 }
 
-const EmbeddedShader* Context::Impl::shader(const std::string& name) const {
-  const EmbeddedShader* extra = find_shader(extra_shaders, name);
-  return extra != nullptr ? extra : find_shader(embedded_shaders(), name);
+const EmbeddedShader* Context::Impl::shader(const ProgramKey& key) const {
+  // With its constants set by the build, or to be set by the driver.
+  std::string frozen = key.shader + "_with_" + std::to_string(key.workgroup_size);
+  for (const std::uint32_t value : key.constants) frozen += "_" + std::to_string(value);
+  for (const std::string& name : {frozen, key.shader}) {
+    for (const std::span<const EmbeddedShader> shaders : {extra_shaders, embedded_shaders()}) {
+      if (const EmbeddedShader* found = find_shader(shaders, name); found != nullptr) return found;
+    }
+  }
+  return nullptr;
 }
 
 Result<OwnedProgram> Context::Impl::build_program(const ProgramKey& key) const {
-  const EmbeddedShader* found = shader(key.shader);
+  const EmbeddedShader* found = shader(key);
   if (found == nullptr) return Error{ErrorCode::kInternal, "there is no shader named \"" + key.shader + "\""};
   if (const Status fits = check_limits(limits, key); !fits.ok()) return fits.error();
 
@@ -169,7 +176,7 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
     if (!programs_.contains(key)) missing.push_back(&key);
   // The largest first: they take the longest.
   const auto size = [this](const ProgramKey* key) {
-    const EmbeddedShader* found = shader(key->shader);
+    const EmbeddedShader* found = shader(*key);
     return found != nullptr ? found->words.size() : 0;
   };
   std::ranges::stable_sort(missing, std::greater<>{}, size);

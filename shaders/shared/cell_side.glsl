@@ -40,7 +40,7 @@ float change_within(float radius, float along, Closure closure) {
 uint side_of_cell(vec3 centre, float clearance) {
   float radius = step.circumradius + step.epsilon;
   if (clearance <= step.circumradius) return kSideUnknown;
-  if (step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
+  if (kIsOpen && step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
   bool asks_ball = clearance > radius;
   Closure closure = closure_at(centre, asks_ball ? radius : step.circumradius);
   Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);

@@ -19,6 +19,13 @@ struct TriangleTexels {
   vec4 normal;
 };
 
+// Is the foot of the perpendicular on the right side of all edges? e and f: the point from a and from b.
+bool projects_inside(vec3 e, vec3 f, vec3 bc, TriangleTexels t) {
+  bool in_ab = dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0, in_ac = dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0;
+  bool in_bc = dot(cross(bc, f), t.normal.xyz) > 0.0;
+  return in_ab && in_ac && in_bc;
+}
+
 // The vector from p to the nearest point of the triangle.
 vec3 vector_to_triangle(vec3 p, TriangleTexels t) {
   vec3 e = p - t.a.xyz;
@@ -32,9 +39,8 @@ vec3 vector_to_triangle(vec3 p, TriangleTexels t) {
   float d_bc = dot(to_bc, to_bc);
   vec3 best = d_ac < d_ab ? to_ac : to_ab;
   best = d_bc < min(d_ab, d_ac) ? to_bc : best;
-  bool inside = dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0 && dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0 &&
-                dot(cross(bc, f), t.normal.xyz) > 0.0;
-  return inside ? -dot(e, t.normal.xyz) * t.normal.xyz : best;
+  vec3 to_plane = -dot(e, t.normal.xyz) * t.normal.xyz;
+  return projects_inside(e, f, bc, t) ? to_plane : best;
 }
 
 float squared_distance_to_triangle(vec3 p, TriangleTexels t) {
@@ -45,10 +51,8 @@ float squared_distance_to_triangle(vec3 p, TriangleTexels t) {
   vec3 to_ac = clamp(dot(e, t.ac.xyz) * t.ab.w, 0.0, 1.0) * t.ac.xyz - e;
   vec3 to_bc = clamp(dot(f, bc) * t.ac.w, 0.0, 1.0) * bc - f;
   float edges = min(min(dot(to_ab, to_ab), dot(to_ac, to_ac)), dot(to_bc, to_bc));
-  bool inside = dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0 && dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0 &&
-                dot(cross(bc, f), t.normal.xyz) > 0.0;
-  float height = dot(e, t.normal.xyz);
-  return inside ? height * height : edges;
+  float height = dot(e, t.normal.xyz), plane = height * height;
+  return projects_inside(e, f, bc, t) ? plane : edges;
 }
 
 #endif

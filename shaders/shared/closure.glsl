@@ -10,6 +10,8 @@ const float kSumRounding = 1e-4;  // of the sum of solid angles in a walk of the
 // which Vulkan allows 4096 units in the last place.
 const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 
+layout(constant_id = 1) const bool kIsOpen = true;  // false: the mesh has no open edges
+
 struct Closure {
   float number;  // winding number of the triangles that close the mesh
   float error;   // of it, up to a whole number
@@ -47,7 +49,7 @@ vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
 // 2 d, no more than that counts (docs/theory.md, "Outside").
 Closure closure_at(vec3 p, float radius) {
   Closure sum = Closure(0.0, 0.0, 0.0, vec3(0.0), 0.0);
-  uint count = step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
+  uint count = kIsOpen && step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
   for (uint i = 0u; i < count; ++i) {
     OpenEdge e = open_edges[i];
     vec2 part = winding_of_closing_triangle(p, e);

@@ -155,7 +155,7 @@ struct StepConstants {
   uint lists;                   // kLists*: what the parents' lists hold
   uint clusters_per_round;      // entries of such lists that are expanded in one dispatch
   uint lines_per_cell;          // seeds that are proposed for a cell
-  uint classifies;              // 1: pairs are asked after the search, not before
+  uint second_task;             // 1: kernels that have two tasks do their second
 };
 
 MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;

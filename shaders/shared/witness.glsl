@@ -34,15 +34,16 @@ Witness witness_at(uint name, vec3 v) {
 // of it? Asked of squares: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
 bool is_contact(Witness w, float d, vec3 g) {
   float excess = d - w.clear_distance;
-  return excess <= 0.0 || excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
+  bool near = excess <= 0.0, turned = excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
+  return near || turned;
 }
 
 // Lemma A for the cube, h = g times half its side: at some corner x_k, D - g.x_k <= dist(x_k, witness).
 bool touches_cube(Witness w, float d, vec3 h) {
   float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
-  bool touches = false;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) touches = touches || w.to_corner[k] + dot(h, corner_sign(k)) >= limit;
-  return touches;
+  float most = -1.0;
+  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, w.to_corner[k] + dot(h, corner_sign(k)));
+  return most >= limit;
 }
 
 // Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball

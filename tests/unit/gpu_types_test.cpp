@@ -106,7 +106,7 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(StepConstants, lists),
         MEDIAL_VK_MEMBER(StepConstants, clusters_per_round),
         MEDIAL_VK_MEMBER(StepConstants, lines_per_cell),
-        MEDIAL_VK_MEMBER(StepConstants, classifies)}},
+        MEDIAL_VK_MEMBER(StepConstants, second_task)}},
       {"ScanConstants",
        sizeof(gpu::ScanConstants),
        {MEDIAL_VK_MEMBER(ScanConstants, items_counter), MEDIAL_VK_MEMBER(ScanConstants, items_multiplier),
