@@ -242,7 +242,8 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   if (arguments_.plans()) return;
   if (parameters_.kernel_times) {
     const std::uint32_t variant = kernel.constants.empty() ? step.second_task : kernel.constants.front();
-    r.begin_stage(std::string(kernel.shader) + "/" + std::to_string(variant) + "@" + std::to_string(step.level));
+    const std::string suffix = variant > 0 || !kernel.constants.empty() ? "/" + std::to_string(variant) : "";
+    r.begin_stage(kernel.shader + suffix + "@" + std::to_string(step.level));
   }
   ProgramKey key;
   key.shader = kernel.shader;
