@@ -5,8 +5,8 @@
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
 # Of these, what is for lanes in lockstep and texel buffers is made again as NAME_with_8_0, NAME_with_64_0_8: all
-# specialization constants, from 0 on, have these values, and what they leave dead is gone. For drivers that take long to
-# translate.
+# specialization constants, from 0 on, have these values (bools: false or true), and what they leave dead is gone. For
+# drivers that take long to translate.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
@@ -31,6 +31,12 @@ endfunction()
 
 function(medial_vk_embed_shaders target shader_dir)
   cmake_parse_arguments(arg "" "" "FROZEN" ${ARGN})
+  foreach(frozen ${arg_FROZEN})
+    string(REGEX REPLACE "=.*" "" name ${frozen})
+    if(NOT name IN_LIST arg_UNPARSED_ARGUMENTS)
+      message(FATAL_ERROR "There is no shader ${name} to set constants of")
+    endif()
+  endforeach()
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${out})
   file(GLOB includes CONFIGURE_DEPENDS ${shader_dir}/shared/*.glsl ${shader_dir}/shared/*.h)
@@ -62,6 +68,7 @@ function(medial_vk_embed_shaders target shader_dir)
                 -o ${spv}.raw ${source}
         COMMAND ${SPIRV_OPT} -O ${spv}.raw -o ${spv}
         COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spv}
+        BYPRODUCTS ${spv}.raw
         DEPENDS ${source} ${includes}
         COMMENT "Shader ${variant}" VERBATIM)
       list(APPEND spirv_files ${spv})

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Drops the cells that lie outside, and marks those that lie inside: their descendants need not ask again. Children
-// that are kept know the distance of their centre to the boundary; top cells know a lower bound of it. Children that do
+// that are kept know the distance of their centre to the boundary; top cells (step.second_task), a lower bound of it. Children that do
 // not know their side come packed (dismiss_cells.comp), so that neighbouring invocations have equal work.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -24,8 +24,8 @@ layout(set = 0, binding = 6) readonly buffer Asked { uint asked[]; };
 
 void main() {
   uint index = invocation_index();
-  if (index >= counters[step.items_counter]) return;
-  bool is_top = step.items_counter == kParents;  // one program for both: a driver takes long to translate it
+  bool is_top = step.second_task != 0u;
+  if (index >= counters[is_top ? kParents : kAsked]) return;
   uint item = is_top ? index : asked[index];
   vec3 centre;
   float clearance;

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // After the search of a level: cells of voxels that have their point are done. What is left is subdivided, or stays
-// undecided: at the last level, or where subdividing is hopeless or settles nothing. After the first of two searches
-// (step.second_task) all that is left is searched again.
+// undecided: at the last level, or where subdividing is hopeless or settles nothing. Where another search of the
+// level follows (step.second_task), all that is left goes there.
 #include "step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };

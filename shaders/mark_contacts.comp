@@ -128,12 +128,13 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
       touch_word |= touches ? bit : 0u;
       bool trusted = texels.normal.w > 0.5;
       float cosine = trusted ? dot(texels.normal.xyz, front_normal) : -2.0;
-      bool turned = cosine < marks.axis.w, is_turned = touches && turned;
-      marks.count.z = is_turned ? name : marks.count.z;
+      bool is_lesser = cosine < marks.axis.w, is_least = touches && is_lesser;
+      marks.count.z = is_least ? name : marks.count.z;
       // The sheet between the two is about (D_t - D_0) / |g_t - g_0| from the centre (equation 2.11).
       float turn = length(g - front.direction);
       float away = (d - front.distance) / max(turn, 1e-30) - 0.2 * step.circumradius * turn;
-      bool turns = turn >= least_turn, is_closer = away < partner_away, is_partner = touches && turns && is_closer;
+      bool turns_enough = turn >= least_turn, is_closer = away < partner_away;
+      bool is_partner = touches && turns_enough && is_closer;
       marks.partner = is_partner ? name : marks.partner;
       partner_away = is_partner ? away : partner_away;
       marks.count.w |= touches && !trusted ? kSeenUntrusted : 0u;

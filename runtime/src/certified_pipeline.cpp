@@ -241,9 +241,9 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
   if (parameters_.kernel_times) {
-    const std::uint32_t variant = kernel.constants.empty() ? step.second_task : kernel.constants.front();
-    const std::string suffix = variant > 0 || !kernel.constants.empty() ? "/" + std::to_string(variant) : "";
-    r.begin_stage(kernel.shader + suffix + "@" + std::to_string(step.level));
+    const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
+    const std::string task = step.second_task == 0 ? "" : "/second";
+    r.begin_stage(kernel.shader + variant + task + "@" + std::to_string(step.level));
   }
   ProgramKey key;
   key.shader = kernel.shader;

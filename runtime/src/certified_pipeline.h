@@ -99,7 +99,7 @@ class CertifiedPipeline {
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
   void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
-  void decide_sides(Recorder& r, gpu::StepConstants step, std::uint32_t counter, const Buffer& parents);
+  void decide_sides(Recorder& r, const gpu::StepConstants& step, std::uint32_t counter, const Buffer& parents);
   void decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // The entries whose bits `first_masks` has come first in a child's list.
   void write_children(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& first_masks,
@@ -111,7 +111,7 @@ class CertifiedPipeline {
   void record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level);
-  void record_drop_found(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left,
+  void record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, const Buffer& left,
                          bool searched_once);
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);

@@ -82,10 +82,10 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
                       Lanes::kEight};
   const Extent groups{gpu::kParents, lanes};
   run(r, gather, groups, step);
+  step.second_task = 1;
   decide_sides(r, step, gpu::kParents, cells_[0]);
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
-  step.second_task = 1;
   run(r, gather, groups, step);
   arguments_.start(r, gpu::kStartChildren);
 }
@@ -127,10 +127,9 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   write_children(r, step, level, touch_masks_, finest);
 }
 
-// Of top cells, all of them (kParents), or of the children that ask (kAsked).
-void CertifiedPipeline::decide_sides(Recorder& r, gpu::StepConstants step, std::uint32_t counter,
+// Of the children that ask (kAsked), or, as its second task, of all top cells (kParents).
+void CertifiedPipeline::decide_sides(Recorder& r, const gpu::StepConstants& step, std::uint32_t counter,
                                      const Buffer& parents) {
-  step.items_counter = counter;
   run(r,
       side_kernel("decide_side",
                   {counters_.range(), parents.range(), nearest_.range(), states_.range(), asked_.range()}),
@@ -288,11 +287,12 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   }
 }
 
-void CertifiedPipeline::record_drop_found(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
+void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
                                           const Buffer& left, bool searched_once) {
   const Extent cells{gpu::kCells};
-  step.second_task = searched_once ? 1 : 0;
-  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, step);
+  gpu::StepConstants drop = step;
+  drop.second_task = searched_once ? 1 : 0;
+  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, drop);
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);

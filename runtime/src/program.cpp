@@ -143,8 +143,8 @@ const EmbeddedShader* Context::Impl::shader(const ProgramKey& key) const {
   // With its constants set by the build, or to be set by the driver.
   std::string frozen = key.shader + "_with_" + std::to_string(key.workgroup_size);
   for (const std::uint32_t value : key.constants) frozen += "_" + std::to_string(value);
-  for (const std::string& name : {frozen, key.shader}) {
-    for (const std::span<const EmbeddedShader> shaders : {extra_shaders, embedded_shaders()}) {
+  for (const std::span<const EmbeddedShader> shaders : {extra_shaders, embedded_shaders()}) {
+    for (const std::string& name : {frozen, key.shader}) {
       if (const EmbeddedShader* found = find_shader(shaders, name); found != nullptr) return found;
     }
   }

@@ -10,7 +10,8 @@ const float kSumRounding = 1e-4;  // of the sum of solid angles in a walk of the
 // which Vulkan allows 4096 units in the last place.
 const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 
-layout(constant_id = 1) const bool kIsOpen = true;  // false: the mesh has no open edges
+// False: the mesh has no open edges, and a driver need not translate what is about them.
+layout(constant_id = 1) const bool kIsOpen = true;
 
 struct Closure {
   float number;  // winding number of the triangles that close the mesh

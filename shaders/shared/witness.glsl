@@ -41,7 +41,7 @@ bool is_contact(Witness w, float d, vec3 g) {
 // Lemma A for the cube, h = g times half its side: at some corner x_k, D - g.x_k <= dist(x_k, witness).
 bool touches_cube(Witness w, float d, vec3 h) {
   float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
-  float most = -1.0;
+  float most = -1.0;  // at the corner that lies farthest along h it is positive
   [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, w.to_corner[k] + dot(h, corner_sign(k)));
   return most >= limit;
 }

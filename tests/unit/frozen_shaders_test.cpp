@@ -1,8 +1,9 @@
-// Variants of kernels whose constants the build has set (cmake/EmbedShaders.cmake): they are what an extraction asks for,
-// and they compute what the kernels do whose constants the driver sets.
+// Variants of kernels whose constants the build has set (cmake/EmbedShaders.cmake): they are what an extraction asks
+// for, and they compute what the kernels do whose constants the driver sets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <string>
@@ -85,6 +86,33 @@ TEST_F(FrozenShadersTest, ComputeTheSame) {
   ASSERT_GT(frozen.spheres.size(), 500u);
   ASSERT_EQ(frozen.spheres.size(), other.spheres.size());
   EXPECT_EQ(std::memcmp(frozen.spheres.data(), other.spheres.data(), frozen.spheres.size() * sizeof(MedialSphere)), 0);
+  ASSERT_EQ(frozen.undecided.size(), other.undecided.size());
+  for (std::size_t i = 0; i < frozen.undecided.size(); ++i) {
+    EXPECT_EQ(frozen.undecided[i].voxel, other.undecided[i].voxel);
+    EXPECT_EQ(frozen.undecided[i].kind, other.undecided[i].kind);
+    EXPECT_EQ(frozen.undecided[i].width, other.undecided[i].width);
+  }
+}
+
+// What is left to the driver.
+std::set<std::uint32_t> specialization_ids(const EmbeddedShader& shader) {
+  constexpr std::uint32_t kHeaderWords = 5, kOpDecorate = 71, kSpecId = 1;
+  std::set<std::uint32_t> ids;
+  for (std::size_t i = kHeaderWords; i < shader.words.size(); i += shader.words[i] >> 16) {
+    if ((shader.words[i] & 0xffffu) == kOpDecorate && shader.words[i + 2] == kSpecId) ids.insert(shader.words[i + 3]);
+  }
+  return ids;
+}
+
+TEST(FrozenShaders, LeaveNoConstantToTheDriver) {
+  for (const EmbeddedShader& frozen : frozen_shaders()) {
+    EXPECT_TRUE(specialization_ids(frozen).empty()) << frozen.name;
+    // As many values as there are constants.
+    const std::string_view values = frozen.name.substr(frozen.name.find(kMark) + kMark.size());
+    EXPECT_EQ(specialization_ids(general_of(frozen)).size(),
+              static_cast<std::size_t>(std::count(values.begin(), values.end(), '_')) + 1)
+        << frozen.name;
+  }
 }
 
 }  // namespace
