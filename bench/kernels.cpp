@@ -157,7 +157,8 @@ int main(int argc, char** argv) {
   for (const std::string& file : files) {
     Result<Mesh> mesh = read_mesh(file);
     if (!mesh.ok()) give_up(mesh.error().message);
-    subjects.emplace_back(context.value(), file.substr(file.find_last_of('/') + 1), std::move(mesh).value(), resolution);
+    subjects.emplace_back(context.value(), file.substr(file.find_last_of('/') + 1), std::move(mesh).value(),
+                          resolution);
   }
   if (files.empty()) {
     subjects.emplace_back(context.value(), "flat-torus-16k", make_flat_torus(), resolution);

@@ -74,8 +74,8 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.first_item = first;
   const std::uint32_t lanes = step.lists == gpu::kListsTriangles ? kGatherLanesForTriangles : kGatherLanes;
   const Kernel gather{"gather_contacts",
-                      {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(),
-                       nearest_.range(), cells_[0].range(), lists_[0].range()},
+                      {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(), nearest_.range(),
+                       cells_[0].range(), lists_[0].range()},
                       Reads::kNoMesh,
                       {},
                       lanes,
@@ -303,9 +303,8 @@ void CertifiedPipeline::record_collection(Recorder& r) {
   begin_stage(r, "flux");
   gpu::StepConstants step = level_constants(coarse_levels_);
   const Kernel collect{"collect_points",
-                       {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(),
-                        voxel_points_.range(), result_.range(), cells_[2].range(), reasons_.range(),
-                        undecided_.range()}};
+                       {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
+                        result_.range(), cells_[2].range(), reasons_.range(), undecided_.range()}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   step.second_task = 1;

@@ -37,7 +37,8 @@ struct ExtractionParameters {
   std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
   std::uint64_t memory_budget = 1ull << 30;                    ///< Bytes of device memory to stay below.
   /// Certified: Extraction::device_times by kernel and level ("mark_contacts@2"; a number after a slash tells variants
-  /// of a kernel apart, "/second" the tasks of one that has two) instead of by stage. Every dispatch then ends with a timestamp.
+  /// of a kernel apart, "/second" the tasks of one that has two) instead of by stage. Every dispatch then ends with a
+  /// timestamp.
   bool kernel_times = false;
 
   bool operator==(const ExtractionParameters&) const = default;
