@@ -12,33 +12,20 @@
 #include <string>
 #include <thread>
 
+#include "bumpy_torus.h"
 #include "device_tree.h"
 #include "medial_vk/bvh.h"
 #include "mesh/load_mesh.h"
 #include "mesh_links.h"
-#include "support/solids.h"
 
 namespace {
 
 using namespace medial_vk;
 
-/// A torus with bumps of several sizes, turned: no two of its edges are alike, none is along an axis.
-Mesh make_bumpy_torus(std::uint32_t triangles) {
-  const auto along = static_cast<std::uint32_t>(std::lround(std::sqrt(triangles)));
-  Mesh mesh = test::make_torus(1.0, 0.4, along / 2, along);
-  for (Point& p : mesh.vertices) {
-    const double phi = std::atan2(p[1], p[0]);
-    const double bump = 1 + 0.08 * std::sin(7 * phi + 3 * p[2]) + 0.02 * std::sin(31 * phi) * std::cos(23 * p[2]);
-    for (double& x : p) x *= bump;
-  }
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
 const Mesh& mesh_of(std::int64_t triangles) {
   static std::map<std::int64_t, Mesh> meshes;
   const auto [entry, is_new] = meshes.try_emplace(triangles);
-  if (is_new) entry->second = make_bumpy_torus(static_cast<std::uint32_t>(triangles));
+  if (is_new) entry->second = bench::make_bumpy_torus(static_cast<std::uint32_t>(triangles));
   return entry->second;
 }
 

@@ -6,15 +6,16 @@
 // `share` of all kernels; of the sum of all, the distances between points and triangles of contact lists a second.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bumpy_torus.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "mesh/load_mesh.h"
@@ -38,17 +39,6 @@ std::string kernel_of(const std::string& stage) { return stage.substr(0, stage.f
 
 Mesh make_flat_torus() {
   Mesh mesh = test::make_torus(1.0, 0.4, 64, 125, 0.5);
-  test::rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
-Mesh make_bumpy_torus() {
-  Mesh mesh = test::make_torus(1.0, 0.4, 160, 312);
-  for (Point& p : mesh.vertices) {
-    const double phi = std::atan2(p[1], p[0]);
-    const double bump = 1 + 0.08 * std::sin(7 * phi + 3 * p[2]) + 0.02 * std::sin(31 * phi) * std::cos(23 * p[2]);
-    for (double& x : p) x *= bump;
-  }
   test::rotate(mesh, {1, 2, 3}, 0.7);
   return mesh;
 }
@@ -102,11 +92,11 @@ class Subject {
   std::vector<Run> runs_;
 };
 
-void time_kernel(benchmark::State& state, Subject* subject, const std::string& kernel) {
+/// `next`: the run after those that earlier repetitions have told of.
+void time_kernel(benchmark::State& state, Subject* subject, const std::string& kernel, std::size_t& next) {
   double sum = 0, of_all = 0, distances = 0;
-  std::size_t index = 0;
   for (auto _ : state) {
-    const Run& run = subject->run(index++);
+    const Run& run = subject->run(next++);
     const auto found = run.seconds.find(kernel);
     const double seconds = found != run.seconds.end() ? found->second : 0;
     state.SetIterationTime(seconds);
@@ -123,7 +113,11 @@ void time_kernel(benchmark::State& state, Subject* subject, const std::string& k
 void register_kernels(Subject& subject) {
   for (const auto& [kernel, seconds] : subject.first().seconds) {
     const std::string name = subject.name() + "/" + kernel;
-    benchmark::RegisterBenchmark(name.c_str(), time_kernel, &subject, kernel)
+    const auto next = std::make_shared<std::size_t>(0);
+    const auto time = [subject = &subject, kernel = kernel, next](benchmark::State& state) {
+      time_kernel(state, subject, kernel, *next);
+    };
+    benchmark::RegisterBenchmark(name.c_str(), time)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond)
         ->Iterations(kRepeats);
@@ -162,7 +156,7 @@ int main(int argc, char** argv) {
   }
   if (files.empty()) {
     subjects.emplace_back(context.value(), "flat-torus-16k", make_flat_torus(), resolution);
-    subjects.emplace_back(context.value(), "bumpy-torus-100k", make_bumpy_torus(), resolution);
+    subjects.emplace_back(context.value(), "bumpy-torus-100k", bench::make_bumpy_torus(100'000), resolution);
   }
   for (Subject& subject : subjects) register_kernels(subject);
   benchmark::RunSpecifiedBenchmarks();
