@@ -7,35 +7,30 @@
 #include "lanes.glsl"
 #include "step.glsl"
 #include "witness.glsl"
+#define CLUSTER_TEXEL_BINDING 9
 #include "cluster.glsl"
 #include "dismissal.glsl"
 
-layout(set = 0, binding = 0) readonly buffer Clusters { Cluster clusters[]; };
-layout(set = 0, binding = 1) readonly buffer Parents { Cell parents[]; };
-layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
-layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 0) readonly buffer Parents { Cell parents[]; };
+layout(set = 0, binding = 1) readonly buffer Lists { uint lists[]; };
+layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 // A lower bound of the distance from the centre (bits), and the cluster of the first witness.
-layout(set = 0, binding = 4) writeonly buffer Nearest { uvec2 nearest[]; };
-layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
-layout(set = 0, binding = 6) buffer TouchMasks { uint touch_masks[]; };
+layout(set = 0, binding = 3) writeonly buffer Nearest { uvec2 nearest[]; };
+layout(set = 0, binding = 4) writeonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 5) buffer TouchMasks { uint touch_masks[]; };
 // Contacts, twice; the cluster of the second witness.
-layout(set = 0, binding = 7) writeonly buffer Counts { uvec4 counts[]; };
-layout(set = 0, binding = 8) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
-layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 6) writeonly buffer Counts { uvec4 counts[]; };
+layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
+layout(set = 0, binding = 8) writeonly buffer Asked { uint asked[]; };
 
 const uint kSweeps = 4u;
-
-ClusterBounds bounds_of(uint name) {
-  Cluster c = clusters[name];
-  return ClusterBounds(c.centre, c.axis, vec3(c.half_height, c.sin_tilt, float(c.count)));
-}
 
 // The bounds that lane k of the eight has loaded, from entry `list_entry`.
 ClusterBounds bounds_of_lane(ClusterBounds mine, uint list_entry, uint k) {
 #ifdef LOCKSTEP
   return ClusterBounds(from_lane(mine.centre, k), from_lane(mine.axis, k), from_lane(vec4(mine.rest, 0.0), k).xyz);
 #else
-  return bounds_of(lists[list_entry]);
+  return load_bounds(lists[list_entry]);
 #endif
 }
 
@@ -46,7 +41,7 @@ uint witness_near(Cell parent, vec3 p) {
   float best = 3e38;
   for (uint entry = 0u;;) {
     uint name = lists[parent.list_begin + entry];
-    vec3 v = clusters[name].point.xyz - p;
+    vec3 v = cluster_texel(name, kClusterPoint).xyz - p;
     best_name = dot(v, v) < best ? name : best_name;
     best = min(best, dot(v, v));
     entry += stride;
@@ -56,7 +51,7 @@ uint witness_near(Cell parent, vec3 p) {
 }
 
 Witness witness_of(vec3 centre, uint name) {
-  vec3 point = clusters[name].point.xyz;
+  vec3 point = cluster_texel(name, kClusterPoint).xyz;
   Witness w = witness_at(name, point - centre);
   [[unroll]] for (uint k = 0; k < 8u; ++k)
     w.to_corner[k] = length(point - centre - step.touch_half_side * corner_sign(k));
@@ -77,7 +72,7 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
   uint word = 0u, touch_word = 0u, last = parent.list_begin + parent.list_count - 1u;
   for (uint entry = 0u;;) {
     uint next = parent.list_begin + entry;
-    ClusterBounds mine = bounds_of(lists[min(next + child, last)]);
+    ClusterBounds mine = load_bounds(lists[min(next + child, last)]);
     for (uint k = 0; k < 8u; ++k) {
       ClusterBounds bounds = bounds_of_lane(mine, min(next + k, last), k);
       vec3 v = vector_to_cluster(centre, bounds);
@@ -123,7 +118,7 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
   for (uint entry = 0u;;) {
     uint next = parent.list_begin + entry;
     if ((entry & 31u) == 0u) touches = touch_masks[base + entry / 32u];
-    ClusterBounds mine = bounds_of(lists[min(next + child, last)]);
+    ClusterBounds mine = load_bounds(lists[min(next + child, last)]);
     for (uint k = 0; k < 8u; ++k) {
       ClusterBounds bounds = bounds_of_lane(mine, min(next + k, last), k);
       float by_normal = least_cosine_of_normals(axis, bounds);

@@ -60,9 +60,10 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
                                                     const ExtractionParameters& parameters,
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   CertifiedPipeline p(context, mesh, parameters, stop);
-  // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side; always one level of children.
+  // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side, but at least 4 voxels: their children's
+  // lists are of clusters, too, or expanded, before the finest ones ask triangles.
   const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
-  p.top_shift_ = static_cast<std::uint32_t>(std::max(1, static_cast<int>(std::bit_width(coarsest)) - 1));
+  p.top_shift_ = static_cast<std::uint32_t>(std::max(2, static_cast<int>(std::bit_width(coarsest)) - 1));
   p.coarse_levels_ = p.top_shift_ - 1;
   p.set_grid(grid);
   // The growth test holds if the ends are within h of each other, h < epsilon sin^2(theta) D / (D + epsilon):
@@ -253,7 +254,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   key.texel_buffers = static_cast<uint>(texels.size());
   key.push_constant_bytes = sizeof(step);
   key.workgroup_size = kernel.workgroup_size;
-  if (kernel.reads != Reads::kNoMesh) key.shader += storage_suffix(mesh_->use_texels);
+  if (kernel.reads > Reads::kClusters) key.shader += storage_suffix(mesh_->use_texels);
   key.constants = kernel.constants;
   r.dispatch_indirect(key, kernel.buffers, texels, bytes_of(step), arguments_.buffer(), groups);
   r.barrier();
@@ -263,6 +264,8 @@ std::vector<VkBufferView> CertifiedPipeline::texels_of(Reads reads) const {
   switch (reads) {
     case Reads::kNoMesh:
       return {};
+    case Reads::kClusters:
+      return {mesh_->cluster_texels};
     case Reads::kTriangles:
       return {mesh_->triangle_texels};
     case Reads::kTree:

@@ -116,14 +116,11 @@ class CertifiedPipeline {
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
 
-  // What a kernel reads of the mesh: nothing, triangles, these and the tree, or these and links. Texel views follow its
-  // buffers.
-  enum class Reads : std::uint32_t { kNoMesh, kTriangles, kTree, kLinks };
+  // What a kernel reads of the mesh: nothing, clusters of triangles, triangles, these and the tree, or these and links.
+  // Texel views follow its buffers.
+  enum class Reads : std::uint32_t { kNoMesh, kClusters, kTriangles, kTree, kLinks };
   std::vector<VkBufferView> texels_of(Reads reads) const;
-  // Of a workgroup that gathers the contacts of a top cell. Few lanes start quickly; where lists are of triangles each
-  // writes its share within lavapipe's 65,535 loop iterations, whatever the mesh (DeviceMesh::kMostTriangles).
-  static constexpr std::uint32_t kGatherLanes = 64, kGatherLanesForTriangles = 256;
-  static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup for one cell
+  static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup whose invocations walk together
   // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
   enum class Lanes : std::uint32_t { kAlone, kEight };
   // One kernel over counter * multiplier / divisor invocations.
@@ -168,9 +165,9 @@ class CertifiedPipeline {
   Arena arena_;
   std::array<std::uint32_t, 3> grid_{};      // finest voxels
   std::array<std::uint32_t, 3> top_grid_{};  // top cells
-  std::uint32_t top_shift_ = 1;              // a top cell is 2^this voxels
-  std::uint32_t coarse_levels_ = 0;          // levels of children above the finest one
-  std::uint32_t clustered_levels_ = 0;       // of these, the first ones, whose parents have lists of clusters
+  std::uint32_t top_shift_ = 2;              // a top cell is 2^this voxels
+  std::uint32_t coarse_levels_ = 1;          // levels of children above the finest one
+  std::uint32_t clustered_levels_ = 1;       // of these, the first ones, whose parents have lists of clusters
   std::uint32_t narrowing_steps_ = 0;
   std::uint32_t rounds_ = 1;  // recorded for lists longer than kEntriesPerRound
   DispatchArguments arguments_;

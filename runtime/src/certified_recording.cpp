@@ -72,21 +72,20 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
-  const std::uint32_t lanes = step.lists == gpu::kListsTriangles ? kGatherLanesForTriangles : kGatherLanes;
   const Kernel gather{"gather_contacts",
-                      {mesh_->clusters.range(), counters_.range(), states_.range(), offsets_.range(), nearest_.range(),
-                       cells_[0].range(), lists_[0].range()},
-                      Reads::kNoMesh,
+                      {counters_.range(), states_.range(), offsets_.range(), nearest_.range(), cells_[0].range(),
+                       lists_[0].range()},
+                      Reads::kClusters,
                       {},
-                      lanes,
+                      kEightLanes,
                       Lanes::kEight};
-  const Extent groups{gpu::kParents, lanes};
-  run(r, gather, groups, step);
+  const Extent top_cells{gpu::kParents};
+  run(r, gather, top_cells, step);
   step.second_task = 1;
   decide_sides(r, step, gpu::kParents, cells_[0]);
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
-  run(r, gather, groups, step);
+  run(r, gather, top_cells, step);
   arguments_.start(r, gpu::kStartChildren);
 }
 
@@ -162,9 +161,9 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
   clear_counters(r, {gpu::kAsked});
   run(r,
       {"mark_clusters",
-       {mesh_->clusters.range(), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
-       Reads::kNoMesh,
+       {level.parents->range(), level.parent_lists->range(), counters_.range(), nearest_.range(), masks_.range(),
+        touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
+       Reads::kClusters,
        {},
        kEightLanes,
        Lanes::kEight},

@@ -59,7 +59,7 @@ std::vector<Run> make_equal_runs(std::uint32_t triangles, std::uint32_t count) {
 
 // Subtrees twice as large, or four times, and so on, until there are few enough.
 std::vector<Run> make_few_runs(const Bvh& bvh, std::uint32_t most_triangles, std::uint32_t most_clusters) {
-  constexpr std::uint32_t kTooLarge = 4096;  // triangles: DeviceMesh::kMostTriangles says why
+  constexpr std::uint32_t kTooLarge = 4096;  // triangles: 8 of them an iteration (expand_clusters.comp)
   for (std::uint32_t most = most_triangles; most <= kTooLarge; most *= 2) {
     std::vector<Run> runs = make_runs(bvh, most);
     if (runs.size() <= most_clusters) return runs;
@@ -169,7 +169,7 @@ gpu::Cluster make_cluster(const Run& run, const Bvh& bvh, const UnitTransform& t
   put_cylinder(facets, axis, cluster);
   put_cone(facets, axis, cluster);
   const auto& c = cluster.centre;
-  cluster.point = to_vec4(point_on_boundary(facets, {double{c.x}, double{c.y}, double{c.z}}), 0);
+  cluster.point = to_vec4(point_on_boundary(facets, {double{c.x}, double{c.y}, double{c.z}}), run.count);
   cluster.first = run.first;
   cluster.count = run.count;
   return cluster;

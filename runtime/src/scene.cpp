@@ -20,7 +20,6 @@ Uploader upload_at_once(Context::Impl& context) {
 }
 
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr std::uint32_t kMostClusters = 8192;
 constexpr std::uint32_t kTrianglesOfCluster = 16;
 
 /// Before anything is built. The triangles are the largest of the buffers that grow with the mesh.
@@ -145,10 +144,14 @@ Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::by
   const VkBuffer before = buffer.handle;
   if (Status status = fill(uploader, bytes, kind, purpose, buffer); !status.ok()) return status;
   if (view != VK_NULL_HANDLE && buffer.handle == before) return {};
-  Result<Buffer> viewed = buffer;
-  if (!use_texels) viewed = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
-  if (!viewed.ok()) return viewed.error();
-  Result<VkBufferView> created = arena_.create_texel_view(viewed.value(), format);
+  if (use_texels) return create_view(buffer, format, view);
+  Result<Buffer> unused = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+  if (!unused.ok()) return unused.error();
+  return create_view(unused.value(), format, view);
+}
+
+Status DeviceMesh::create_view(const Buffer& buffer, VkFormat format, VkBufferView& view) {
+  Result<VkBufferView> created = arena_.create_texel_view(buffer, format);
   if (!created.ok()) return created.error();
   view = created.value();
   return {};
@@ -182,12 +185,17 @@ Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links
 }
 
 Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mesh) {
+  static_assert(sizeof(gpu::Cluster) == 6 * sizeof(Texel));  // kTexelsPerCluster
+  static_assert(6 * kMostClusters <= 65536);                 // the least maxTexelBufferElements that Vulkan allows
   const std::vector<gpu::Cluster> made =
       make_clusters(bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
-  return fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kDevice, "clusters of triangles", clusters);
+  const VkBuffer before = clusters.handle;
+  Status status = fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kTexels, "clusters of triangles", clusters);
+  if (!status.ok() || clusters.handle == before) return status;
+  return create_view(clusters, kFloats, cluster_texels);
 }
 
 Status DeviceMesh::upload_open_edges(const Uploader& uploader, const MeshView& mesh) {

@@ -29,8 +29,8 @@ using Uploader = std::function<Status(const Buffer& buffer, std::span<const std:
 struct DeviceMesh {
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
-  /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 writes the triangles of at
-  /// most 32 clusters (gather_contacts.comp): of 4,096 each, four an iteration, 32,768 of lavapipe's 65,535 iterations.
+  /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 looks at its share of all
+  /// triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535 iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
@@ -77,8 +77,11 @@ struct DeviceMesh {
   VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;
   VkBufferView corner_texels = VK_NULL_HANDLE;
-  /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links().
+  /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links(). So few that every device allows the
+  /// view.
+  static constexpr std::uint32_t kMostClusters = 8192;
   Buffer clusters;
+  VkBufferView cluster_texels = VK_NULL_HANDLE;
   /// gpu::OpenEdge; at least one, which may not count; null until add_links().
   Buffer open_edges;
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
@@ -111,6 +114,7 @@ struct DeviceMesh {
               Buffer& buffer);
   Status fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
                      Buffer& buffer, VkBufferView& view);
+  Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
   Arena arena_;
   Bvh bvh_;                          // input units

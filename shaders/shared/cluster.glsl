@@ -2,6 +2,7 @@
 // their normals (docs/theory.md, "Clusters"). Both are convex, so Lemma A holds for the cylinder as for a triangle.
 #ifndef MEDIAL_VK_CLUSTER_GLSL
 #define MEDIAL_VK_CLUSTER_GLSL
+#include "cluster_texels.glsl"
 
 // What of a Cluster is asked again and again.
 struct ClusterBounds {
@@ -9,6 +10,12 @@ struct ClusterBounds {
   vec4 axis;    // w: cosine of the tilt, or kNoCone
   vec3 rest;    // half height, sine of the tilt, number of triangles
 };
+
+ClusterBounds load_bounds(uint cluster) {
+  float count = cluster_texel(cluster, kClusterPoint).w;
+  return ClusterBounds(cluster_texel(cluster, kClusterCentre), cluster_texel(cluster, kClusterAxis),
+                       vec3(cluster_texel(cluster, kClusterRest).xy, count));
+}
 
 // The vector from p to the nearest point of the cylinder.
 vec3 vector_to_cluster(vec3 p, ClusterBounds c) {
@@ -40,19 +47,15 @@ float least_cosine_of_directions(vec3 p, vec3 direction, ClusterBounds c, out ve
   return sine >= 1.0 ? -2.0 : cosine_of_sum(direction, g, sqrt(1.0 - sine * sine), sine);
 }
 
-// +1 if p lies behind the planes of all triangles of the cluster, -1 if in front of all, else 0. With v from p to the
-// centre and s the radius of a ball around the cluster, a direction from p to one of its points is within
-// asin(s / |v|) of v, and a normal within the tilt of the axis: all products are positive if the angle between v and
-// the axis, and these two, add up to less than a right angle.
+// +1 if p lies behind the planes of all triangles of the cluster, -1 if in front of all, else 0. From p, a point x of the
+// cylinder is at least H along the axis n and at most L across, and a normal is turned by at most the tilt from n: its
+// product with x - p is least where it is turned that far against the part across, cos(tilt) H - sin(tilt) L.
 float side_of_cluster(vec3 p, ClusterBounds c) {
   vec3 v = c.centre.xyz - p;
-  float s = length(vec2(c.centre.w, c.rest.x));
-  float squared = dot(v, v) - s * s;
-  if (c.axis.w == kNoCone || squared <= 0.0) return 0.0;
-  float free = sqrt(squared);
-  bool fits = c.axis.w * free > c.rest.y * s;  // the two alone are less
-  float depth = dot(v, c.axis.xyz), least = c.rest.y * free + c.axis.w * s + 4.0 * step.slack;
-  return fits && depth > least ? 1.0 : fits && depth < -least ? -1.0 : 0.0;
+  float along = dot(v, c.axis.xyz);
+  float least_along = abs(along) - c.rest.x, most_across = length(v - along * c.axis.xyz) + c.centre.w;
+  bool is_clear = c.axis.w * least_along > c.rest.y * most_across + 4.0 * step.slack;
+  return c.axis.w != kNoCone && is_clear ? sign(along) : 0.0;
 }
 
 #endif

@@ -108,7 +108,7 @@ struct Cluster {
   vec4 upper;
   vec4 centre;  // of the cylinder; w: its radius
   vec4 axis;    // unit; w: cosine of the angle that no normal is farther from it, or kNoCone
-  vec4 point;   // on the boundary
+  vec4 point;   // on the boundary; w: `count`
   float half_height;  // of the cylinder
   float sin_tilt;     // sine of that angle
   uint first, count;
@@ -158,7 +158,7 @@ struct StepConstants {
   uint second_task;             // 1: kernels that have two tasks do their second
 };
 
-MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;
+MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // as those of top cells never do
 MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and so do those of the children
 MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children will hold triangles
 
