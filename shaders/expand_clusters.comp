@@ -41,6 +41,28 @@ uint nearest_of_cluster(vec3 p, uint name, uint lane) {
   return or_of_lanes(lane == chosen ? best_name : 0u);
 }
 
+// The set bit of a word above the k lowest ones; 31 if there are no more.
+uint bit_above(uint word, uint k) {
+  [[unroll]] for (uint i = 0u; i < kLanes - 1u; ++i) word &= i < k ? word - 1u : 0xffffffffu;
+  return min(uint(findLSB(word)), 31u);
+}
+
+// The triangles of a cluster, a run in leaf order.
+struct Run {
+  uint first, count;
+};
+
+Run run_of(uint cluster) { return Run(clusters[cluster].first, clusters[cluster].count); }
+
+// The one that lane k of the eight has loaded, of entry `list_entry`.
+Run run_of_lane(Run mine, uint list_entry, uint k) {
+#ifdef LOCKSTEP
+  return Run(from_lane(mine.first, k), from_lane(mine.count, k));
+#else
+  return run_of(parent_lists[list_entry]);
+#endif
+}
+
 Witness witness_of(vec3 centre, uint triangle) {
   return witness_at(triangle, vector_to_triangle(centre, load_triangle(triangle)));
 }
@@ -66,23 +88,27 @@ void main() {
   uint position = begin, tests = 0u;
   uint end = min(word_count, (step.first_entry + step.clusters_per_round) / 32u);
   for (uint w = step.first_entry / 32u; w < end; ++w) {
-    uint word = masks[base + w];
-    while (word != 0u) {
-      Cluster c = clusters[parent_lists[parent.list_begin + 32u * w + uint(findLSB(word))]];
-      for (uint k = 0u; k < c.count; k += kLanes) {
-        uint t = c.first + min(k + lane, c.count - 1u);
-        TriangleTexels texels = load_triangle(t);
-        vec3 v = vector_to_triangle(centre, texels);
-        float d = length(v);
-        vec3 g = v / max(d, 1e-30);
-        bool contact = k + lane < c.count && is_contact(front, d, g) && is_contact(back, d, g) &&
-                       is_contact(prism, v, texels.normal);
-        uvec2 place = count_lanes(contact ? 1u : 0u);
-        if (contact) lists[offset.y + position + place.x] = t;
-        position += place.y;
+    // Eight clusters at a time: each lane looks one of them up.
+    for (uint word = masks[base + w], first_entry = parent.list_begin + 32u * w; word != 0u;) {
+      uint number = min(uint(bitCount(word)), kLanes);
+      Run my_run = run_of(parent_lists[first_entry + bit_above(word, min(lane, number - 1u))]);
+      for (uint i = 0u; i < number; ++i) {
+        Run run = run_of_lane(my_run, first_entry + uint(findLSB(word)), i);
+        for (uint k = 0u; k < run.count; k += kLanes) {
+          uint t = run.first + min(k + lane, run.count - 1u);
+          TriangleTexels texels = load_triangle(t);
+          vec3 v = vector_to_triangle(centre, texels);
+          float d = length(v);
+          vec3 g = v / max(d, 1e-30);
+          bool contact = k + lane < run.count && is_contact(front, d, g) && is_contact(back, d, g) &&
+                         is_contact(prism, v, texels.normal);
+          uvec2 place = count_lanes(contact ? 1u : 0u);
+          if (contact) lists[offset.y + position + place.x] = t;
+          position += place.y;
+        }
+        tests += run.count;
+        word &= word - 1u;
       }
-      tests += c.count;
-      word &= word - 1u;
     }
   }
   if (lane != 0u) return;

@@ -62,10 +62,14 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 #endif
 }
 
-// The nearest to p of the parent's contacts, or of a sample of them. All eight lanes call it, each with its own p.
+// Among which contacts of the parent witnesses are sought: the first ones touch its cube, and whatever is nearest to a
+// point of that is one of them.
+uint candidates_of(Cell parent) { return parent.touching != 0u ? parent.touching : parent.list_count; }
+
+// The nearest to p of these, or of a sample of them. All eight lanes call it, each with its own p.
 uint witness_near(Cell parent, uint lane, vec3 p) {
-  uint stride = 1u + parent.list_count / kWitnessSample;
-  uint last = parent.list_begin + parent.list_count - 1u;
+  uint stride = 1u + candidates_of(parent) / kWitnessSample;
+  uint last = parent.list_begin + candidates_of(parent) - 1u;
   uint best_name = 0u;
   float best = 3e38;
   for (uint entry = parent.list_begin;;) {
@@ -216,7 +220,7 @@ void main() {
   if (!is_first) before = Marks(counts[item], axes[item], nearest[item], kNoTriangle);
   // Whether Lemma L may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
   // then the cell is marked once more without it, which is rare if only half of the promise is believed.
-  float promise = parent.list_count < kWitnessSample ? front.distance : 0.5 * front.distance;
+  float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
   Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
   uint walks = 0u;
@@ -232,7 +236,7 @@ void main() {
   axes[item] = marks.axis;
   nearest[item] = marks.first;
   if (!is_last) return;
-  uint sampled = parent.list_count / (1u + parent.list_count / kWitnessSample);
+  uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
   if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
   if (is_in_grid(coordinates))
     settle(item, centre, parent.flags, marks.first.y, uintBitsToFloat(marks.first.x), marks.count, marks.axis.w);
