@@ -40,7 +40,7 @@ Result<CertifiedExtraction> run_stages(const PreparedMesh& mesh, const Extractio
   CertifiedExtraction out;
   Stopwatch stopwatch;
   // While the device is at work the processors have time; not every piece of work keeps all of them busy.
-  constexpr std::uint32_t kLeafSize = 4;
+  constexpr std::uint32_t kLeafSize = 8;
   std::future<Result<Bvh>> indexing = std::async(std::launch::async | std::launch::deferred,
                                                  [&] { return Bvh::build(mesh.view(), kLeafSize, threads); });
   Result<Extraction> extraction = extract(mesh, parameters, backend, context, progress_of_stage(progress, "extract"));

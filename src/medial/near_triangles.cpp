@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-// How much nearer a triangle may be than lanes_near() says. The unit is the longest side of the tree's box, whose
+// How much nearer a triangle may be than lanes_near() says, and a box than boxes_near() does, which rounds less. The unit is the longest side of the tree's box, whose
 // middle is the origin; balls have their centres within 1 of it, along each axis, and radii below 1. With u = 2^-24:
 // rounding moves the centre by u and the corners by u / 2 a coordinate, and their differences by 1.5 u: 5.2 u in all. A
 // product s.a is off by 4 u |s| |a| with |a| < 2.6. That is less than 16 u = 9.6e-7; the squares of limit, s and s.a
@@ -41,6 +41,31 @@ void NearTriangles::surround(const Point& centre, double radius, Region& region)
   region.centre = centre;
   region.radius = radius;
   bvh_.gather_leaves(centre, radius, region.leaves);
+  for (std::vector<float>& side : region.boxes) side.resize(region.leaves.size() + kLanes);
+  for (std::size_t i = 0; i < region.leaves.size(); ++i) {
+    const BvhBox& box = bvh_.nodes()[region.leaves[i]].box;
+    const std::array<float, 3> lower = rounded(box.lower), upper = rounded(box.upper);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      region.boxes[axis][i] = lower[axis];
+      region.boxes[3 + axis][i] = upper[axis];
+    }
+  }
+}
+
+// A bit for each of the four leaves from `first` on: not set if its box is farther away than the limit.
+unsigned NearTriangles::boxes_near(const Query& query, const Region& region, std::size_t first) const {
+  std::array<float, kLanes> squared{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float below = region.boxes[axis][first + k] - query.centre[axis];
+      const float above = query.centre[axis] - region.boxes[3 + axis][first + k];
+      const float away = std::max(std::max(below, above), 0.0f);
+      squared[k] += away * away;
+    }
+  }
+  unsigned near = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) near |= (squared[k] > query.squared_limit ? 0u : 1u) << k;
+  return near;
 }
 
 // A bit for each of the four triangles from `position` on: not set if the plane at the limit's distance across the
@@ -73,13 +98,19 @@ void NearTriangles::gather(const Region& region, const Point& centre, double rad
   if (!is_in_reach || length(centre - region.centre) + radius > region.radius)
     return bvh_.gather_within(centre, radius, positions);
   positions.clear();
-  for (const std::uint32_t leaf : region.leaves) {
-    const BvhNode& node = bvh_.nodes()[leaf];
-    for (std::uint32_t first = 0; first < node.count; first += kLanes) {
-      const unsigned near = lanes_near(query, node.first + first);
-      for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kLanes, node.count - first); ++k)
-        if ((near >> k & 1) != 0) positions.push_back(node.first + first + k);
-    }
+  for (std::size_t first = 0; first < region.leaves.size(); first += kLanes) {
+    const unsigned near = boxes_near(query, region, first);
+    for (std::size_t k = 0; k < std::min(kLanes, region.leaves.size() - first); ++k)
+      if ((near >> k & 1) != 0) gather_leaf(query, region.leaves[first + k], positions);
+  }
+}
+
+void NearTriangles::gather_leaf(const Query& query, std::uint32_t leaf, std::vector<std::uint32_t>& positions) const {
+  const BvhNode& node = bvh_.nodes()[leaf];
+  for (std::uint32_t first = 0; first < node.count; first += kLanes) {
+    const unsigned near = lanes_near(query, node.first + first);
+    for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kLanes, node.count - first); ++k)
+      if ((near >> k & 1) != 0) positions.push_back(node.first + first + k);
   }
 }
 

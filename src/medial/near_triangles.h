@@ -1,5 +1,5 @@
 // Which triangles are near a ball, for many balls beside each other: the tree is walked once for all of them, and its
-// triangles are then looked at four at a time, in float.
+// leaves and their triangles are then looked at four at a time, in float.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@ struct Region {
   Point centre = {0, 0, 0};
   double radius = -1;
   std::vector<std::uint32_t> leaves;
+  std::array<std::vector<float>, 6> boxes;  ///< Of the leaves, lower and upper corners: x, y, z; and some more entries.
 };
 
 class NearTriangles {
@@ -34,7 +35,9 @@ class NearTriangles {
   };
 
   std::array<float, 3> rounded(const Point& p) const;
+  unsigned boxes_near(const Query& query, const Region& region, std::size_t first) const;
   unsigned lanes_near(const Query& query, std::size_t position) const;
+  void gather_leaf(const Query& query, std::uint32_t leaf, std::vector<std::uint32_t>& positions) const;
 
   const Bvh& bvh_;
   Point origin_ = {0, 0, 0};
