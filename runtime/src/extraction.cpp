@@ -112,14 +112,12 @@ class CertifiedRun {
   Extraction& extraction_;
 };
 
-Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view,
+Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view, const MeshIndex& index,
                                      const ExtractionParameters& parameters, StopWatch& watch) {
   Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();
-  Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
+  Result<DeviceMesh> mesh = DeviceMesh::create(context, view, index);
   if (!mesh.ok()) return mesh.error();
-  if (watch.stopped()) return StopWatch::error();
-  if (Status s = mesh.value().add_links(context, view); !s.ok()) return s.error();
   if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
   extraction.grid = make_grid(mesh.value(), parameters.resolution);
@@ -141,19 +139,35 @@ Result<Extraction> extract_certified(Context::Impl& context, const MeshView& vie
   return extraction;
 }
 
+/// Without an index one is made, where it is needed.
+Result<Extraction> extract(Context& context, const MeshView& mesh, const MeshIndex* index,
+                           const ExtractionParameters& parameters, const ProgressCallback& progress,
+                           const std::stop_token& stop) {
+  if (Status s = check_parameters(parameters); !s.ok()) return s.error();
+  StopWatch watch(progress, stop);
+  Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&]() -> Result<Extraction> {
+    if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, watch);
+    if (index != nullptr) return extract_certified(context.impl(), mesh, *index, parameters, watch);
+    const Result<MeshIndex> made = MeshIndex::create(mesh);
+    if (!made.ok()) return made.error();
+    return extract_certified(context.impl(), mesh, made.value(), parameters, watch);
+  });
+  if (extraction.ok() && progress) progress(1.0);
+  return extraction;
+}
+
 }  // namespace
 
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
                                           const ExtractionParameters& parameters, const ProgressCallback& progress,
                                           const std::stop_token& stop) {
-  if (Status s = check_parameters(parameters); !s.ok()) return s.error();
-  StopWatch watch(progress, stop);
-  Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&] {
-    return parameters.mode == Mode::kThesis ? extract_thesis(context.impl(), mesh, parameters, watch)
-                                            : extract_certified(context.impl(), mesh, parameters, watch);
-  });
-  if (extraction.ok() && progress) progress(1.0);
-  return extraction;
+  return extract(context, mesh, nullptr, parameters, progress, stop);
+}
+
+Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh, const MeshIndex& index,
+                                          const ExtractionParameters& parameters, const ProgressCallback& progress,
+                                          const std::stop_token& stop) {
+  return extract(context, mesh, &index, parameters, progress, stop);
 }
 
 }  // namespace medial_vk

@@ -143,7 +143,8 @@ struct HalfEdge {
 
 class Builder {
  public:
-  Builder(const MeshView& mesh, std::span<const std::uint32_t> order) : mesh_(mesh), order_(order) {}
+  Builder(const MeshView& mesh, std::span<const std::uint32_t> order, unsigned threads)
+      : mesh_(mesh), order_(order), threads_(threads) {}
 
   MeshLinks build() {
     measure_triangles();
@@ -195,7 +196,7 @@ class Builder {
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
     for_each([&](const HalfEdge& edge) { edges[next[edge.low]++] = edge; });
     const auto at = [&](std::size_t v) { return edges.begin() + static_cast<std::ptrdiff_t>(begin[v]); };
-    parallel_blocks(mesh_.vertices.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+    parallel_blocks(mesh_.vertices.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) {
         std::sort(at(v), at(v + 1), [](const HalfEdge& a, const HalfEdge& b) {
           return std::tie(a.high, a.position) < std::tie(b.high, b.position);
@@ -287,7 +288,7 @@ class Builder {
     const auto fan_of = [&](std::size_t v) {
       return std::span<const uint>(fans).subspan(begin[v], begin[v + 1] - begin[v]);
     };
-    parallel_blocks(mesh_.vertices.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+    parallel_blocks(mesh_.vertices.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) measure_corner(static_cast<uint>(v), fan_of(v));
     });
     for (uint v = 0; v < mesh_.vertices.size(); ++v) {
@@ -332,7 +333,7 @@ class Builder {
   // Lemma L. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
   void measure_spreads() {
     out_.spreads.resize(order_.size());
-    parallel_blocks(order_.size(), kBlock, thread_count(0), [&](std::size_t first, std::size_t last) {
+    parallel_blocks(order_.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p) {
         double angle = turns_[p];
         for (const uint v : triangle(static_cast<uint>(p))) angle = std::max(angle, turn_at_corner(v, normals_[p]));
@@ -355,6 +356,7 @@ class Builder {
 
   const MeshView& mesh_;
   std::span<const std::uint32_t> order_;
+  unsigned threads_;
   std::vector<Point> normals_;
   std::vector<double> turns_;        // by position: greatest angle to the normal of a triangle beyond a reflex edge
   std::vector<std::uint8_t> loose_;  // by vertex: 1 if some triangle at it is not trusted
@@ -364,8 +366,8 @@ class Builder {
 
 }  // namespace
 
-MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order) {
-  return Builder(mesh, order).build();
+MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order, unsigned threads) {
+  return Builder(mesh, order, thread_count(threads)).build();
 }
 
 }  // namespace medial_vk

@@ -21,7 +21,7 @@ struct MeshLinks {
 };
 
 /// `order` lists the triangles as the device does: links name positions in it. Linear in the size of the mesh, up to
-/// one sort of its edges.
-MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order);
+/// one sort of its edges. `threads` 0: as many as the machine has.
+MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order, unsigned threads = 0);
 
 }  // namespace medial_vk

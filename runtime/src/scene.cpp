@@ -48,13 +48,30 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
   if (!bvh.ok()) return bvh.error();
   DeviceMesh device(context);
-  device.bvh_ = std::move(bvh).value();
-  device.order = device.bvh_.order();
-  device.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-  if (Status status = device.measure(mesh); !status.ok()) return status.error();
-  if (Status status = device.upload_mesh(upload_at_once(context), context.limits, mesh, {}); !status.ok())
+  Status status = device.take(context, mesh, std::make_shared<Bvh>(std::move(bvh).value()), {});
+  if (!status.ok()) return status.error();
+  return device;
+}
+
+Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index) {
+  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
+  if (index.bvh().order().size() != mesh.triangles.size())
+    return Error{ErrorCode::kUsage, "the index is that of another mesh"};
+  DeviceMesh device(context);
+  const MeshLinks& links = *index.links_;
+  if (Status status = device.take(context, mesh, index.bvh_, links.spreads); !status.ok()) return status.error();
+  if (Status status = device.upload_all_links(upload_at_once(context), mesh, links); !status.ok())
     return status.error();
   return device;
+}
+
+Status DeviceMesh::take(Context::Impl& context, const MeshView& mesh, std::shared_ptr<Bvh> bvh,
+                        std::span<const float> spreads) {
+  bvh_ = std::move(bvh);
+  order = bvh_->order();
+  triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (Status status = measure(mesh); !status.ok()) return status;
+  return upload_mesh(upload_at_once(context), context.limits, mesh, spreads);
 }
 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
@@ -68,7 +85,8 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Up
   }
   const bool was_intact = intact;
   intact = false;
-  if (Status status = bvh_.refit(mesh); !status.ok()) {
+  if (bvh_.use_count() > 1) bvh_ = std::make_shared<Bvh>(*bvh_);  // a MeshIndex does not move
+  if (Status status = bvh_->refit(mesh); !status.ok()) {
     intact = was_intact && status.error().code == ErrorCode::kInvalidMesh;
     return status;
   }
@@ -92,7 +110,7 @@ VkDeviceSize DeviceMesh::update_bytes() const {
 
 /// What is known of the mesh as a whole. Error: it has no extent.
 Status DeviceMesh::measure(const MeshView& mesh) {
-  const BvhBox& box = bvh_.nodes()[0].box;
+  const BvhBox& box = bvh_->nodes()[0].box;
   const Point sides = box.upper - box.lower;
   const double side = std::max({sides[0], sides[1], sides[2]});
   if (!(side > 0) || !std::isfinite(side)) {
@@ -109,7 +127,7 @@ Status DeviceMesh::measure(const MeshView& mesh) {
 
 Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
                                std::span<const float> spreads) {
-  const std::vector<Texel> tree_data = make_tree_texels(bvh_, {lower, longest});
+  const std::vector<Texel> tree_data = make_tree_texels(*bvh_, {lower, longest});
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
   // Links of vertices are a texel each.
   use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), mesh.vertices.size()}) <=
@@ -122,7 +140,7 @@ Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceL
 }
 
 Status DeviceMesh::upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads) {
-  const std::vector<Texel> made = make_triangle_texels(bvh_, {lower, longest}, mesh.flags, spreads);
+  const std::vector<Texel> made = make_triangle_texels(*bvh_, {lower, longest}, mesh.flags, spreads);
   return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
 }
 
@@ -161,12 +179,11 @@ Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
   const Uploader uploader = upload_at_once(context);
   const MeshLinks links = make_mesh_links(mesh, order);
   if (Status status = upload_triangles(uploader, mesh, links.spreads); !status.ok()) return status;
-  if (Status status = upload_all_links(uploader, mesh, links); !status.ok()) return status;
-  linked_vertices_ = mesh.vertices.size();
-  return {};
+  return upload_all_links(uploader, mesh, links);
 }
 
 Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {
+  linked_vertices_ = mesh.vertices.size();
   if (Status status = upload_links(uploader, links); !status.ok()) return status;
   if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
   return upload_open_edges(uploader, mesh);
@@ -188,7 +205,7 @@ Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mes
   static_assert(sizeof(gpu::Cluster) == 6 * sizeof(Texel));  // kTexelsPerCluster
   static_assert(6 * kMostClusters <= 65536);                 // the least maxTexelBufferElements that Vulkan allows
   const std::vector<gpu::Cluster> made =
-      make_clusters(bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
+      make_clusters(*bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);

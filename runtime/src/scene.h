@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "medial_vk/bvh.h"
 #include "medial_vk/context.h"
+#include "medial_vk/mesh_index.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "memory.h"
@@ -36,6 +38,8 @@ struct DeviceMesh {
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
   /// kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
+  /// The same, and add_links(), with what has been made of `mesh` before.
+  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index);
 
   /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
   /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
@@ -57,7 +61,7 @@ struct DeviceMesh {
   BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
 
   /// Of the Bvh whose leaf order `order` is.
-  const std::vector<BvhNode>& tree_nodes() const { return bvh_.nodes(); }
+  const std::vector<BvhNode>& tree_nodes() const { return bvh_->nodes(); }
 
   UnitTransform transform() const { return {lower, longest}; }
   Point to_unit(const Point& p) const { return transform()(p); }
@@ -102,6 +106,7 @@ struct DeviceMesh {
 
  private:
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
+  Status take(Context::Impl& context, const MeshView& mesh, std::shared_ptr<Bvh> bvh, std::span<const float> spreads);
   Status measure(const MeshView& mesh);
   Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
                      std::span<const float> spreads);
@@ -117,7 +122,7 @@ struct DeviceMesh {
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
   Arena arena_;
-  Bvh bvh_;                          // input units
+  std::shared_ptr<Bvh> bvh_;  // input units; a MeshIndex may share it
   std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()
 };
 

@@ -1,9 +1,11 @@
 #include "cli/device_opening.h"
 
+#include <memory>
 #include <utility>
 
 #include "cli/messages.h"
 #include "medial/stopwatch.h"
+#include "mesh/host_threads.h"
 
 namespace medial_vk::cli {
 
@@ -11,8 +13,13 @@ void DeviceOpening::start(const std::string& wanted) {
   wanted_ = wanted;
   ContextOptions options;
   options.device = wanted;
+  auto loading = std::make_shared<LoadingLibraries>();
   // Without a thread to be had: when it is asked for.
-  opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
+  opening_ = std::async(std::launch::async | std::launch::deferred, [options, loading = std::move(loading)]() mutable {
+    Result<Context> opened = Context::create(options);
+    loading.reset();
+    return opened;
+  });
 }
 
 Status DeviceOpening::take(std::optional<Context>& context, std::optional<DeviceDescription>& description,

@@ -22,6 +22,7 @@
 #include "medial/reference_bridge.h"
 #include "medial/simplify.h"
 #include "medial/stopwatch.h"
+#include "mesh/host_threads.h"
 #include "mesh/inspect_mesh.h"
 #include "output/atomic_file.h"
 #include "output/formats/encode_medial_mesh.h"
@@ -52,6 +53,7 @@ class ExtractionRun {
     if (Status status = check_outputs(); !status) return status;
     if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the mesh is read
     if (Status status = load(); !status) return status;
+    if (Status status = index(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.host_times); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
     if (Status status = extract(); !status) return status;
@@ -94,13 +96,25 @@ class ExtractionRun {
     return {};
   }
 
+  Status index() {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Stopwatch stopwatch;
+    Result<MeshIndex> made = MeshIndex::create(mesh_.view(), host_threads(options_.threads));
+    if (!made) return with_hint(made.error());
+    index_.emplace(std::move(made).value());
+    record_.host_times.push_back({"index", stopwatch.lap()});
+    return {};
+  }
+
   Status extract() {
     const StageProgress on_progress = [this](const char* stage, double done) {
       progress_.update(stage, done);
       return !interrupted();
     };
-    Result<CertifiedExtraction> result = extract_and_certify(
-        mesh_, options_.parameters, options_.backend, context_ ? &*context_ : nullptr, options_.threads, on_progress);
+    Result<CertifiedExtraction> result =
+        extract_and_certify(mesh_, *index_, options_.parameters, options_.backend, context_ ? &*context_ : nullptr,
+                            options_.threads, on_progress);
     progress_.clear();
     if (!result) return result.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(result.error());
     spheres_ = std::move(result.value().extraction.spheres);
@@ -267,6 +281,7 @@ class ExtractionRun {
   const Options& options_;
   Progress progress_;
   PreparedMesh mesh_;
+  std::optional<MeshIndex> index_;
   DeviceOpening opening_;
   std::optional<Context> context_;
   std::vector<MedialSphere> spheres_;

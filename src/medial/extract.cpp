@@ -1,14 +1,12 @@
 #include "medial/extract.h"
 
 #include <algorithm>
-#include <future>
 #include <new>
 #include <utility>
 
 #include "cpu_reference/extract.h"
 #include "medial/reference_bridge.h"
 #include "medial/stopwatch.h"
-#include "medial_vk/bvh.h"
 
 namespace medial_vk {
 namespace {
@@ -27,33 +25,26 @@ Result<Extraction> extract_on_cpu(const PreparedMesh& mesh, const ExtractionPara
   return from_reference(result);
 }
 
-Result<Extraction> extract(const PreparedMesh& mesh, const ExtractionParameters& parameters, Backend backend,
-                           Context* context, const ProgressCallback& progress) {
+Result<Extraction> extract(const PreparedMesh& mesh, const MeshIndex& index, const ExtractionParameters& parameters,
+                           Backend backend, Context* context, const ProgressCallback& progress) {
   if (backend == Backend::kCpu) return extract_on_cpu(mesh, parameters, progress);
   if (context == nullptr) return Error{ErrorCode::kNoDevice, "the Vulkan backend was asked for without a device"};
-  return extract_medial_spheres(*context, mesh.view(), parameters, progress);
+  return extract_medial_spheres(*context, mesh.view(), index, parameters, progress);
 }
 
-Result<CertifiedExtraction> run_stages(const PreparedMesh& mesh, const ExtractionParameters& parameters,
-                                       Backend backend, Context* context, unsigned threads,
-                                       const StageProgress& progress) {
+Result<CertifiedExtraction> run_stages(const PreparedMesh& mesh, const MeshIndex& index,
+                                       const ExtractionParameters& parameters, Backend backend, Context* context,
+                                       unsigned threads, const StageProgress& progress) {
   CertifiedExtraction out;
   Stopwatch stopwatch;
-  // While the device is at work the processors have time; not every piece of work keeps all of them busy.
-  constexpr std::uint32_t kLeafSize = 8;
-  std::future<Result<Bvh>> indexing = std::async(std::launch::async | std::launch::deferred,
-                                                 [&] { return Bvh::build(mesh.view(), kLeafSize, threads); });
-  Result<Extraction> extraction = extract(mesh, parameters, backend, context, progress_of_stage(progress, "extract"));
+  Result<Extraction> extraction =
+      extract(mesh, index, parameters, backend, context, progress_of_stage(progress, "extract"));
   if (!extraction) return extraction.error();
   out.extraction = std::move(extraction).value();
   out.host_times.push_back({"extract", stopwatch.lap()});
 
   if (progress && !progress("certify", 0.0)) return interrupted();
-  const Result<Bvh> bvh = indexing.get();
-  if (!bvh) return bvh.error();
-  out.host_times.push_back({"index", stopwatch.lap()});
-
-  out.certify = certify_spheres(bvh.value(), parameters, longest_side(mesh.report), out.extraction, threads);
+  out.certify = certify_spheres(index.bvh(), parameters, longest_side(mesh.report), out.extraction, threads);
   out.host_times.push_back({"certify", stopwatch.lap()});
   if (progress && !progress("certify", 1.0)) return interrupted();
   return out;
@@ -70,9 +61,17 @@ double longest_side(const MeshReport& report) {
 Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const ExtractionParameters& parameters,
                                                 Backend backend, Context* context, unsigned threads,
                                                 const StageProgress& progress) {
+  const Result<MeshIndex> index = MeshIndex::create(mesh.view(), threads);
+  if (!index) return index.error();
+  return extract_and_certify(mesh, index.value(), parameters, backend, context, threads, progress);
+}
+
+Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const MeshIndex& index,
+                                                const ExtractionParameters& parameters, Backend backend,
+                                                Context* context, unsigned threads, const StageProgress& progress) {
   // The reference and the standard library may run out of memory anywhere; nothing else throws here.
   try {
-    return run_stages(mesh, parameters, backend, context, threads, progress);
+    return run_stages(mesh, index, parameters, backend, context, threads, progress);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "out of memory while extracting; try a lower --resolution"};
   } catch (const std::exception& error) {

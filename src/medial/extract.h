@@ -8,6 +8,7 @@
 #include "medial/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/mesh_index.h"
 #include "mesh/mesh.h"
 
 namespace medial_vk {
@@ -23,7 +24,7 @@ using StageProgress = std::function<bool(const char* stage, double done)>;
 struct CertifiedExtraction {
   Extraction extraction;
   CertifyReport certify;
-  std::vector<StageTime> host_times;  ///< Seconds by the clock on the wall: "extract", "index", "certify".
+  std::vector<StageTime> host_times;  ///< Seconds by the clock on the wall: "extract", "certify".
 };
 
 /// Length of the longest side of the bounding box, the unit of every fraction in ExtractionParameters.
@@ -34,6 +35,12 @@ double longest_side(const MeshReport& report);
 /// Errors: those of extract_medial_spheres(); kNoDevice without a context; kOutOfMemory; kInterrupted.
 Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const ExtractionParameters& parameters,
                                                 Backend backend, Context* context, unsigned threads = 0,
+                                                const StageProgress& progress = {});
+
+/// The same with an index of `mesh.view()` that is there already.
+Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const MeshIndex& index,
+                                                const ExtractionParameters& parameters, Backend backend,
+                                                Context* context, unsigned threads = 0,
                                                 const StageProgress& progress = {});
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// A loop over independent items on all cores.
+// A loop over independent items on the cores that are at hand.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "mesh/host_threads.h"
 
 namespace medial_vk {
 
@@ -33,7 +35,7 @@ void parallel_for(std::size_t count, std::size_t block, Body body) {
     }
   };
   const std::size_t blocks = (count + block - 1) / block;
-  const std::size_t threads = std::min<std::size_t>({std::max(1u, std::thread::hardware_concurrency()), blocks, 16});
+  const std::size_t threads = std::min<std::size_t>({host_threads(), blocks, 16});
   std::vector<std::thread> others;
   try {
     for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "medial_vk/mesh_index.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 
@@ -135,6 +136,12 @@ using ProgressCallback = std::function<bool(double done)>;
 /// float: certify() (src/medial/certify.h) makes the guarantee in double. Errors: kUsage (a parameter out of range),
 /// kInvalidMesh, kOutOfMemory, kInterrupted, kInternal (device lost).
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
+                                          const ExtractionParameters& parameters, const ProgressCallback& progress = {},
+                                          const std::stop_token& stop = {});
+
+/// The same with an index of `mesh` that is there already: made while the device was opened, or to be used again. Mode
+/// thesis does not use it. Errors: also kUsage (the index is of another number of triangles).
+Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh, const MeshIndex& index,
                                           const ExtractionParameters& parameters, const ProgressCallback& progress = {},
                                           const std::stop_token& stop = {});
 
