@@ -132,7 +132,7 @@ Result<PreparedMesh> prepare(Mesh mesh) {
   const SurfaceParts parts = find_parts(clean, topology);
   report.components = parts.components;
   report.minority_faces = make_patches_consistent(clean, topology);
-  inspect_topology(clean, topology, report);
+  std::vector<bool> regular = inspect_topology(clean, topology, report);
   Point centre;
   for (int k = 0; k < 3; ++k) centre[k] = report.lower[k] + (report.upper[k] - report.lower[k]) / 2;
   Volumes volumes = measure_volumes(clean, parts, centre);
@@ -151,8 +151,8 @@ Result<PreparedMesh> prepare(Mesh mesh) {
   report.reoriented_faces =
       report.minority_faces + sides.turned_faces + (report.inside_out ? report.triangles : std::uint64_t{0});
 
-  const std::vector<bool> regular = inspect_topology(clean, topology, report);
-  volumes = measure_volumes(clean, parts, centre);
+  if (sides.turned_faces > 0) regular = inspect_topology(clean, topology, report);
+  if (sides.turned_faces > 0 || report.inside_out) volumes = measure_volumes(clean, parts, centre);
   report.signed_volume = volumes.whole;
   if (const Status status = check_enclosure(report, volumes, sides); !status) return status.error();
   set_flags(prepared, regular, intersections, sides);
