@@ -19,10 +19,12 @@ struct TriangleTexels {
   vec4 normal;
 };
 
-// Is the foot of the perpendicular on the right side of all edges? e and f: the point from a and from b.
+// Is the foot of the perpendicular on the right side of all edges? e and f: the point from a and from b. What only the
+// triangle has a part in comes first, for those who ask about several points.
 bool projects_inside(vec3 e, vec3 f, vec3 bc, TriangleTexels t) {
-  bool in_ab = dot(cross(t.ab.xyz, e), t.normal.xyz) > 0.0, in_ac = dot(cross(e, t.ac.xyz), t.normal.xyz) > 0.0;
-  bool in_bc = dot(cross(bc, f), t.normal.xyz) > 0.0;
+  vec3 within_ab = cross(t.normal.xyz, t.ab.xyz), within_ac = cross(t.ac.xyz, t.normal.xyz);
+  vec3 within_bc = cross(t.normal.xyz, bc);
+  bool in_ab = dot(e, within_ab) > 0.0, in_ac = dot(e, within_ac) > 0.0, in_bc = dot(f, within_bc) > 0.0;
   return in_ab && in_ac && in_bc;
 }
 
