@@ -24,12 +24,13 @@ struct End {
 };
 
 // Between parts k and k + 1 of a line; 0 and kParts are its own ends.
-End end_at(uint line, uint k) {
-  if (k == 0u) return End(lines[line].p, lines[line].toward_p);
-  if (k == kParts) return End(lines[line].q, lines[line].toward_q);
-  vec3 point = mix(lines[line].p.xyz, lines[line].q.xyz, float(k) / float(kParts));
-  vec3 v = vector_to_triangle(point, load_triangle(nearest[kSectionsPerLine * line + k - 1u].y));
-  return End(vec4(point, length(v)), vec4(unit_or_zero(v), 0.0));
+End end_at(Line line, uint index, uint k) {
+  vec3 point = mix(line.p.xyz, line.q.xyz, float(k) / float(kParts));
+  uint section = clamp(k, 1u, kSectionsPerLine) - 1u;
+  vec3 v = vector_to_triangle(point, load_triangle(nearest[kSectionsPerLine * index + section].y));
+  vec4 inner = vec4(point, length(v)), toward = vec4(unit_or_zero(v), 0.0);
+  return End(k == 0u ? line.p : k == kParts ? line.q : inner,
+             k == 0u ? line.toward_p : k == kParts ? line.toward_q : toward);
 }
 
 float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
@@ -61,39 +62,38 @@ bool is_narrow(End a, End b) {
 }
 
 // The part that is best, and its ends: it lies between ends k - 1 and k.
-uint best_part(uint line, out End p, out End q) {
+uint best_part(Line line, uint index, out End p, out End q) {
   float least = 8.0;  // more than any rank
-  uint best = 0u;
-  End last = end_at(line, 0u);
+  uint best = 0u, k = 1u;
+  End last = End(line.p, line.toward_p);
   p = last;
   q = last;
-  for (uint k = 1u; k <= kParts; ++k) {
-    End next = end_at(line, k);
+  for (;;) {
+    End next = end_at(line, index, k);
     float now = rank(last, next);
-    if (now < least) {
-      least = now;
-      best = k;
-      p = last;
-      q = next;
-    }
+    bool is_better = now < least;
+    least = min(least, now);
+    best = is_better ? k : best;
+    p = is_better ? last : p;
+    q = is_better ? next : q;
     last = next;
+    if (++k > kParts) return best;
   }
-  return best;
 }
 
 // A sheet that runs along a face of its voxel, as those of symmetric solids often do, leaves the ends of the best part
 // on the face, or in the next voxel. One of them then moves away from the sheet, into the voxel.
-void move_into_voxel(uint line, Cell cell, uint best, inout End p, inout End q) {
+void move_into_voxel(Line line, uint index, Cell cell, uint best, inout End p, inout End q) {
   for (uint away = 1u; away < kParts; ++away) {
     if (away < best) {
-      End end = end_at(line, best - 1u - away);
+      End end = end_at(line, index, best - 1u - away);
       if (is_in_voxel(end.point.xyz, cell) && is_narrow(end, q)) {
         p = end;
         return;
       }
     }
     if (best + away <= kParts) {
-      End end = end_at(line, best + away);
+      End end = end_at(line, index, best + away);
       if (is_in_voxel(end.point.xyz, cell) && is_narrow(p, end)) {
         q = end;
         return;
@@ -105,12 +105,13 @@ void move_into_voxel(uint line, Cell cell, uint best, inout End p, inout End q) 
 void main() {
   uint index = invocation_index();
   if (index >= counters[kLines]) return;
-  Cell cell = cells[lines[index].cell];
+  Line line = lines[index];
+  Cell cell = cells[line.cell];
   End p, q;
-  uint best = best_part(index, p, q);
+  uint best = best_part(line, index, p, q);
   bool is_outside = !is_in_voxel(p.point.xyz, cell) && !is_in_voxel(q.point.xyz, cell);
   // Longer parts are never narrow.
-  if (is_outside && distance(p.point.xyz, q.point.xyz) < step.epsilon) move_into_voxel(index, cell, best, p, q);
+  if (is_outside && distance(p.point.xyz, q.point.xyz) < step.epsilon) move_into_voxel(line, index, cell, best, p, q);
   lines[index].p = p.point;
   lines[index].q = q.point;
   lines[index].toward_p = p.toward;
