@@ -29,7 +29,7 @@ layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; }
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 // Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the first witness.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
-layout(set = 0, binding = 9) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
+layout(set = 0, binding = 9) buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
@@ -163,6 +163,15 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
   }
 }
 
+void store(uint item, Marks marks) {
+  counts[item] = marks.count;
+  axes[item] = marks.axis;
+  nearest[item] = marks.first;
+  states[item].x = marks.partner;  // until settle()
+}
+
+Marks stored(uint item) { return Marks(counts[item], axes[item], nearest[item], states[item].x); }
+
 // Of the eight children of a parent, where they walk together.
 bool is_so_of_any(bool mine) {
 #ifdef LOCKSTEP
@@ -216,26 +225,30 @@ void main() {
   Witness back = witness_of(centre, back_name);
   uint end = min(parent.list_count, begin + kEntriesPerRound);
   bool is_first = begin == 0u, is_last = end >= parent.list_count;
-  Marks before = Marks(uvec4(0u), vec4(0.0, 0.0, 0.0, 2.0), uvec2(kFarthestBits, 0u), kNoTriangle), marks;
-  if (!is_first) before = Marks(counts[item], axes[item], nearest[item], kNoTriangle);
+  Marks before = Marks(uvec4(0u), vec4(0.0, 0.0, 0.0, 2.0), uvec2(kFarthestBits, 0u), kNoTriangle);
+  if (!is_first) before = stored(item);
   // Whether Lemma L may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
   // then the cell is marked once more without it, which is rare if only half of the promise is believed.
   float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
   Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
+  Marks marks;
   uint walks = 0u;
   for (;;) {
     marks = mark(parent, child, centre, front, back, prism, begin, end, before);
+    store(item, marks);
     ++walks;
     bool is_inside = in_parent || (marks.count.w & kSeenInFront) == 0u;
     bool is_wrong = prism.is_asked && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
     prism.is_asked = prism.is_asked && !is_wrong;
     if (!is_so_of_any(is_wrong)) break;
   }
-  counts[item] = uvec4(marks.count.xy, is_last ? marks.partner : marks.count.z, marks.count.w);
-  axes[item] = marks.axis;
-  nearest[item] = marks.first;
+#ifndef LOCKSTEP
+  // The walks of others that share its vector change what a lane had when it left this loop (docs/reliability.md).
+  marks = stored(item);
+#endif
   if (!is_last) return;
+  counts[item].z = marks.partner;
   uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
   if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
   if (is_in_grid(coordinates))

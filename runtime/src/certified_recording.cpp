@@ -72,13 +72,13 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
   step.first_item = first;
-  const Kernel gather{"gather_contacts",
-                      {counters_.range(), states_.range(), offsets_.range(), nearest_.range(), cells_[0].range(),
-                       lists_[0].range()},
-                      Reads::kClusters,
-                      {},
-                      kEightLanes,
-                      Lanes::kEight};
+  const Kernel gather{
+      "gather_contacts",
+      {counters_.range(), states_.range(), offsets_.range(), nearest_.range(), cells_[0].range(), lists_[0].range()},
+      Reads::kClusters,
+      {},
+      kEightLanes,
+      Lanes::kEight};
   const Extent top_cells{gpu::kParents};
   run(r, gather, top_cells, step);
   step.second_task = 1;

@@ -210,7 +210,8 @@ Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mes
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
   const VkBuffer before = clusters.handle;
-  Status status = fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kTexels, "clusters of triangles", clusters);
+  Status status =
+      fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kTexels, "clusters of triangles", clusters);
   if (!status.ok() || clusters.handle == before) return status;
   return create_view(clusters, kFloats, cluster_texels);
 }

@@ -122,7 +122,7 @@ struct DeviceMesh {
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
   Arena arena_;
-  std::shared_ptr<Bvh> bvh_;  // input units; a MeshIndex may share it
+  std::shared_ptr<Bvh> bvh_;         // input units; a MeshIndex may share it
   std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()
 };
 

@@ -91,6 +91,38 @@ TEST(Clusters, AnUntrustedNormalFitsNoCone) {
   for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), {}, 16, 8192)) EXPECT_EQ(c.axis.w, gpu::kNoCone);
 }
 
+// +1 or -1 as shaders/shared/cluster.glsl has it: by the cylinder and the tilt.
+int side_by_cylinder(const gpu::Cluster& c, const Point& p) {
+  const Point v = xyz(c.centre) - p, axis = xyz(c.axis);
+  const double along = dot(v, axis), most_across = length(v - along * axis) + double{c.centre.w};
+  const double least_along = std::abs(along) - double{c.half_height};
+  const bool is_clear = double{c.axis.w} * least_along > double{c.sin_tilt} * most_across;
+  return c.axis.w != gpu::kNoCone && is_clear ? (along > 0 ? 1 : -1) : 0;
+}
+
+TEST(Clusters, AreBehindOrInFrontOnlyIfAllTheirTrianglesAre) {
+  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus()), 4).value();
+  const UnitTransform to_unit = unit_box_of(bvh);
+  const std::vector<std::uint8_t> trusted(bvh.corners().size(), kTrustedNormal);
+  const std::vector<gpu::Cluster> clusters = make_clusters(bvh, to_unit, trusted, 16, 8192);
+  int behind = 0, in_front = 0, neither = 0;
+  for (const gpu::Cluster& c : clusters) {
+    for (int k = -20; k <= 20; ++k) {  // along the axis, and a little off it
+      const Point p = xyz(c.point) + (0.01 * k) * xyz(c.axis) + Point{0.01, -0.02, 0.005};
+      const int side = side_by_cylinder(c, p);
+      ++(side > 0 ? behind : side < 0 ? in_front : neither);
+      for (std::uint32_t i = c.first; side != 0 && i < c.first + c.count; ++i) {
+        const std::array<Point, 3> corners = unit_corners(bvh, to_unit, i);
+        const Point normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        EXPECT_GT(side * dot(normal, corners[0] - p), 0);
+      }
+    }
+  }
+  EXPECT_GT(behind, 1000);
+  EXPECT_GT(in_front, 1000);
+  EXPECT_GT(neither, 100);
+}
+
 TEST(Clusters, GrowUntilThereAreFewEnough) {
   const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus()), 4).value();
   const auto number = [&](std::uint32_t most) { return make_clusters(bvh, unit_box_of(bvh), {}, 16, most).size(); };

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "mesh/parallel_for.h"
@@ -32,6 +33,21 @@ TEST(ParallelFor, PassesOnWhatABodyThrowsOnceAllThreadsHaveEnded) {
   EXPECT_THROW(parallel_for(100'000, 1, body), std::bad_alloc);
   EXPECT_EQ(running, 0);
   EXPECT_LT(done, 100'000);
+}
+
+TEST(ParallelFor, StartsNoThreadWhileLibrariesAreLoaded) {
+  const unsigned all = host_threads();
+  {
+    const LoadingLibraries one;
+    const LoadingLibraries another;
+    EXPECT_EQ(host_threads(), 1u);
+    EXPECT_EQ(host_threads(8), 1u);
+    std::vector<std::thread::id> by(1000);
+    parallel_for(by.size(), 1, [&](std::size_t i) { by[i] = std::this_thread::get_id(); });
+    for (const std::thread::id& id : by) EXPECT_EQ(id, std::this_thread::get_id());
+  }
+  EXPECT_EQ(host_threads(), all);
+  EXPECT_EQ(host_threads(8), 8u);
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+// What is known of a mesh before there is a device: extractions with it are those without, and it does not move.
+#include "medial_vk/mesh_index.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "context_impl.h"
+#include "medial_vk/extraction.h"
+#include "scene.h"
+#include "support/device_test.h"
+#include "support/extraction.h"
+#include "support/solids.h"
+
+namespace medial_vk {
+namespace {
+
+class MeshIndexTest : public test::DeviceTest {};
+
+ExtractionParameters small_job() {
+  ExtractionParameters parameters;
+  parameters.resolution = 24;
+  return parameters;
+}
+
+void expect_same(const Extraction& a, const Extraction& b) {
+  ASSERT_GT(a.spheres.size(), 50u);
+  ASSERT_EQ(a.spheres.size(), b.spheres.size());
+  for (std::size_t i = 0; i < a.spheres.size(); ++i)
+    EXPECT_EQ(std::memcmp(&a.spheres[i], &b.spheres[i], sizeof(MedialSphere)), 0) << "sphere " << i;
+  EXPECT_EQ(a.counters.queries, b.counters.queries);
+}
+
+TEST_F(MeshIndexTest, ExtractionsAreThoseWithout) {
+  const PreparedMesh mesh = test::prepare(test::make_turned_torus());
+  const MeshIndex index = MeshIndex::create(mesh.view()).value();
+  const auto without = extract_medial_spheres(*context_, mesh.view(), small_job());
+  ASSERT_TRUE(without.ok());
+  for (int time = 0; time < 2; ++time) {
+    const auto with = extract_medial_spheres(*context_, mesh.view(), index, small_job());
+    ASSERT_TRUE(with.ok());
+    expect_same(without.value(), with.value());
+  }
+}
+
+TEST_F(MeshIndexTest, OfAnotherMeshIsRefused) {
+  const PreparedMesh mesh = test::prepare(test::make_turned_torus()),
+                     other = test::prepare(test::make_turned_torus(24, 12));
+  const MeshIndex index = MeshIndex::create(other.view()).value();
+  const auto refused = extract_medial_spheres(*context_, mesh.view(), index, small_job());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+}
+
+TEST_F(MeshIndexTest, StaysWhereItIsWhenADeviceMeshMoves) {
+  const Mesh before = test::make_turned_torus(), after = test::bent(before);
+  const MeshIndex index = MeshIndex::create(test::view_of(before)).value();
+  const std::vector<std::array<Point, 3>> corners = index.bvh().corners();
+  DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(before), index).value();
+  ASSERT_TRUE(device.update(context_->impl(), test::view_of(after)).ok());
+  EXPECT_TRUE(index.bvh().corners() == corners);
+  EXPECT_NE(device.upper, index.bvh().nodes()[0].box.upper);
+}
+
+TEST(MeshIndex, ErrorsAreThoseOfTheTree) {
+  Mesh mesh = test::make_turned_torus();
+  mesh.vertices[5][0] = std::numeric_limits<double>::quiet_NaN();
+  const Result<MeshIndex> index = MeshIndex::create(test::view_of(mesh));
+  ASSERT_FALSE(index.ok());
+  EXPECT_EQ(index.error().code, ErrorCode::kInvalidMesh);
+}
+
+TEST(MeshIndex, DoesNotDependOnTheNumberOfThreads) {
+  const Mesh mesh = test::make_turned_torus();
+  const MeshIndex one = MeshIndex::create(test::view_of(mesh), 1).value();
+  const MeshIndex three = MeshIndex::create(test::view_of(mesh), 3).value();
+  EXPECT_EQ(one.bvh().order(), three.bvh().order());
+}
+
+}  // namespace
+}  // namespace medial_vk
