@@ -65,27 +65,22 @@ uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance
   }
 }
 
-void count(uint item, vec3 centre, uint name, Witness witness) {
-  float clearance = 3e38;
-  uint total = 0u;
-  for (uint first = 0u;;) {
-    total += bitCount(listed_from(first, centre, witness, clearance));
-    first += 32u;
-    if (first >= step.cluster_count) break;
-  }
-  if (item >= counters[kParents]) return;
-  nearest[item].y = name;
-  // decide_side.comp replaces the clearance by flags.
-  states[item] = uvec4(1u, total, (total + 31u) / 32u, ordered_bits(clearance));
-}
-
-void write(uint item, uvec3 coordinates, vec3 centre, Witness witness) {
-  bool is_kept = item < counters[kParents] && states[item].x != 0u;
+// Lanes beyond the last cell walk with the others.
+void main() {
+  uint item = invocation_index();
+  if (item - gl_LocalInvocationID.x >= counters[kParents]) return;  // all of the workgroup
+  bool exists = item < counters[kParents], writes = step.second_task != 0u;
+  bool is_kept = exists && writes && states[item].x != 0u;
+  uvec3 coordinates = top_cell_coordinates(step.first_item + item);
+  vec3 centre = cell_centre(coordinates);
+  uint name = writes ? min(nearest[item].y, step.cluster_count - 1u) : find_witness(centre);
+  Witness witness = witness_at(name, cluster_texel(name, kClusterPoint).xyz - centre);
   uvec4 offset = offsets[item];
-  uint position = offset.y;
+  uint total = 0u;
   float clearance = 3e38;
   for (uint first = 0u;;) {
-    uint word = listed_from(first, centre, witness, clearance);
+    uint word = listed_from(first, centre, witness, clearance), position = offset.y + total;
+    total += bitCount(word);
     word = is_kept ? word : 0u;
     while (word != 0u) {
       lists[position] = first + uint(findLSB(word));
@@ -95,23 +90,13 @@ void write(uint item, uvec3 coordinates, vec3 centre, Witness witness) {
     first += 32u;
     if (first >= step.cluster_count) break;
   }
+  if (exists && !writes) {
+    nearest[item].y = name;
+    // decide_side.comp replaces the clearance by flags.
+    states[item] = uvec4(1u, total, (total + 31u) / 32u, ordered_bits(clearance));
+  }
   if (!is_kept) return;
-  uint total = position - offset.y;
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, 0u, offset.y, total, offset.z, states[item].w, 0u,
                          0u, kNoTriangle, 0u);
   atomicMax(counters[kLongestCellList], total);
-}
-
-// Lanes beyond the last cell walk with the others.
-void main() {
-  uint item = invocation_index();
-  if (item - gl_LocalInvocationID.x >= counters[kParents]) return;  // all of the workgroup
-  uvec3 coordinates = top_cell_coordinates(step.first_item + item);
-  vec3 centre = cell_centre(coordinates);
-  uint name = step.second_task != 0u ? min(nearest[item].y, step.cluster_count - 1u) : find_witness(centre);
-  Witness witness = witness_at(name, cluster_texel(name, kClusterPoint).xyz - centre);
-  if (step.second_task != 0u)
-    write(item, coordinates, centre, witness);
-  else
-    count(item, centre, name, witness);
 }

@@ -63,7 +63,7 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 }
 
 // Among which contacts of the parent witnesses are sought: the first ones touch its cube, and whatever is nearest to a
-// point of that is one of them.
+// point of that, the child's centre say, is one of them. (For other points any witness will do.)
 uint candidates_of(Cell parent) { return parent.touching != 0u ? parent.touching : parent.list_count; }
 
 // The nearest to p of these, or of a sample of them. All eight lanes call it, each with its own p.
@@ -243,10 +243,8 @@ void main() {
     prism.is_asked = prism.is_asked && !is_wrong;
     if (!is_so_of_any(is_wrong)) break;
   }
-#ifndef LOCKSTEP
-  // The walks of others that share its vector change what a lane had when it left this loop (docs/reliability.md).
+  // The walks of others that share its vector may have changed what a lane had when it left (docs/reliability.md).
   marks = stored(item);
-#endif
   if (!is_last) return;
   counts[item].z = marks.partner;
   uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Prefix sums of uvec4, step 1 of 3: the sum of each block of 1024 elements (Blelloch 1990).
-#include "gpu_types.h"
+#include "scan.glsl"
 
 layout(local_size_x_id = 0) in;  // 64
 layout(push_constant) uniform Push { ScanConstants scan; };
@@ -16,11 +16,11 @@ void main() {
   uint count = counters[scan.items_counter] * scan.items_multiplier;
   uint begin = 1024u * block + 16u * gl_LocalInvocationID.x;
   uvec4 sum = uvec4(0);
-  for (uint i = begin; i < min(count, begin + 16u); ++i) sum += elements[i];
+  for (uint i = begin; i < min(count, begin + 16u); ++i) sum = add(sum, elements[i]);
   lane_sums[gl_LocalInvocationID.x] = sum;
   barrier();
   if (gl_LocalInvocationID.x != 0u || 1024u * block >= count) return;
   uvec4 total = uvec4(0);
-  for (uint i = 0; i < 64u; ++i) total += lane_sums[i];
+  for (uint i = 0; i < 64u; ++i) total = add(total, lane_sums[i]);
   block_sums[block] = total;
 }

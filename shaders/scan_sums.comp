@@ -3,7 +3,7 @@
 // Prefix sums of uvec4, step 2 of 3: one workgroup turns the block sums into offsets, and stores the totals. A total
 // above its limit means that a buffer is too small: the overflow counter says so and all later dispatches are empty. Few
 // elements need no other step: their sums are made here.
-#include "gpu_types.h"
+#include "scan.glsl"
 
 layout(local_size_x_id = 0) in;  // 64
 layout(push_constant) uniform Push { ScanConstants scan; };
@@ -29,16 +29,16 @@ void main() {
   uint run = (parts + 63u) / 64u;
   uint begin = min(parts, lane * run), end = min(parts, begin + run);
   uvec4 sum = uvec4(0);
-  for (uint i = begin; i < end; ++i) sum += part(i, few);
+  for (uint i = begin; i < end; ++i) sum = add(sum, part(i, few));
   lane_sums[lane] = sum;
   barrier();
   uvec4 offset = uvec4(0), total = uvec4(0);
   for (uint i = 0; i < 64u; ++i) {
-    offset += i < lane ? lane_sums[i] : uvec4(0);
-    total += lane_sums[i];
+    offset = add(offset, i < lane ? lane_sums[i] : uvec4(0));
+    total = add(total, lane_sums[i]);
   }
   for (uint i = begin; i < end; ++i) {
-    uvec4 next = offset + part(i, few);
+    uvec4 next = add(offset, part(i, few));
     if (few)
       sums[i] = offset;
     else

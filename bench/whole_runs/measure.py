@@ -30,9 +30,8 @@ def wait(process, limit):
 
 
 def run_once(binary, mesh, folder, options=(), limit=600):
-    """One whole run. Seconds of wall and CPU time, of the device by its timestamps and of each stage; MiB at most."""
-    report, output = Path(folder) / "report.json", Path(folder) / "points.ply"
-    command = [str(binary), str(mesh), "-q", "-o", str(output), "--report", str(report), *options]
+    """One whole run that writes its points and nothing else: seconds of wall and CPU time, MiB at most."""
+    command = [str(binary), str(mesh), "-q", "-o", str(Path(folder) / "points.ply"), *options]
     start = time.perf_counter()
     with open(Path(folder) / "errors.txt", "w+", encoding="utf-8") as errors:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors)
@@ -41,14 +40,17 @@ def run_once(binary, mesh, folder, options=(), limit=600):
         errors.seek(0)
         if process.returncode != 0:
             raise RunFailed(errors.read().strip() or f"exit code {process.returncode}")
+    return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "peak_mib": usage.ru_maxrss / 1024}
+
+
+def reported_run(binary, mesh, folder, options=(), limit=600):
+    """The same with what its report says. A report has more in it than points (volumes of unions): it takes longer."""
+    report = Path(folder) / "report.json"
+    run = run_once(binary, mesh, folder, [*options, "--report", str(report)], limit)
     facts = json.loads(report.read_text(encoding="utf-8"))
-    device = sum(stage["seconds"] for stage in facts["seconds"]["device"])
     return {
-        "wall": wall,
-        "cpu": usage.ru_utime + usage.ru_stime,
-        "device": device,
-        "host": wall - device,
-        "peak_mib": usage.ru_maxrss / 1024,
+        **run,
+        "device": sum(stage["seconds"] for stage in facts["seconds"]["device"]),
         "triangles": facts["mesh"]["triangles"],
         "points": facts["points"]["written"],
         "undecided": facts["voxels"]["undecided"],
@@ -59,12 +61,12 @@ def run_once(binary, mesh, folder, options=(), limit=600):
     }
 
 
-def median_run(binary, mesh, folder, options=(), repeats=3, limit=600, warm_up=True):
-    """The run with the median wall time of `repeats`, after one that is not counted."""
-    if warm_up:
-        run_once(binary, mesh, folder, options, limit)
+def median_run(binary, mesh, folder, options=(), repeats=3, limit=600):
+    """The median and the least wall time of `repeats` runs, after one to warm up and one for the report."""
+    run_once(binary, mesh, folder, options, limit)
+    facts = reported_run(binary, mesh, folder, options, limit)
     runs = sorted((run_once(binary, mesh, folder, options, limit) for _ in range(repeats)), key=lambda r: r["wall"])
-    return {**runs[(len(runs) - 1) // 2], "least_wall": runs[0]["wall"], "repeats": repeats}
+    return {**facts, **runs[(len(runs) - 1) // 2], "least_wall": runs[0]["wall"], "repeats": repeats}
 
 
 def exponent(xs, ys):

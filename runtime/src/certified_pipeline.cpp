@@ -254,7 +254,8 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   key.texel_buffers = static_cast<uint>(texels.size());
   key.push_constant_bytes = sizeof(step);
   key.workgroup_size = kernel.workgroup_size;
-  if (kernel.reads > Reads::kClusters) key.shader += storage_suffix(mesh_->use_texels);
+  const bool has_variants = kernel.reads != Reads::kNoMesh && kernel.reads != Reads::kClusters;
+  if (has_variants) key.shader += storage_suffix(mesh_->use_texels);
   key.constants = kernel.constants;
   r.dispatch_indirect(key, kernel.buffers, texels, bytes_of(step), arguments_.buffer(), groups);
   r.barrier();

@@ -44,11 +44,8 @@ class CertifiedPipeline {
   void set_grid(const std::array<std::uint32_t, 3>& grid);
   /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
-  /// Most top cells that one recorded sequence can take: their states fit the buffers, and the sum of their contacts,
-  /// at worst all triangles for each, fits the 32 bits that prefix sums count in.
-  std::uint32_t largest_chunk() const {
-    return std::max(1u, std::min(8 * capacity_.cells, 0xffffffffu / mesh_->triangle_count));
-  }
+  /// Most top cells that one recorded sequence can take: their states fit the buffers.
+  std::uint32_t largest_chunk() const { return 8 * capacity_.cells; }
   /// Share of the buffers that a piece of work should fill.
   double aim() const;
   /// A first guess of how many top cells do so.
@@ -117,7 +114,7 @@ class CertifiedPipeline {
   void record_flux(Recorder& r, std::uint32_t first);
 
   // What a kernel reads of the mesh: nothing, clusters of triangles, triangles, these and the tree, or these and links.
-  // Texel views follow its buffers.
+  // Texel views follow its buffers; all but clusters may have to be read as storage instead.
   enum class Reads : std::uint32_t { kNoMesh, kClusters, kTriangles, kTree, kLinks };
   std::vector<VkBufferView> texels_of(Reads reads) const;
   static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup whose invocations walk together

@@ -148,8 +148,11 @@ Result<Extraction> extract(Context& context, const MeshView& mesh, const MeshInd
   Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&]() -> Result<Extraction> {
     if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, watch);
     if (index != nullptr) return extract_certified(context.impl(), mesh, *index, parameters, watch);
+    const VkPhysicalDeviceLimits& limits = context.impl().limits;
+    if (Status s = DeviceMesh::check_size(mesh.triangles.size(), limits); !s.ok()) return s.error();
     const Result<MeshIndex> made = MeshIndex::create(mesh);
     if (!made.ok()) return made.error();
+    if (watch.stopped()) return StopWatch::error();
     return extract_certified(context.impl(), mesh, made.value(), parameters, watch);
   });
   if (extraction.ok() && progress) progress(1.0);

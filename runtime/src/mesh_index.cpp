@@ -1,5 +1,6 @@
 #include "medial_vk/mesh_index.h"
 
+#include <string>
 #include <utility>
 
 #include "host_memory.h"
@@ -9,14 +10,26 @@
 namespace medial_vk {
 
 Result<MeshIndex> MeshIndex::create(const MeshView& mesh, unsigned threads) {
+  if (mesh.triangles.size() > DeviceMesh::kMostTriangles) {
+    return Error{ErrorCode::kOutOfMemory, "the mesh has " + std::to_string(mesh.triangles.size()) +
+                                              " triangles, the device code addresses " +
+                                              std::to_string(DeviceMesh::kMostTriangles)};
+  }
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<MeshIndex> {
     Result<Bvh> bvh = Bvh::build(mesh, DeviceMesh::kLeafSize, threads);
     if (!bvh.ok()) return bvh.error();
     MeshIndex index;
-    index.bvh_ = std::make_shared<Bvh>(std::move(bvh).value());
+    index.bvh_ = std::make_shared<const Bvh>(std::move(bvh).value());
     index.links_ = std::make_shared<const MeshLinks>(make_mesh_links(mesh, index.bvh_->order(), threads));
+    index.vertices_ = mesh.vertices.size();
+    index.flags_ = mesh.flags.size();
     return index;
   });
+}
+
+bool MeshIndex::is_of(const MeshView& mesh) const {
+  return bvh_->order().size() == mesh.triangles.size() && vertices_ == mesh.vertices.size() &&
+         flags_ == mesh.flags.size();
 }
 
 }  // namespace medial_vk

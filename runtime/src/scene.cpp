@@ -22,13 +22,14 @@ Uploader upload_at_once(Context::Impl& context) {
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr std::uint32_t kTrianglesOfCluster = 16;
 
+}  // namespace
+
 /// Before anything is built. The triangles are the largest of the buffers that grow with the mesh.
-Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
+Status DeviceMesh::check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
   constexpr std::size_t kBytes = kTexelsPerTriangle * sizeof(Texel);
   const std::string mesh = "the mesh has " + std::to_string(triangles) + " triangles, ";
-  if (triangles > DeviceMesh::kMostTriangles) {
-    return Error{ErrorCode::kOutOfMemory,
-                 mesh + "the device code addresses " + std::to_string(DeviceMesh::kMostTriangles)};
+  if (triangles > kMostTriangles) {
+    return Error{ErrorCode::kOutOfMemory, mesh + "the device code addresses " + std::to_string(kMostTriangles)};
   }
   const std::size_t in_storage = limits.maxStorageBufferRange / kBytes;
   const std::size_t in_texels = limits.maxTexelBufferElements / kTexelsPerTriangle;
@@ -41,33 +42,30 @@ Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
                                             std::to_string(sizeof(Texel)) + " bytes (maxTexelBufferElements)"};
 }
 
-}  // namespace
-
 Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh) {
   if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
   Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
   if (!bvh.ok()) return bvh.error();
   DeviceMesh device(context);
-  Status status = device.take(context, mesh, std::make_shared<Bvh>(std::move(bvh).value()), {});
-  if (!status.ok()) return status.error();
+  device.own_bvh_ = std::make_shared<Bvh>(std::move(bvh).value());
+  device.bvh_ = device.own_bvh_;
+  if (Status status = device.upload_whole(context, mesh, {}); !status.ok()) return status.error();
   return device;
 }
 
 Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index) {
   if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
-  if (index.bvh().order().size() != mesh.triangles.size())
-    return Error{ErrorCode::kUsage, "the index is that of another mesh"};
+  if (!index.is_of(mesh)) return Error{ErrorCode::kUsage, "the index is that of another mesh"};
   DeviceMesh device(context);
+  device.bvh_ = index.bvh_;
   const MeshLinks& links = *index.links_;
-  if (Status status = device.take(context, mesh, index.bvh_, links.spreads); !status.ok()) return status.error();
+  if (Status status = device.upload_whole(context, mesh, links.spreads); !status.ok()) return status.error();
   if (Status status = device.upload_all_links(upload_at_once(context), mesh, links); !status.ok())
     return status.error();
   return device;
 }
 
-Status DeviceMesh::take(Context::Impl& context, const MeshView& mesh, std::shared_ptr<Bvh> bvh,
-                        std::span<const float> spreads) {
-  bvh_ = std::move(bvh);
+Status DeviceMesh::upload_whole(Context::Impl& context, const MeshView& mesh, std::span<const float> spreads) {
   order = bvh_->order();
   triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = measure(mesh); !status.ok()) return status;
@@ -85,8 +83,9 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Up
   }
   const bool was_intact = intact;
   intact = false;
-  if (bvh_.use_count() > 1) bvh_ = std::make_shared<Bvh>(*bvh_);  // a MeshIndex does not move
-  if (Status status = bvh_->refit(mesh); !status.ok()) {
+  if (own_bvh_ == nullptr) own_bvh_ = std::make_shared<Bvh>(*bvh_);  // a MeshIndex does not move
+  bvh_ = own_bvh_;
+  if (Status status = own_bvh_->refit(mesh); !status.ok()) {
     intact = was_intact && status.error().code == ErrorCode::kInvalidMesh;
     return status;
   }
@@ -183,10 +182,11 @@ Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
 }
 
 Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {
-  linked_vertices_ = mesh.vertices.size();
   if (Status status = upload_links(uploader, links); !status.ok()) return status;
   if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
-  return upload_open_edges(uploader, mesh);
+  if (Status status = upload_open_edges(uploader, mesh); !status.ok()) return status;
+  linked_vertices_ = mesh.vertices.size();
+  return {};
 }
 
 Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links) {
@@ -212,7 +212,7 @@ Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mes
   const VkBuffer before = clusters.handle;
   Status status =
       fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kTexels, "clusters of triangles", clusters);
-  if (!status.ok() || clusters.handle == before) return status;
+  if (!status.ok() || (cluster_texels != VK_NULL_HANDLE && clusters.handle == before)) return status;
   return create_view(clusters, kFloats, cluster_texels);
 }
 

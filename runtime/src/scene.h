@@ -35,6 +35,9 @@ struct DeviceMesh {
   /// triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535 iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
+  /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
+  static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
+
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
   /// kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
@@ -106,7 +109,7 @@ struct DeviceMesh {
 
  private:
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
-  Status take(Context::Impl& context, const MeshView& mesh, std::shared_ptr<Bvh> bvh, std::span<const float> spreads);
+  Status upload_whole(Context::Impl& context, const MeshView& mesh, std::span<const float> spreads);
   Status measure(const MeshView& mesh);
   Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
                      std::span<const float> spreads);
@@ -122,7 +125,8 @@ struct DeviceMesh {
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
   Arena arena_;
-  std::shared_ptr<Bvh> bvh_;         // input units; a MeshIndex may share it
+  std::shared_ptr<const Bvh> bvh_;   // input units; a MeshIndex may share it
+  std::shared_ptr<Bvh> own_bvh_;     // the same if none does, or null
   std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()
 };
 

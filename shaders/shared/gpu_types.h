@@ -158,7 +158,7 @@ struct StepConstants {
   uint second_task;             // 1: kernels that have two tasks do their second
 };
 
-MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // as those of top cells never do
+MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // never of top cells
 MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and so do those of the children
 MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children will hold triangles
 

@@ -97,6 +97,7 @@ class ExtractionRun {
   }
 
   Status index() {
+    if (!uses_index(options_.parameters, options_.backend)) return {};
     const EndAtOnce guard;
     if (interrupted()) return stopped();
     Stopwatch stopwatch;
@@ -112,9 +113,12 @@ class ExtractionRun {
       progress_.update(stage, done);
       return !interrupted();
     };
+    Context* const context = context_ ? &*context_ : nullptr;
+    const auto& parameters = options_.parameters;
     Result<CertifiedExtraction> result =
-        extract_and_certify(mesh_, *index_, options_.parameters, options_.backend, context_ ? &*context_ : nullptr,
-                            options_.threads, on_progress);
+        index_
+            ? extract_and_certify(mesh_, *index_, parameters, options_.backend, context, options_.threads, on_progress)
+            : extract_and_certify(mesh_, parameters, options_.backend, context, options_.threads, on_progress);
     progress_.clear();
     if (!result) return result.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(result.error());
     spheres_ = std::move(result.value().extraction.spheres);

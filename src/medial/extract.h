@@ -37,6 +37,9 @@ Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const 
                                                 Backend backend, Context* context, unsigned threads = 0,
                                                 const StageProgress& progress = {});
 
+/// Is an index of the mesh any use for that?
+bool uses_index(const ExtractionParameters& parameters, Backend backend);
+
 /// The same with an index of `mesh.view()` that is there already.
 Result<CertifiedExtraction> extract_and_certify(const PreparedMesh& mesh, const MeshIndex& index,
                                                 const ExtractionParameters& parameters, Backend backend,

@@ -3,23 +3,30 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 namespace medial_vk {
 
 /// While one lives, some thread loads a driver with its libraries. glibc then holds a lock that everybody needs who
-/// starts a thread, until all is relocated (25 ms for LLVM): a loop is done sooner by the thread that is there.
+/// starts a thread, until all is relocated (25 ms for LLVM): a loop is done sooner by the thread that is there. What
+/// else opening a device takes is no reason to wait.
 class LoadingLibraries {
  public:
-  LoadingLibraries() { ++number_; }
+  LoadingLibraries() {
+    latest_ = (Clock::now() + std::chrono::milliseconds(50)).time_since_epoch().count();
+    ++number_;
+  }
   ~LoadingLibraries() { --number_; }
   LoadingLibraries(const LoadingLibraries&) = delete;
   LoadingLibraries& operator=(const LoadingLibraries&) = delete;
 
-  static bool any() { return number_ != 0; }
+  static bool any() { return number_ != 0 && Clock::now().time_since_epoch().count() < latest_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
   inline static std::atomic<int> number_ = 0;
+  inline static std::atomic<Clock::rep> latest_ = 0;
 };
 
 /// At least 1; `wanted` 0: as many as the machine has.

@@ -61,7 +61,7 @@ TEST(LoopBudget, ClustersAreExpandedInRounds) {
   CertifiedExtraction result;
   expect_centre_found(40, 300000, result);
   const ExtractionCounters::Level& level = result.extraction.counters.levels[0];
-  ASSERT_GT(level.cluster_tests, 0u) << "lists of top cells hold no clusters";
+  ASSERT_GT(level.cluster_tests, 0u) << "no list holds clusters";
   const Mesh sphere = test::make_sphere(1, 300000);
   const Bvh bvh = Bvh::build({sphere.vertices, sphere.triangles, {}, true}, gpu::kMostLeafTriangles).value();
   const auto clusters = make_clusters(bvh, {}, {}, 16, 8192);
@@ -81,7 +81,7 @@ TEST(LoopBudget, ListsLongerThanTheBudget) {
   EXPECT_GT(longest_mean, kLoopBudget) << test::describe(result);
 }
 
-// Each of the eight lanes of a subgroup would have to write more than a budget of triangles to the list of a top cell.
+// Expanding the clusters of one cell, eight lanes at once, would take more than a budget of iterations.
 TEST(LoopBudget, MoreTrianglesThanEightBudgets) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   CertifiedExtraction result;

@@ -5,9 +5,12 @@
 
 #include <cstring>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "context_impl.h"
 #include "medial_vk/extraction.h"
+#include "mesh_links.h"
 #include "scene.h"
 #include "support/device_test.h"
 #include "support/extraction.h"
@@ -51,6 +54,26 @@ TEST_F(MeshIndexTest, OfAnotherMeshIsRefused) {
   const auto refused = extract_medial_spheres(*context_, mesh.view(), index, small_job());
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+  MeshView without_flags = mesh.view();
+  without_flags.flags = {};
+  EXPECT_TRUE(MeshIndex::create(mesh.view()).value().is_of(mesh.view()));
+  EXPECT_FALSE(MeshIndex::create(mesh.view()).value().is_of(without_flags));
+}
+
+TEST_F(MeshIndexTest, ModeThesisDoesWithoutOne) {
+  const PreparedMesh mesh = test::prepare(test::make_turned_torus());
+  ExtractionParameters parameters = small_job();
+  parameters.mode = Mode::kThesis;
+  const auto without = extract_medial_spheres(*context_, mesh.view(), parameters);
+  const auto with = extract_medial_spheres(*context_, mesh.view(), MeshIndex::create(mesh.view()).value(), parameters);
+  ASSERT_TRUE(without.ok() && with.ok());
+  expect_same(without.value(), with.value());
+}
+
+TEST_F(MeshIndexTest, AMovedOneIsStillThere) {
+  MeshIndex index = MeshIndex::create(test::view_of(test::make_turned_torus())).value();
+  const MeshIndex moved = std::move(index);
+  EXPECT_EQ(&index.bvh(), &moved.bvh());  // NOLINT(bugprone-use-after-move): that is the question
 }
 
 TEST_F(MeshIndexTest, StaysWhereItIsWhenADeviceMeshMoves) {
@@ -71,11 +94,30 @@ TEST(MeshIndex, ErrorsAreThoseOfTheTree) {
   EXPECT_EQ(index.error().code, ErrorCode::kInvalidMesh);
 }
 
+TEST(MeshIndex, OfTooManyTrianglesIsRefusedBeforeAnythingIsBuilt) {
+  Mesh mesh = test::make_box({1, 1, 1});
+  mesh.triangles.resize(DeviceMesh::kMostTriangles + 1, mesh.triangles[0]);
+  const Result<MeshIndex> index = MeshIndex::create(test::view_of(mesh));
+  ASSERT_FALSE(index.ok());
+  EXPECT_EQ(index.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_NE(index.error().message.find("8000001 triangles"), std::string::npos) << index.error().message;
+}
+
 TEST(MeshIndex, DoesNotDependOnTheNumberOfThreads) {
-  const Mesh mesh = test::make_turned_torus();
+  const Mesh mesh = test::make_torus(1.0, 0.4, 200, 110, 0.5);
+  ASSERT_GT(mesh.triangles.size(), 40000u);  // more than one block of every loop
   const MeshIndex one = MeshIndex::create(test::view_of(mesh), 1).value();
   const MeshIndex three = MeshIndex::create(test::view_of(mesh), 3).value();
   EXPECT_EQ(one.bvh().order(), three.bvh().order());
+  EXPECT_TRUE(one.bvh().corners() == three.bvh().corners());
+  const MeshLinks by_one = make_mesh_links(test::view_of(mesh), one.bvh().order(), 1);
+  const MeshLinks by_three = make_mesh_links(test::view_of(mesh), one.bvh().order(), 3);
+  EXPECT_EQ(by_one.spreads, by_three.spreads);
+  const auto same = [](const auto& a, const auto& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+  };
+  EXPECT_TRUE(same(by_one.links, by_three.links));
+  EXPECT_TRUE(same(by_one.corners, by_three.corners));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <new>
 #include <thread>
 #include <vector>
@@ -48,6 +49,12 @@ TEST(ParallelFor, StartsNoThreadWhileLibrariesAreLoaded) {
   }
   EXPECT_EQ(host_threads(), all);
   EXPECT_EQ(host_threads(8), 8u);
+}
+
+TEST(ParallelFor, DoesNotWaitForDevicesThatTakeLongToOpen) {
+  const LoadingLibraries one;
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_FALSE(LoadingLibraries::any());
 }
 
 }  // namespace

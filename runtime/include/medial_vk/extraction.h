@@ -140,7 +140,7 @@ Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh
                                           const std::stop_token& stop = {});
 
 /// The same with an index of `mesh` that is there already: made while the device was opened, or to be used again. Mode
-/// thesis does not use it. Errors: also kUsage (the index is of another number of triangles).
+/// thesis does not use it. Errors: also kUsage (the index is that of another mesh, MeshIndex::is_of()).
 Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh, const MeshIndex& index,
                                           const ExtractionParameters& parameters, const ProgressCallback& progress = {},
                                           const std::stop_token& stop = {});
