@@ -28,7 +28,7 @@ ExtractionParameters small_job() {
 }
 
 void expect_same(const Extraction& a, const Extraction& b) {
-  ASSERT_GT(a.spheres.size(), 50u);
+  ASSERT_GT(a.spheres.size(), 20u);
   ASSERT_EQ(a.spheres.size(), b.spheres.size());
   for (std::size_t i = 0; i < a.spheres.size(); ++i)
     EXPECT_EQ(std::memcmp(&a.spheres[i], &b.spheres[i], sizeof(MedialSphere)), 0) << "sphere " << i;
