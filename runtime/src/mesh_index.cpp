@@ -1,6 +1,5 @@
 #include "medial_vk/mesh_index.h"
 
-#include <string>
 #include <utility>
 
 #include "host_memory.h"
@@ -10,11 +9,10 @@
 namespace medial_vk {
 
 Result<MeshIndex> MeshIndex::create(const MeshView& mesh, unsigned threads) {
-  if (mesh.triangles.size() > DeviceMesh::kMostTriangles) {
-    return Error{ErrorCode::kOutOfMemory, "the mesh has " + std::to_string(mesh.triangles.size()) +
-                                              " triangles, the device code addresses " +
-                                              std::to_string(DeviceMesh::kMostTriangles)};
-  }
+  // Of a device that takes whatever our kernels do: which one it will be is not known here.
+  VkPhysicalDeviceLimits any{};
+  any.maxStorageBufferRange = any.maxTexelBufferElements = 0xffffffffu;
+  if (Status status = DeviceMesh::check_size(mesh.triangles.size(), any); !status.ok()) return status.error();
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<MeshIndex> {
     Result<Bvh> bvh = Bvh::build(mesh, DeviceMesh::kLeafSize, threads);
     if (!bvh.ok()) return bvh.error();
