@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "point_order.h"
+#include "uploads.h"
 
 namespace medial_vk::bench {
 

@@ -360,39 +360,4 @@ std::array<std::uint32_t, gpu::kCounterCount> CertifiedPipeline::read_counters()
   return counters;
 }
 
-namespace {
-
-template <typename T>
-Result<std::vector<T>> read_first(Context::Impl& context, const Buffer& from, std::uint32_t count) {
-  std::vector<T> values(count);
-  if (count == 0) return values;
-  const VkDeviceSize bytes = count * sizeof(T);
-  // Elsewhere memory that is mapped may be slow to read.
-  if (from.mapped != nullptr && context.description.type == "cpu") {
-    std::memcpy(values.data(), from.mapped, bytes);
-    return values;
-  }
-  Arena staging(context);
-  Result<Buffer> buffer = staging.create_buffer(bytes, MemoryKind::kReadback, "result");
-  if (!buffer.ok()) return buffer.error();
-  auto copied = run_commands(context, [&](Recorder& r) {
-    r.copy(from, 0, buffer.value(), 0, bytes);
-    r.barrier_to_host();
-    return r.status();
-  });
-  if (!copied.ok()) return copied.error();
-  std::memcpy(values.data(), buffer.value().mapped, bytes);
-  return values;
-}
-
-}  // namespace
-
-Result<std::vector<gpu::FoundPoint>> CertifiedPipeline::read_points(std::uint32_t count) {
-  return read_first<gpu::FoundPoint>(*context_, result_, count);
-}
-
-Result<std::vector<gpu::UndecidedCell>> CertifiedPipeline::read_undecided(std::uint32_t count) {
-  return read_first<gpu::UndecidedCell>(*context_, undecided_, count);
-}
-
 }  // namespace medial_vk

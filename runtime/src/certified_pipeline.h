@@ -55,21 +55,22 @@ class CertifiedPipeline {
   std::uint32_t narrowing_steps() const { return narrowing_steps_; }
 
   /// Appends the whole extraction of `count` top cells from `first` on.
-  Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count);
+  Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count) {
+    return record(recorder, recorder, first, count);
+  }
+  /// In two parts for one queue: only the collection writes result() and undecided().
+  Status record(Recorder& search, Recorder& collection, std::uint32_t first, std::uint32_t count);
 
   /// After kTooFewRounds: records twice as many rounds from now on. No list is longer than the mesh.
   void add_rounds() { rounds_ *= 2; }
 
-  /// Where the points and the counters will be once the recorded sequence has run.
+  /// Where the points, the undecided voxels and the counters will be once the recorded sequence has run.
   const Buffer& result() const { return result_; }
+  const Buffer& undecided() const { return undecided_; }
   const Buffer& counters() const { return counters_; }
 
   /// After the recorded sequence has run.
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
-  /// The first `count` points, in no particular order of voxels.
-  Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
-  /// The first `count` undecided voxels, likewise.
-  Result<std::vector<gpu::UndecidedCell>> read_undecided(std::uint32_t count);
 
  private:
   CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
@@ -93,6 +94,7 @@ class CertifiedPipeline {
   void begin_stage(Recorder& r, const char* stage) const;
   void clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters);
   void record_steps(Recorder& r, std::uint32_t first, std::uint32_t count);
+  void record_results(Recorder& r);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
   void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);

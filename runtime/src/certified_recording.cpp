@@ -7,13 +7,21 @@ namespace medial_vk {
 
 using gpu::uint;
 
-Status CertifiedPipeline::record(Recorder& r, std::uint32_t first, std::uint32_t count) {
+Status CertifiedPipeline::record(Recorder& search, Recorder& collection, std::uint32_t first, std::uint32_t count) {
   Recorder nothing(*context_);
   arguments_.begin_plan();
   record_steps(nothing, first, count);
+  record_results(nothing);
   arguments_.begin();
-  record_steps(r, first, count);
-  return r.status();
+  record_steps(search, first, count);
+  record_results(collection);
+  return search.status().ok() ? collection.status() : search.status();
+}
+
+void CertifiedPipeline::record_results(Recorder& r) {
+  record_collection(r);
+  r.copy(counters_, 0, counters_readback_, 0, gpu::kCounterCount * 4);
+  r.barrier_to_host();
 }
 
 void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint32_t count) {
@@ -52,9 +60,6 @@ void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint
     record_drop_found(r, step, buffers, cells_[0], false);
     lists = target;
   }
-  record_collection(r);
-  r.copy(counters_, 0, counters_readback_, 0, gpu::kCounterCount * 4);
-  r.barrier_to_host();
 }
 
 void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count) {

@@ -1,6 +1,7 @@
 #include "medial_vk/context.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -51,7 +52,7 @@ Status Context::Impl::initialize(const ContextOptions& options) {
     timestamp_valid_bits = selected.value().timestamp_valid_bits;
     description = std::move(selected.value().description);
     query_properties();
-    if (Status made = create_device(); !made.ok()) return made;
+    if (Status made = create_device(selected.value().transfer_family); !made.ok()) return made;
   }
   return open_pipeline_cache(options.cache_folder);
 }
@@ -84,18 +85,21 @@ void Context::Impl::query_properties() {
   std::copy_n(query.properties.pipelineCacheUUID, VK_UUID_SIZE, pipeline_cache_identity_.cache_uuid.begin());
 }
 
-Status Context::Impl::create_device() {
+Status Context::Impl::create_device(std::optional<std::uint32_t> copying_family) {
   const float priority = 1.0f;
-  VkDeviceQueueCreateInfo queue_info{};
-  queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-  queue_info.queueFamilyIndex = queue_family;
-  queue_info.queueCount = 1;
-  queue_info.pQueuePriorities = &priority;
+  std::array<VkDeviceQueueCreateInfo, 2> queue_infos{};
+  for (VkDeviceQueueCreateInfo& queue_info : queue_infos) {
+    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue_info.queueFamilyIndex = queue_family;
+    queue_info.queueCount = 1;
+    queue_info.pQueuePriorities = &priority;
+  }
+  if (copying_family) queue_infos[1].queueFamilyIndex = *copying_family;
   // No features and no extensions: the kernels use nothing beyond the core of Vulkan 1.2.
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queue_info;
+  info.queueCreateInfoCount = copying_family ? 2 : 1;
+  info.pQueueCreateInfos = queue_infos.data();
   const VkResult result = vkCreateDevice(physical_device, &info, allocation_callbacks, &device);
   if (result != VK_SUCCESS) {
     device = VK_NULL_HANDLE;
@@ -106,6 +110,10 @@ Status Context::Impl::create_device() {
   }
   volkLoadDeviceTable(&vk, device);
   vk.vkGetDeviceQueue(device, queue_family, 0, &queue);
+  if (copying_family) {
+    transfer_family = *copying_family;
+    vk.vkGetDeviceQueue(device, transfer_family, 0, &transfer_queue);
+  }
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -31,6 +32,10 @@ class Context::Impl {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;
+  // Of a family that only copies: what it does, it does while kernels run. Null: the device has none, or a host owns
+  // it.
+  VkQueue transfer_queue = VK_NULL_HANDLE;
+  std::uint32_t transfer_family = 0;
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 
   VkPhysicalDeviceLimits limits{};
@@ -58,7 +63,7 @@ class Context::Impl {
   friend class Context;
   Status initialize(const ContextOptions& options);
   Status adopt(const HostDevice& host);
-  Status create_device();
+  Status create_device(std::optional<std::uint32_t> copying_family);
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void close_pipeline_cache() noexcept;  // writes the file, if there is anything new

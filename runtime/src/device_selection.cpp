@@ -73,6 +73,17 @@ std::optional<std::uint32_t> compute_family(std::span<const VkQueueFamilyPropert
   return found;
 }
 
+/// A family that copies and does nothing else: its queues are engines of their own, which work beside the others.
+std::optional<std::uint32_t> transfer_family(std::span<const VkQueueFamilyProperties> families) {
+  constexpr VkQueueFlags kKernels = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    const VkQueueFamilyProperties& family = families[i];
+    const bool copies = (family.queueFlags & VK_QUEUE_TRANSFER_BIT) != 0 && (family.queueFlags & kKernels) == 0;
+    if (copies && family.queueCount > 0) return i;
+  }
+  return std::nullopt;
+}
+
 std::vector<VkQueueFamilyProperties> families_of(VkPhysicalDevice handle) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(handle, &count, nullptr);
@@ -107,6 +118,7 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
     description.usable = true;
     device.queue_family = *family;
     device.timestamp_valid_bits = families[*family].timestampValidBits;
+    device.transfer_family = transfer_family(families);
   }
   return device;
 }

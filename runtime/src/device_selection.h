@@ -4,6 +4,7 @@
 #include <volk.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,8 +17,9 @@ namespace medial_vk {
 /// A physical device with the family of queues that the runtime would use.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
-  std::uint32_t queue_family = 0;          // meaningful if description.usable
-  std::uint32_t timestamp_valid_bits = 0;  // of that family
+  std::uint32_t queue_family = 0;                // meaningful if description.usable
+  std::uint32_t timestamp_valid_bits = 0;        // of that family
+  std::optional<std::uint32_t> transfer_family;  // one that only copies, if there is one
   DeviceDescription description;
 };
 

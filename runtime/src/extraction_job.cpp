@@ -10,6 +10,7 @@
 
 #include "certified_pipeline.h"
 #include "check_parameters.h"
+#include "commands.h"
 #include "context_impl.h"
 #include "extraction_result.h"
 #include "host_memory.h"

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <string>
 #include <utility>
 
 #include "context_impl.h"
-#include "recorder.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr VkDeviceSize kMinBlockBytes = 4ull << 20;
 constexpr VkDeviceSize kMaxBlockBytes = 64ull << 20;
-constexpr VkDeviceSize kStagingBytes = 32ull << 20;
 constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F, RGBA32UI
 
 const char* kind_name(MemoryKind kind) {
@@ -123,7 +120,13 @@ VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer
   if (size <= context.limits.maxTexelBufferElements * kTexelBytes) {
     info.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
   }
-  info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  // Buffers have no layouts that depend on who uses them: sharing costs nothing, and spares passing them on.
+  const std::array<std::uint32_t, 2> families = {context.queue_family, context.transfer_family};
+  if (context.transfer_queue != VK_NULL_HANDLE) {
+    info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = static_cast<std::uint32_t>(families.size());
+    info.pQueueFamilyIndices = families.data();
+  }
   return context.vk.vkCreateBuffer(context.device, &info, context.allocation_callbacks, handle);
 }
 
@@ -297,34 +300,6 @@ Result<VkBufferView> Arena::create_texel_view(const Buffer& buffer, VkFormat for
   if (result != VK_SUCCESS) return vulkan_error("vkCreateBufferView", result);
   views_.push_back(view);
   return view;
-}
-
-Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes) {
-  if (bytes.size() > buffer.size) {
-    return Error{ErrorCode::kInternal, "upload of " + std::to_string(bytes.size()) + " bytes into a buffer of " +
-                                           std::to_string(buffer.size)};
-  }
-  if (bytes.empty()) return {};
-  if (buffer.mapped != nullptr) {
-    std::memcpy(buffer.mapped, bytes.data(), bytes.size());
-    return {};
-  }
-  Arena arena(context);
-  Result<Buffer> staging =
-      arena.create_buffer(std::min<VkDeviceSize>(bytes.size(), kStagingBytes), MemoryKind::kUpload, "staging");
-  if (!staging.ok()) return staging.error();
-  for (std::size_t done = 0; done < bytes.size();) {
-    const std::size_t piece = std::min<std::size_t>(bytes.size() - done, staging.value().size);
-    std::memcpy(staging.value().mapped, bytes.data() + done, piece);
-    const auto ran = run_commands(context, [&](Recorder& recorder) {
-      recorder.copy(staging.value(), 0, buffer, done, piece);
-      recorder.barrier();  // for the commands of later submissions
-      return recorder.status();
-    });
-    if (!ran.ok()) return ran.error();
-    done += piece;
-  }
-  return {};
 }
 
 }  // namespace medial_vk

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "medial_vk/context.h"
@@ -74,8 +73,5 @@ class Arena {
   std::vector<VkBufferView> views_;
   VkDeviceSize bytes_ = 0;
 };
-
-/// Copies host bytes into a device buffer, through a staging buffer where it is not mapped. Blocks.
-Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes);
 
 }  // namespace medial_vk

@@ -5,6 +5,7 @@
 
 #include "context_impl.h"
 #include "point_math.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

@@ -50,126 +50,124 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball> balls) const {
+Status Scene::Impl::answer(const QuerySet& asked) {
+  if (batches == nullptr) batches = std::make_unique<QueryBatches>(*context, kBatch, shares_memory);
+  return batches->run(asked);
+}
+
+Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball> balls) {
   if (Status ready = usable(); !ready.ok()) return ready.error();
   std::vector<std::uint8_t> out(balls.size());
-  for (std::size_t first = 0; first < balls.size(); first += kBatch) {
-    const std::size_t count = std::min<std::size_t>(kBatch, balls.size() - first);
-    const auto squared_radius = [&](std::size_t i) {
-      const double r = std::clamp(balls[i].radius / mesh.longest, 0.0, kFarthest);
-      return static_cast<float>(r * r);
-    };
-    auto sent = texels(
-        first, count, [&](std::size_t i) { return balls[i].centre; }, squared_radius);
-    if (!sent.ok()) return sent.error();
-    Transfer transfer(*context);
-    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(sent.value()), "query balls");
-    if (!asked.ok()) return asked.error();
-    Result<Buffer> answers = transfer.create(count * 4, "empty balls");
-    if (!answers.ok()) return answers.error();
-    std::vector<std::uint32_t> empty(count);
-    Status status = transfer.run_and_read(
-        [&](Recorder& r) {
-          queries->empty(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
-                         answers.value().range());
-        },
-        answers.value(), std::span<std::uint32_t>(empty));
-    if (!status.ok()) return status.error();
-    std::transform(empty.begin(), empty.end(), out.begin() + static_cast<std::ptrdiff_t>(first),
-                   [](std::uint32_t e) { return static_cast<std::uint8_t>(e); });
-  }
+  QuerySet set;
+  set.count = balls.size();
+  set.batch = kBatch;
+  set.item_bytes = {4, 0};
+  set.write = [&](std::size_t first, std::span<Texel> texels) -> Status {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      const Ball& ball = balls[first + i];
+      const double r = std::clamp(ball.radius / mesh.longest, 0.0, kFarthest);
+      Status status = write_query(first + i, ball.centre, static_cast<float>(r * r), texels[i]);
+      if (!status.ok()) return status;
+    }
+    return {};
+  };
+  set.record = [&](Recorder& r, std::uint32_t count, const Buffer& at, std::span<const Buffer, 2> items) {
+    queries->empty(r, QueryCount::of(count), at.range(), items[0].range());
+  };
+  set.read = [&](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
+    const auto* empty = reinterpret_cast<const std::uint32_t*>(items[0]);
+    for (std::size_t i = 0; i < count; ++i) out[first + i] = static_cast<std::uint8_t>(empty[i]);
+    return {};
+  };
+  if (Status status = answer(set); !status.ok()) return status.error();
   return out;
 }
 
-Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) const {
+Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) {
   if (Status ready = usable(); !ready.ok()) return ready.error();
   if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "the tolerance of a winding number must be positive"};
   std::vector<double> out(points.size());
-  for (std::size_t first = 0; first < points.size(); first += kBatch) {
-    const std::size_t count = std::min<std::size_t>(kBatch, points.size() - first);
-    auto sent = texels(
-        first, count, [&](std::size_t i) { return points[i]; }, [](std::size_t) { return kAnyDistance; });
-    if (!sent.ok()) return sent.error();
-    Transfer transfer(*context);
-    Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(sent.value()), "query points");
-    if (!asked.ok()) return asked.error();
-    Result<Buffer> answers = transfer.create(count * 8, "winding numbers");
-    if (!answers.ok()) return answers.error();
-    std::vector<std::array<float, 2>> numbers(count);
-    Status status = transfer.run_and_read(
-        [&](Recorder& r) {
-          queries->winding(r, QueryCount::of(static_cast<std::uint32_t>(count)), asked.value().range(),
-                           answers.value().range(), static_cast<float>(tolerance));
-        },
-        answers.value(), std::span<std::array<float, 2>>(numbers));
-    if (!status.ok()) return status.error();
+  QuerySet set;
+  set.count = points.size();
+  set.batch = kBatch;
+  set.item_bytes = {8, 0};
+  set.write = [&](std::size_t first, std::span<Texel> texels) -> Status {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      Status status = write_query(first + i, points[first + i], kAnyDistance, texels[i]);
+      if (!status.ok()) return status;
+    }
+    return {};
+  };
+  set.record = [&](Recorder& r, std::uint32_t count, const Buffer& at, std::span<const Buffer, 2> items) {
+    queries->winding(r, QueryCount::of(count), at.range(), items[0].range(), static_cast<float>(tolerance));
+  };
+  set.read = [&](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
+    const auto* numbers = reinterpret_cast<const std::array<float, 2>*>(items[0]);
     for (std::size_t i = 0; i < count; ++i) out[first + i] = double{numbers[i][0]};
-  }
+    return {};
+  };
+  if (Status status = answer(set); !status.ok()) return status.error();
   return out;
 }
 
 namespace {
 
-std::vector<Point> points_of(std::span<const Texel> texels) {
-  std::vector<Point> points;
-  for (const Texel& t : texels) points.push_back({double{t[0]}, double{t[1]}, double{t[2]}});
-  return points;
+std::vector<Texel> directions_of(std::span<const Point> points) {
+  std::vector<Texel> texels;
+  for (const Point& p : points)
+    texels.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), 0});
+  return texels;
 }
 
 }  // namespace
-
-Status Scene::Impl::fluxes(std::span<const Ball> spheres, std::size_t first, std::span<const Texel> directions,
-                           std::span<FluxSample> out) {
-  auto texels_of = texels(
-      first, out.size(), [&](std::size_t i) { return spheres[i].centre; },
-      [&](std::size_t i) { return static_cast<float>(spheres[i].radius / mesh.longest); });
-  if (!texels_of.ok()) return texels_of.error();
-  const auto samples = static_cast<std::uint32_t>(directions.size());
-  const auto count = static_cast<std::uint32_t>(out.size());
-  Result<FluxSampler> sampler = FluxSampler::create(*context, *packets, count * samples);
-  if (!sampler.ok()) return sampler.error();
-  Transfer transfer(*context);
-  Result<Buffer> asked = transfer.create_filled(std::span<const Texel>(texels_of.value()), "spheres");
-  if (!asked.ok()) return asked.error();
-  Result<Buffer> around = transfer.create_filled(directions, "directions of samples");
-  if (!around.ok()) return around.error();
-  const std::vector<std::uint32_t> table = make_slots(packets->shape(), points_of(directions));
-  Result<Buffer> slots = transfer.create_filled(std::span<const std::uint32_t>(table), "slots of samples");
-  if (!slots.ok()) return slots.error();
-  Result<Buffer> answers = transfer.create(VkDeviceSize{count} * 16, "fluxes");
-  if (!answers.ok()) return answers.error();
-  std::vector<Texel> fluxes(count);
-  SphereCount spheres_of_batch;
-  spheres_of_batch.spheres = count;
-  Status status = transfer.run_and_read(
-      [&](Recorder& r) {
-        sampler.value().record(r, spheres_of_batch, samples, asked.value().range(), around.value().range(),
-                               slots.value().range(), answers.value().range());
-      },
-      answers.value(), std::span<Texel>(fluxes));
-  if (!status.ok()) return status;
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i] = {double{fluxes[i][0]}, mesh.longest * double{fluxes[i][1]}, static_cast<std::uint32_t>(fluxes[i][2])};
-  }
-  return {};
-}
 
 Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
   if (Status ready = usable(); !ready.ok()) return ready.error();
   if (samples == 0 || samples > kMostFluxSamples) {
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kMostFluxSamples)};
   }
-  std::vector<Texel> directions;
-  for (const Point& d : spiral_points(samples)) {
-    directions.push_back({static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2]), 0});
-  }
+  const std::vector<Point> spiral = spiral_points(samples);
+  const std::vector<Texel> directions = directions_of(spiral);
+  QuerySet set;
+  set.count = spheres.size();
+  set.batch = std::max<std::size_t>(1, kBatch / samples);
+  set.item_bytes = {16, 0};
+  const std::size_t at_once = std::min(set.batch, std::max<std::size_t>(1, set.count));
+  const auto capacity = static_cast<std::uint32_t>(at_once * samples);
+  Result<FluxSampler> sampler = FluxSampler::create(*context, *packets, capacity);
+  if (!sampler.ok()) return sampler.error();
+  Arena arena(*context);
+  Uploads uploads(*context);
+  Result<Buffer> around = create_filled(arena, uploads, std::span(directions), "directions of samples");
+  if (!around.ok()) return around.error();
+  const std::vector<std::uint32_t> table = make_slots(packets->shape(), spiral);
+  Result<Buffer> slots = create_filled(arena, uploads, std::span(table), "slots of samples");
+  if (!slots.ok()) return slots.error();
+  if (Status there = uploads.finish(); !there.ok()) return there.error();
   std::vector<FluxSample> out(spheres.size());
-  const std::size_t batch = std::max<std::size_t>(1, kBatch / samples);
-  for (std::size_t first = 0; first < spheres.size(); first += batch) {
-    const std::size_t count = std::min(batch, spheres.size() - first);
-    Status status = fluxes(spheres, first, directions, std::span(out).subspan(first, count));
-    if (!status.ok()) return status.error();
-  }
+  set.write = [&](std::size_t first, std::span<Texel> texels) -> Status {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      const Ball& sphere = spheres[first + i];
+      const auto radius = static_cast<float>(sphere.radius / mesh.longest);
+      Status status = write_query(first + i, sphere.centre, radius, texels[i]);
+      if (!status.ok()) return status;
+    }
+    return {};
+  };
+  set.record = [&](Recorder& r, std::uint32_t count, const Buffer& at, std::span<const Buffer, 2> items) {
+    SphereCount of_batch;
+    of_batch.spheres = count;
+    sampler.value().record(r, of_batch, samples, at.range(), around.value().range(), slots.value().range(),
+                           items[0].range());
+  };
+  set.read = [&](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
+    const auto* fluxes = reinterpret_cast<const Texel*>(items[0]);
+    for (std::size_t i = 0; i < count; ++i)
+      out[first + i] = {double{fluxes[i][0]}, mesh.longest * double{fluxes[i][1]},
+                        static_cast<std::uint32_t>(fluxes[i][2])};
+    return {};
+  };
+  if (Status status = answer(set); !status.ok()) return status.error();
   return out;
 }
 

@@ -194,23 +194,27 @@ void Recorder::dispatch_indirect(const ProgramKey& key, std::span<const BufferRa
   context_->vk.vkCmdDispatchIndirect(commands_, arguments.handle, offset);
 }
 
+void Recorder::only_copy() {
+  queue_stages_ = VK_PIPELINE_STAGE_TRANSFER_BIT;
+  measure_nothing();
+}
+
 void Recorder::pipeline_barrier(VkPipelineStageFlags to_stages, VkAccessFlags to_access) {
   if (rehearses()) return;
-  // DRAW_INDIRECT is where group counts are read: what follows must not overwrite them before.
-  constexpr VkPipelineStageFlags kFromStages =
-      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
   VkMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-  barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+  barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  if (queue_stages_ == kAllStages) barrier.srcAccessMask |= VK_ACCESS_SHADER_WRITE_BIT;
   barrier.dstAccessMask = to_access;
-  context_->vk.vkCmdPipelineBarrier(commands_, kFromStages, to_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+  // What follows must not overwrite what was read before, group counts for example.
+  context_->vk.vkCmdPipelineBarrier(commands_, queue_stages_, to_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 void Recorder::barrier() {
-  pipeline_barrier(
-      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-      VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-          VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+  constexpr VkAccessFlags kCopies = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+  constexpr VkAccessFlags kAll =
+      kCopies | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+  pipeline_barrier(queue_stages_, queue_stages_ == kAllStages ? kAll : kCopies);
 }
 
 void Recorder::barrier_to_host() { pipeline_barrier(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT); }

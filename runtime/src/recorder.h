@@ -4,7 +4,6 @@
 #include <volk.h>
 
 #include <cstdint>
-#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -47,6 +46,8 @@ class Recorder {
   void barrier_to_others();
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
+  /// For a queue that can do nothing else: barriers are between copies, and nothing is measured.
+  void only_copy();
   /// No timestamps: stages have no times.
   void measure_nothing() { measures_ = false; }
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
@@ -71,6 +72,9 @@ class Recorder {
   void write_set(VkDescriptorSet set, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels);
   void add_descriptor_pool(std::uint32_t storage, std::uint32_t texels);
   void pipeline_barrier(VkPipelineStageFlags to_stages, VkAccessFlags to_access);
+  // Of the queue. DRAW_INDIRECT is where group counts are read.
+  static constexpr VkPipelineStageFlags kAllStages =
+      VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
   void write_timestamp();
   void fail(Error error);
 
@@ -90,6 +94,7 @@ class Recorder {
   std::vector<VkQueryPool> timestamps_;
   std::size_t timestamp_count_ = 0;
   std::vector<std::string> stages_;
+  VkPipelineStageFlags queue_stages_ = kAllStages;
   bool measures_ = true;
   Status status_;
 };
@@ -99,15 +104,5 @@ template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span<const T, 1>(&value, 1));
 }
-
-/// Makes the programs that `record` needs and that are not there yet, on all processors: compiling them one by one as
-/// they are met takes longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`, and of
-/// the programs.
-Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record);
-
-/// Records with `record`, submits, waits; returns seconds per stage. `while_waiting` is called every ten milliseconds
-/// until the device is done. Errors: device lost (kInternal), kOutOfMemory, whatever `record` returns.
-Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
-                                            const std::function<void()>& while_waiting = {});
 
 }  // namespace medial_vk

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "clusters.h"
 #include "context_impl.h"
@@ -15,8 +16,8 @@ namespace {
 
 static_assert(gpu::kStackSize == Bvh::kMaxDepth);
 
-Uploader upload_at_once(Context::Impl& context) {
-  return [&context](const Buffer& buffer, std::span<const std::byte> bytes) { return upload(context, buffer, bytes); };
+Uploader through(Uploads& uploads) {
+  return [&uploads](const Buffer& buffer, std::span<const std::byte> bytes) { return uploads.add(buffer, bytes); };
 }
 
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -49,7 +50,9 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   DeviceMesh device(context);
   device.own_bvh_ = std::make_shared<Bvh>(std::move(bvh).value());
   device.bvh_ = device.own_bvh_;
-  if (Status status = device.upload_whole(context, mesh, {}); !status.ok()) return status.error();
+  Uploads uploads(context);
+  if (Status status = device.upload_whole(uploads, context.limits, mesh, {}); !status.ok()) return status.error();
+  if (Status status = uploads.finish(); !status.ok()) return status.error();
   return device;
 }
 
@@ -59,21 +62,34 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   DeviceMesh device(context);
   device.bvh_ = index.bvh_;
   const MeshLinks& links = *index.links_;
-  if (Status status = device.upload_whole(context, mesh, links.spreads); !status.ok()) return status.error();
-  if (Status status = device.upload_all_links(upload_at_once(context), mesh, links); !status.ok())
+  device.uploads_ = std::make_unique<Uploads>(context);
+  Uploads& uploads = *device.uploads_;
+  if (Status status = device.upload_whole(uploads, context.limits, mesh, links.spreads); !status.ok())
     return status.error();
+  if (Status status = device.upload_all_links(through(uploads), mesh, links); !status.ok()) return status.error();
   return device;
 }
 
-Status DeviceMesh::upload_whole(Context::Impl& context, const MeshView& mesh, std::span<const float> spreads) {
+Status DeviceMesh::finish_uploads() {
+  if (uploads_ == nullptr) return {};
+  const std::unique_ptr<Uploads> uploads = std::move(uploads_);
+  return uploads->finish();
+}
+
+Status DeviceMesh::upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                                std::span<const float> spreads) {
   order = bvh_->order();
   triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (Status status = measure(mesh); !status.ok()) return status;
-  return upload_mesh(upload_at_once(context), context.limits, mesh, spreads);
+  return upload_mesh(through(uploads), limits, mesh, spreads);
 }
 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
-  return update(context, mesh, upload_at_once(context));
+  Uploads uploads(context);
+  if (Status status = update(context, mesh, through(uploads)); !status.ok()) return status;
+  const Status there = uploads.finish();
+  intact = there.ok();
+  return there;
 }
 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader) {
@@ -175,10 +191,11 @@ Status DeviceMesh::create_view(const Buffer& buffer, VkFormat format, VkBufferVi
 }
 
 Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
-  const Uploader uploader = upload_at_once(context);
+  Uploads uploads(context);
   const MeshLinks links = make_mesh_links(mesh, order);
-  if (Status status = upload_triangles(uploader, mesh, links.spreads); !status.ok()) return status;
-  return upload_all_links(uploader, mesh, links);
+  if (Status status = upload_triangles(through(uploads), mesh, links.spreads); !status.ok()) return status;
+  if (Status status = upload_all_links(through(uploads), mesh, links); !status.ok()) return status;
+  return uploads.finish();
 }
 
 Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {

@@ -20,6 +20,7 @@
 #include "mesh_links.h"
 #include "tree_types.h"
 #include "unit_transform.h"
+#include "uploads.h"
 
 namespace medial_vk {
 
@@ -41,8 +42,11 @@ struct DeviceMesh {
   /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
   /// kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
-  /// The same, and add_links(), with what has been made of `mesh` before.
+  /// The same, and add_links(), with what has been made of `mesh` before. All of it is on its way to the device:
+  /// finish_uploads() comes before the first use.
   static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index);
+  /// Errors: kOutOfMemory, kInternal (device lost).
+  Status finish_uploads();
 
   /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
   /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
@@ -109,7 +113,8 @@ struct DeviceMesh {
 
  private:
   explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
-  Status upload_whole(Context::Impl& context, const MeshView& mesh, std::span<const float> spreads);
+  Status upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                      std::span<const float> spreads);
   Status measure(const MeshView& mesh);
   Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
                      std::span<const float> spreads);
@@ -125,6 +130,7 @@ struct DeviceMesh {
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
   Arena arena_;
+  std::unique_ptr<Uploads> uploads_;  // under way, into buffers of the arena; or null
   std::shared_ptr<const Bvh> bvh_;   // input units; a MeshIndex may share it
   std::shared_ptr<Bvh> own_bvh_;     // the same if none does, or null
   std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()

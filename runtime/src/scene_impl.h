@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,9 @@
 #include "host_memory.h"
 #include "medial_vk/queries.h"
 #include "packet_queries.h"
+#include "query_batches.h"
 #include "tree_queries.h"
+#include "uploads.h"
 
 namespace medial_vk {
 
@@ -23,42 +27,6 @@ constexpr double kFarthest = 1e15;
 constexpr float kAnyDistance = 3.4e38f;
 constexpr char kAnswering[] = "answering queries";
 constexpr std::uint32_t kNoHit = 0xffffffffu;
-
-/// The buffers of one call: filled from the host, read back to the host.
-class Transfer {
- public:
-  explicit Transfer(Context::Impl& context) : context_(context), arena_(context) {}
-
-  Result<Buffer> create(VkDeviceSize bytes, const char* purpose) {
-    return arena_.create_buffer(bytes, MemoryKind::kDevice, purpose);
-  }
-  template <class T>
-  Result<Buffer> create_filled(std::span<const T> values, const char* purpose) {
-    Result<Buffer> buffer = create(values.size_bytes(), purpose);
-    if (!buffer.ok()) return buffer;
-    if (Status status = upload(context_, buffer.value(), std::as_bytes(values)); !status.ok()) return status.error();
-    return buffer;
-  }
-  /// Runs `record` and then copies the start of `from` to `to`.
-  template <class T, class Record>
-  Status run_and_read(const Record& record, const Buffer& from, std::span<T> to) {
-    Result<Buffer> readback = arena_.create_buffer(to.size_bytes(), MemoryKind::kReadback, "results");
-    if (!readback.ok()) return readback.error();
-    auto done = run_commands(context_, [&](Recorder& r) {
-      record(r);
-      r.copy(from, 0, readback.value(), 0, to.size_bytes());
-      r.barrier_to_host();
-      return r.status();
-    });
-    if (!done.ok()) return done.error();
-    std::memcpy(to.data(), readback.value().mapped, to.size_bytes());
-    return {};
-  }
-
- private:
-  Context::Impl& context_;
-  Arena arena_;
-};
 
 inline Status check_point(const Point& unit, std::size_t index) {
   for (const double x : unit) {
@@ -72,56 +40,37 @@ class Scene::Impl {
  public:
   Impl(Context::Impl& context_in, DeviceMesh mesh_in) : context(&context_in), mesh(std::move(mesh_in)) {}
 
-  /// Texels for queries [first, first + count): positions in the unit box, `w` of each from `w_of(index)`.
-  template <class PointOf, class WOf>
-  Result<std::vector<Texel>> texels(std::size_t first, std::size_t count, PointOf point_of, WOf w_of) const {
-    std::vector<Texel> out(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Point unit = mesh.to_unit(point_of(first + i));
-      if (Status status = check_point(unit, first + i); !status.ok()) return status.error();
-      out[i] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), w_of(first + i)};
-    }
-    return out;
+  /// A query for kernels: where `point` is in the unit box, and w. Error: it is not finite, or too far away.
+  Status write_query(std::size_t index, const Point& point, float w, Texel& out) const {
+    const Point unit = mesh.to_unit(point);
+    if (Status status = check_point(unit, index); !status.ok()) return status;
+    out = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), w};
+    return {};
   }
-
-  /// Queries [first, first + count) of `asked`, that is points[asked[i]], or points[i] if `asked` is empty, are
-  /// answered one by one, or by packets that `slots` describes for groups of `group_size`.
-  struct ClosestBatch {
-    std::span<const Point> points;
-    std::span<const std::uint32_t> asked;
-    std::size_t first = 0;
-    std::size_t count = 0;
-    std::uint32_t group_size = 0;  // 0: one by one
-    std::span<const std::uint32_t> slots;
-
-    std::size_t index(std::size_t i) const { return asked.empty() ? first + i : std::size_t{asked[first + i]}; }
-  };
-  /// What closest() keeps between batches.
-  struct ClosestRoom {
-    explicit ClosestRoom(Context::Impl& context) : arena(context) {}
-    Arena arena;
-    Buffer asked, nearest, hits;
-    Buffer upload, readback;  // none where the host uses the others
-    bool is_shared = false;
-  };
   Status make_packets(const MeshView& view);
   /// Error: the last update failed half-way.
   Status usable() const {
     if (packets && mesh.intact) return {};
     return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
   }
-  Status make_room();
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
   Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
-  Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls) const;
-  Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance) const;
+  /// What is asked of closest points: of points[order[i]], or points[i] if there is no order.
+  struct ClosestQueries {
+    std::span<const Point> points;
+    std::span<const std::uint32_t> order;
+    std::uint32_t group_size = 0;  // of packets, by `slots`; 0: one by one
+    std::span<const std::uint32_t> slots;
+
+    std::size_t index(std::size_t i) const { return order.empty() ? i : std::size_t{order[i]}; }
+  };
+  Status closest(const ClosestQueries& asked, std::span<ClosestPoint> out);
+  Status read_closest(const ClosestQueries& asked, std::size_t first, std::size_t count,
+                      std::span<const std::byte* const, 2> items, std::span<ClosestPoint> out) const;
+  Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
+  Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance);
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
-  Status write_queries(const ClosestBatch& batch, std::size_t padded) const;
-  void record_closest(Recorder& r, const ClosestBatch& batch, std::uint32_t groups, const Buffer& table) const;
-  Status read_closest(const ClosestBatch& batch, std::size_t padded, std::span<ClosestPoint> out) const;
-  Status closest(const ClosestBatch& batch, std::span<ClosestPoint> out);
-  Status fluxes(std::span<const Ball> spheres, std::size_t first, std::span<const Texel> directions,
-                std::span<FluxSample> out);
+  Status answer(const QuerySet& queries);
 
   Context::Impl* context;
   /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies turn it off before
@@ -130,7 +79,7 @@ class Scene::Impl {
   DeviceMesh mesh;
   std::unique_ptr<TreeQueries> queries;
   std::unique_ptr<PacketQueries> packets;
-  std::unique_ptr<ClosestRoom> room;
+  std::unique_ptr<QueryBatches> batches;  // from the first query on
 };
 
 }  // namespace medial_vk

@@ -1,5 +1,6 @@
 #include "thesis_extraction.h"
 
+#include "commands.h"
 #include "extraction_result.h"
 #include "thesis_pipeline.h"
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "spiral.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

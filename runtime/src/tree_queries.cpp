@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "tree_types.h"
 

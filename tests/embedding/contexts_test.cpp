@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "medial_vk/context.h"
 #include "memory.h"

@@ -129,6 +129,19 @@ TEST_F(VulkanFaults, OfThesisExtraction) {
   fail_every_call_of("thesis extraction", [&](Context& context) { return extract(context, mesh, Mode::kThesis); });
 }
 
+// Semaphores, command buffers on two queues, staging memory.
+TEST_F(VulkanFaults, OfADeviceWithAQueueForCopies) {
+  DeviceProfile discrete;
+  discrete.split_memory = true;
+  discrete.copying_queue = LateQueue::kCopies;
+  vulkan().set_profile(discrete);
+  const PreparedMesh mesh = small_box();
+  fail_every_call_of("queries, copies on a queue of their own",
+                     [&](Context& context) { return make_scene_and_ask(context, mesh); });
+  fail_every_call_of("certified extraction, copies on a queue of their own",
+                     [&](Context& context) { return extract(context, mesh, Mode::kCertified); });
+}
+
 class RecordedJobFaults : public VulkanFaults {
  protected:
   void SetUp() override {

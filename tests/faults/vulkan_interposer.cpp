@@ -99,6 +99,7 @@ void look_at(Tag, Args...) {}
   X(vkCreateCommandPool, kHost | kDevice, "VkCommandPool")                 \
   X(vkAllocateCommandBuffers, kHost | kDevice, nullptr)                    \
   X(vkCreateFence, kHost | kDevice, "VkFence")                             \
+  X(vkCreateSemaphore, kHost | kDevice, "VkSemaphore")                     \
   X(vkBeginCommandBuffer, kHost | kDevice, nullptr)                        \
   X(vkEndCommandBuffer, kHost | kDevice, nullptr)                          \
   X(vkQueueSubmit, kHost | kDevice | kLost, nullptr)                       \
@@ -129,6 +130,7 @@ void look_at(Tag, Args...) {}
   X(vkDestroyQueryPool, 0, "VkQueryPool")                     \
   X(vkDestroyCommandPool, 0, "VkCommandPool")                 \
   X(vkDestroyFence, 0, "VkFence")                             \
+  X(vkDestroySemaphore, 0, "VkSemaphore")                     \
   X(vkDestroyImage, 0, "VkImage")                             \
   X(vkDestroyImageView, 0, "VkImageView")                     \
   X(vkDestroyFramebuffer, 0, "VkFramebuffer")                 \
@@ -145,6 +147,7 @@ void look_at(Tag, Args...) {}
   X(vkGetPhysicalDeviceFormatProperties, 0, nullptr)      \
   X(vkGetBufferMemoryRequirements2, 0, nullptr)           \
   X(vkUpdateDescriptorSets, 0, nullptr)                   \
+  X(vkGetDeviceQueue, 0, nullptr)                         \
   X(vkCmdDispatch, 0, nullptr)                            \
   X(vkGetDeviceProcAddr, 0, nullptr)
 
@@ -219,6 +222,84 @@ void look_at(vkCreateBufferViewTag, VkDevice, const VkBufferViewCreateInfo* info
   check(self, "texels of a view", bytes / 16, self.limits.maxTexelBufferElements);
 }
 
+// What calls are changed to before the real ones see them: overloads for those that are.
+template <class Tag, class... Args>
+VkResult make_call(Tag, Args... args) {
+  return call_real<Tag>(args...);
+}
+
+std::uint32_t mappable_type = 0;  // of the real device
+
+/// Split memory: both types are the first one that the host sees.
+VkResult make_call(vkAllocateMemoryTag, VkDevice device, const VkMemoryAllocateInfo* info,
+                   const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  VulkanInterposer& self = VulkanInterposer::get();
+  VkMemoryAllocateInfo real = *info;
+  if (self.profile().split_memory) real.memoryTypeIndex = mappable_type;
+  if (const auto& most = self.profile().max_allocation_bytes)
+    check(self, "bytes of an allocation", info->allocationSize, *most);
+  return call_real<vkAllocateMemoryTag>(device, static_cast<const VkMemoryAllocateInfo*>(&real), callbacks, memory);
+}
+
+/// The real device has the first family only.
+VkResult make_call(vkCreateDeviceTag, VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                   const VkAllocationCallbacks* callbacks, VkDevice* device) {
+  VkDeviceCreateInfo real = *info;
+  if (VulkanInterposer::get().profile().copying_queue) real.queueCreateInfoCount = 1;
+  return call_real<vkCreateDeviceTag>(physical, static_cast<const VkDeviceCreateInfo*>(&real), callbacks, device);
+}
+
+VkResult make_call(vkCreateCommandPoolTag, VkDevice device, const VkCommandPoolCreateInfo* info,
+                   const VkAllocationCallbacks* callbacks, VkCommandPool* pool) {
+  VkCommandPoolCreateInfo real = *info;
+  if (real.queueFamilyIndex == TwoQueues::kCopyingFamily) real.queueFamilyIndex = 0;
+  return call_real<vkCreateCommandPoolTag>(device, static_cast<const VkCommandPoolCreateInfo*>(&real), callbacks, pool);
+}
+
+VkResult make_call(vkCreateBufferTag, VkDevice device, const VkBufferCreateInfo* info,
+                   const VkAllocationCallbacks* callbacks, VkBuffer* buffer) {
+  VkBufferCreateInfo real = *info;
+  VulkanInterposer& self = VulkanInterposer::get();
+  const bool is_shared = info->sharingMode == VK_SHARING_MODE_CONCURRENT && info->queueFamilyIndexCount == 2;
+  if (is_shared != self.profile().copying_queue.has_value())
+    self.violation("a buffer is shared by families, or not, where it should not be, or should");
+  real.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  return call_real<vkCreateBufferTag>(device, static_cast<const VkBufferCreateInfo*>(&real), callbacks, buffer);
+}
+
+VkResult make_call(vkQueueSubmitTag, VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
+  VulkanInterposer& self = VulkanInterposer::get();
+  const std::optional<LateQueue> late = self.profile().copying_queue;
+  if (!late) return call_real<vkQueueSubmitTag>(queue, count, infos, fence);
+  const auto real = [&self](const VkSubmitInfo& info, VkFence signalled) {
+    return call_real<vkQueueSubmitTag>(self.queue, std::uint32_t{1}, &info, signalled);
+  };
+  return self.two_queues.submit(queue, *infos, fence, *late, real,
+                                [&self](std::string what) { self.violation(std::move(what)); });
+}
+
+// What somebody waits for has to run in the end.
+template <class... Args>
+void let_run(VulkanInterposer& self, vkDeviceWaitIdleTag, Args...) {
+  self.two_queues.run_until({});
+}
+void let_run(VulkanInterposer& self, vkWaitForFencesTag, VkDevice, std::uint32_t count, const VkFence* fences, VkBool32,
+             std::uint64_t) {
+  for (std::uint32_t i = 0; i < count; ++i) self.two_queues.run_until(fences[i]);
+}
+
+// What has been waited for.
+template <class Tag, class... Args>
+void has_waited(VulkanInterposer&, Tag, Args...) {}
+template <class... Args>
+void has_waited(VulkanInterposer& self, vkDeviceWaitIdleTag, Args...) {
+  self.waited_for({});
+}
+void has_waited(VulkanInterposer& self, vkWaitForFencesTag, VkDevice, std::uint32_t count, const VkFence* fences,
+                VkBool32, std::uint64_t) {
+  for (std::uint32_t i = 0; i < count; ++i) self.waited_for(fences[i]);
+}
+
 template <class Tag, class F>
 struct Hook;
 
@@ -230,25 +311,23 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     VulkanInterposer& self = VulkanInterposer::get();
     const VkResult fault = self.next_result(Tag::kName, Tag::kFaults);
     constexpr bool kWaits = std::is_same_v<Tag, vkWaitForFencesTag> || std::is_same_v<Tag, vkDeviceWaitIdleTag>;
+    if constexpr (kWaits) let_run(self, Tag(), args...);
     // A device that is lost does nothing any more: let the real one finish first.
-    if (kWaits && fault == VK_ERROR_DEVICE_LOST) {
-      while (call_real<Tag>(args...) == VK_TIMEOUT) {
+    if constexpr (kWaits) {
+      if (fault == VK_ERROR_DEVICE_LOST) {
+        self.two_queues.run_until({});
+        call_real<vkDeviceWaitIdleTag>(std::get<0>(std::make_tuple(args...)));
+        self.waited_for({});
       }
-      self.at_work = false;
     }
     if (fault != VK_SUCCESS) return fault;
     look_at(Tag(), args...);
-    VkResult result = VK_SUCCESS;
-    if constexpr (std::is_same_v<Tag, vkAllocateMemoryTag>) {
-      result = allocate(args...);
-    } else {
-      current_call = Tag::kName;
-      result = call_real<Tag>(args...);
-      current_call = nullptr;
-    }
+    current_call = Tag::kName;
+    const VkResult result = make_call(Tag(), args...);
+    current_call = nullptr;
     if (result != VK_SUCCESS) return result;
-    if (std::is_same_v<Tag, vkQueueSubmitTag>) self.at_work = true;
-    if (kWaits) self.at_work = false;
+    if constexpr (std::is_same_v<Tag, vkQueueSubmitTag>) self.submitted(std::get<3>(std::make_tuple(args...)));
+    has_waited(self, Tag(), args...);
     if (Tag::kHandle != nullptr) self.created(Tag::kHandle);
     if constexpr (std::is_same_v<Tag, vkCreateBufferTag>) {
       const std::lock_guard lock(self.buffers_mutex);
@@ -257,10 +336,6 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     }
     return result;
   }
-
-  /// Split memory: both types are the first one that the host sees.
-  static VkResult allocate(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks,
-                           VkDeviceMemory* memory);
 };
 
 /// Destroyers. The handle is the last argument but one.
@@ -272,27 +347,16 @@ struct Hook<Tag, void (*)(Args...)> {
     VulkanInterposer& self = VulkanInterposer::get();
     if (std::get<sizeof...(Args) - 2>(all) != VK_NULL_HANDLE) {
       self.destroyed(Tag::kHandle);
-      if (self.at_work) self.violation(std::string(Tag::kName) + " while the device is at work");
+      // The device never uses the first; which work uses the others only the validation layer knows.
+      constexpr bool kAnyTime = std::is_same_v<Tag, vkDestroyShaderModuleTag> ||
+                                std::is_same_v<Tag, vkDestroyDescriptorPoolTag> ||
+                                std::is_same_v<Tag, vkDestroyQueryPoolTag>;
+      if (!kAnyTime && self.at_work()) self.violation(std::string(Tag::kName) + " while the device is at work");
     }
+    if constexpr (std::is_same_v<Tag, vkDestroySemaphoreTag>) self.two_queues.forget(std::get<1>(all));
     call_real<Tag>(args...);
   }
 };
-
-std::uint32_t mappable_type = 0;  // of the real device
-
-template <class Tag, class... Args>
-VkResult Hook<Tag, VkResult (*)(Args...)>::allocate(VkDevice device, const VkMemoryAllocateInfo* info,
-                                                    const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
-  VulkanInterposer& self = VulkanInterposer::get();
-  VkMemoryAllocateInfo real = *info;
-  if (self.profile().split_memory) real.memoryTypeIndex = mappable_type;
-  if (const auto& most = self.profile().max_allocation_bytes)
-    check(self, "bytes of an allocation", info->allocationSize, *most);
-  current_call = Tag::kName;
-  const VkResult result = call_real<Tag>(device, static_cast<const VkMemoryAllocateInfo*>(&real), callbacks, memory);
-  current_call = nullptr;
-  return result;
-}
 
 VkResult enumerate(VkInstance instance, std::uint32_t* count, VkPhysicalDevice* devices) {
   const InDriver inside;
@@ -343,13 +407,31 @@ void get_properties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* prope
 
 void get_families(VkPhysicalDevice device, std::uint32_t* count, VkQueueFamilyProperties* families) {
   const InDriver inside;
-  call_real<vkGetPhysicalDeviceQueueFamilyPropertiesTag>(device, count, families);
   const DeviceProfile& profile = VulkanInterposer::get().profile();
-  for (std::uint32_t i = 0; families != nullptr && i < *count; ++i) {
+  const std::uint32_t room = *count, more = profile.copying_queue ? 1 : 0;
+  std::uint32_t real = families != nullptr ? room - more : 0;
+  call_real<vkGetPhysicalDeviceQueueFamilyPropertiesTag>(device, &real, families);
+  *count = real + more;
+  for (std::uint32_t i = 0; families != nullptr && i < real; ++i) {
     if (profile.no_compute) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_COMPUTE_BIT);
     if (profile.no_graphics) families[i].queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_GRAPHICS_BIT);
     if (profile.timestamp_valid_bits) families[i].timestampValidBits = *profile.timestamp_valid_bits;
   }
+  if (families != nullptr && more != 0)
+    families[real] = {.queueFlags = VK_QUEUE_TRANSFER_BIT,
+                      .queueCount = 1,
+                      .timestampValidBits = 0,
+                      .minImageTransferGranularity = {1, 1, 1}};
+}
+
+void get_queue(VkDevice device, std::uint32_t family, std::uint32_t index, VkQueue* queue) {
+  const InDriver inside;
+  if (family == TwoQueues::kCopyingFamily) {
+    *queue = TwoQueues::copying_queue();
+    return;
+  }
+  call_real<vkGetDeviceQueueTag>(device, family, index, queue);
+  VulkanInterposer::get().queue = *queue;
 }
 
 void get_memory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memory) {
@@ -437,6 +519,7 @@ PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real) {
     return keep<vkGetPhysicalDeviceFormatPropertiesTag>(real, get_format);
   if (wanted == "vkGetBufferMemoryRequirements2")
     return keep<vkGetBufferMemoryRequirements2Tag>(real, get_requirements);
+  if (wanted == "vkGetDeviceQueue") return keep<vkGetDeviceQueueTag>(real, get_queue);
   if (wanted == "vkUpdateDescriptorSets") return keep<vkUpdateDescriptorSetsTag>(real, update_sets);
   if (wanted == "vkCmdDispatch") return keep<vkCmdDispatchTag>(real, dispatch);
   if (wanted == "vkGetDeviceProcAddr") return keep<vkGetDeviceProcAddrTag>(real, get_device_function);
@@ -541,6 +624,24 @@ void VulkanInterposer::set_profile(DeviceProfile profile) {
   const std::lock_guard lock(mutex_);
   profile_ = std::move(profile);
   violations_.clear();
+}
+
+void VulkanInterposer::submitted(VkFence fence) {
+  const std::lock_guard lock(mutex_);
+  under_way_.insert(fence);
+}
+
+void VulkanInterposer::waited_for(std::optional<VkFence> fence) {
+  const std::lock_guard lock(mutex_);
+  if (fence)
+    under_way_.erase(*fence);
+  else
+    under_way_.clear();
+}
+
+bool VulkanInterposer::at_work() const {
+  const std::lock_guard lock(mutex_);
+  return !under_way_.empty();
 }
 
 Usage VulkanInterposer::usage() const {

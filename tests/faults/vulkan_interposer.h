@@ -10,8 +10,11 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "two_queues.h"
 
 namespace medial_vk::test {
 
@@ -36,7 +39,8 @@ struct DeviceProfile {
   std::function<void(VkPhysicalDeviceLimits&)> limits;
   std::optional<VkDeviceSize> max_allocation_bytes;
   std::optional<std::uint32_t> timestamp_valid_bits;
-  bool no_subgroup_operations = false;  // subgroups of one invocation, basic operations only
+  bool no_subgroup_operations = false;     // subgroups of one invocation, basic operations only
+  std::optional<LateQueue> copying_queue;  // there is another queue, of a family that only copies; which one is late
   bool split_memory = false;  // two types: one that only the device sees, one that the host may map (discrete GPUs)
 };
 
@@ -85,8 +89,12 @@ class VulkanInterposer {
   void destroyed(const char* type);
   void use(const std::function<void(Usage&)>& change);
   void violation(std::string what);
-  std::atomic<bool> at_work = false;  // something was submitted and not waited for
-  VkPhysicalDeviceLimits limits{};    // as they were last reported
+  void submitted(VkFence fence);
+  void waited_for(std::optional<VkFence> fence);  // none: for all
+  bool at_work() const;                           // something was submitted and not waited for
+  VkPhysicalDeviceLimits limits{};                // as they were last reported
+  TwoQueues two_queues;
+  VkQueue queue = VK_NULL_HANDLE;  // the real one
   std::mutex buffers_mutex;
   std::map<VkBuffer, VkDeviceSize> buffer_sizes;
 
@@ -98,6 +106,7 @@ class VulkanInterposer {
   Fault fault_ = Fault::kNone;
   std::string failed_;
   std::map<std::string, std::int64_t> created_, destroyed_;
+  std::multiset<VkFence> under_way_;
   DeviceProfile profile_;
   Usage usage_;
   std::vector<std::string> violations_;

@@ -9,9 +9,11 @@
 #include <optional>
 #include <type_traits>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "recorder.h"
 #include "support/device.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

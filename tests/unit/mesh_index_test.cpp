@@ -86,6 +86,7 @@ TEST_F(MeshIndexTest, StaysWhereItIsWhenADeviceMeshMoves) {
   const MeshIndex index = MeshIndex::create(test::view_of(before)).value();
   const std::vector<std::array<Point, 3>> corners = index.bvh().corners();
   DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(before), index).value();
+  ASSERT_TRUE(device.finish_uploads().ok());
   ASSERT_TRUE(device.update(context_->impl(), test::view_of(after)).ok());
   EXPECT_TRUE(index.bvh().corners() == corners);
   EXPECT_NE(device.upper, index.bvh().nodes()[0].box.upper);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <set>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "embedded_shaders.h"
 #include "make_specials_spirv.h"

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "point_math.h"
@@ -16,6 +17,7 @@
 #include "spiral.h"
 #include "support/device_test.h"
 #include "support/solids.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

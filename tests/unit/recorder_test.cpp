@@ -7,10 +7,12 @@
 #include <cmath>
 #include <optional>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "memory.h"
 #include "support/device.h"
 #include "write_sequence_spirv.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

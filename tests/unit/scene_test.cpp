@@ -8,6 +8,7 @@
 #include <cstring>
 #include <optional>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "medial_vk/queries.h"
@@ -17,6 +18,7 @@
 #include "support/device_test.h"
 #include "support/solids.h"
 #include "tree_queries.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "commands.h"
 #include "context_impl.h"
 #include "device_tree.h"
 #include "medial_vk/queries.h"
@@ -15,6 +16,7 @@
 #include "support/device_test.h"
 #include "support/solids.h"
 #include "tree_queries.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {

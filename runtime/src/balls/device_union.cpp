@@ -7,10 +7,12 @@
 #include "balls/cell_builder.h"
 #include "balls/split_balls.h"
 #include "balls/unit_balls.h"
+#include "commands.h"
+#include "context_impl.h"
 #include "host_memory.h"
 #include "medial_vk/ball_union_device.h"
 #include "parallel_blocks.h"
-#include "scene_impl.h"
+#include "uploads.h"
 
 namespace medial_vk {
 namespace {
@@ -70,19 +72,32 @@ Status DeviceMeasuring::ask_device() {
   if (balls_.empty()) return {};
   const SplitBalls split = split_balls(balls_, tree_.order());
   if (!split.exact) return {};  // numbers that float does not reach: all is left to the host
-  Transfer transfer(context_);
+  Arena arena(context_);
+  Uploads uploads(context_);
   const std::vector<gpu::BallNode> split_tree = split_nodes(tree_, threads_);
-  Result<Buffer> balls = transfer.create_filled(std::span(split.balls), "balls");
+  Result<Buffer> balls = create_filled(arena, uploads, std::span(split.balls), "balls");
   if (!balls.ok()) return balls.error();
-  Result<Buffer> names = transfer.create_filled(tree_.order(), "numbers of balls");
+  Result<Buffer> names = create_filled(arena, uploads, tree_.order(), "numbers of balls");
   if (!names.ok()) return names.error();
-  Result<Buffer> nodes = transfer.create_filled(std::span(split_tree), "the tree over the balls");
+  Result<Buffer> nodes = create_filled(arena, uploads, std::span(split_tree), "the tree over the balls");
   if (!nodes.ok()) return nodes.error();
-  Result<Buffer> results = transfer.create(found_.size() * sizeof(gpu::MeasuredBall), "measures of balls");
+  const VkDeviceSize bytes = found_.size() * sizeof(gpu::MeasuredBall);
+  Result<Buffer> results = arena.create_buffer(bytes, MemoryKind::kDevice, "measures of balls");
   if (!results.ok()) return results.error();
+  Result<Buffer> readback = arena.create_buffer(bytes, MemoryKind::kReadback, "measures of balls");
+  if (!readback.ok()) return readback.error();
+  if (Status there = uploads.finish(); !there.ok()) return there;
   const std::array<BufferRange, 4> buffers = {balls.value().range(), names.value().range(), nodes.value().range(),
                                               results.value().range()};
-  return transfer.run_and_read([&](Recorder& r) { record(r, buffers); }, results.value(), std::span(found_));
+  const auto measured = run_commands(context_, [&](Recorder& r) {
+    record(r, buffers);
+    r.copy(results.value(), 0, readback.value(), 0, bytes);
+    r.barrier_to_host();
+    return r.status();
+  });
+  if (!measured.ok()) return measured.error();
+  std::memcpy(found_.data(), readback.value().mapped, bytes);
+  return {};
 }
 
 void DeviceMeasuring::record(Recorder& r, const std::array<BufferRange, 4>& buffers) const {

@@ -1,0 +1,107 @@
+#include "uploads.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "context_impl.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr VkDeviceSize kLeastPiece = 64ull << 10;
+constexpr VkDeviceSize kLargestPiece = 4ull << 20;  // a tenth of a millisecond and more on its way
+
+}  // namespace
+
+Uploads::Uploads(Context::Impl& context)
+    : context_(&context),
+      arena_(context),
+      sent_(context),
+      received_(context),
+      pieces_{Piece(context, Commands::copying_queue(context)), Piece(context, Commands::copying_queue(context))} {}
+
+Uploads::~Uploads() {
+  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_})
+    static_cast<void>(commands->wait());
+}
+
+Status Uploads::begin(Piece& piece, VkDeviceSize expected) {
+  if (piece.memory.handle == VK_NULL_HANDLE) {
+    const VkDeviceSize size = std::clamp(std::bit_ceil(expected), kLeastPiece, kLargestPiece);
+    Result<Buffer> made = arena_.create_buffer(size, MemoryKind::kUpload, "staging");
+    if (!made.ok()) return made.error();
+    piece.memory = made.value();
+  }
+  if (Status emptied = piece.commands.wait(); !emptied.ok()) return emptied;
+  piece.used = 0;
+  piece.records = true;
+  return piece.commands.begin();
+}
+
+Status Uploads::send(Piece& piece, const Semaphore* signal) {
+  piece.records = false;
+  piece.commands.recorder().barrier();  // for the commands of later submissions to this queue
+  return piece.commands.submit(nullptr, signal);
+}
+
+Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
+  if (bytes.size() > buffer.size) {
+    return Error{ErrorCode::kInternal, "upload of " + std::to_string(bytes.size()) + " bytes into a buffer of " +
+                                           std::to_string(buffer.size)};
+  }
+  if (buffer.mapped != nullptr) {
+    if (!bytes.empty()) std::memcpy(buffer.mapped, bytes.data(), bytes.size());
+    return {};
+  }
+  for (std::size_t done = 0; done < bytes.size();) {
+    Piece& piece = pieces_[current_];
+    if (!piece.records) {
+      if (Status begun = begin(piece, bytes.size() - done); !begun.ok()) return begun;
+    }
+    const std::size_t count = std::min<std::size_t>(bytes.size() - done, piece.memory.size - piece.used);
+    std::memcpy(static_cast<std::byte*>(piece.memory.mapped) + piece.used, bytes.data() + done, count);
+    piece.commands.recorder().copy(piece.memory, piece.used, buffer, done, count);
+    piece.used += count;
+    done += count;
+    is_sending_ = true;
+    if (piece.used == piece.memory.size) {
+      if (Status sent = send(piece, nullptr); !sent.ok()) return sent;
+      current_ = 1 - current_;
+    }
+  }
+  return {};
+}
+
+// A wait for the fence of a copy would make its bytes available, but not visible to kernels on another queue: the
+// semaphore does.
+Status Uploads::finish() {
+  if (!is_sending_) return {};
+  is_sending_ = false;
+  Piece& last = pieces_[current_];
+  const bool has_own_queue = context_->transfer_queue != VK_NULL_HANDLE;
+  if (!last.records) {
+    if (Status begun = begin(last, kLeastPiece); !begun.ok()) return begun;
+  }
+  if (has_own_queue) {
+    if (Status ready = sent_.prepare(); !ready.ok()) return ready;
+  }
+  if (Status sent = send(last, has_own_queue ? &sent_ : nullptr); !sent.ok()) return sent;
+  if (has_own_queue) {
+    if (Status begun = received_.begin(); !begun.ok()) return begun;
+    if (Status submitted = received_.submit(&sent_, nullptr); !submitted.ok()) return submitted;
+  }
+  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_}) {
+    if (Status done = commands->wait(); !done.ok()) return done;
+  }
+  return {};
+}
+
+Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes) {
+  Uploads uploads(context);
+  if (Status added = uploads.add(buffer, bytes); !added.ok()) return added;
+  return uploads.finish();
+}
+
+}  // namespace medial_vk

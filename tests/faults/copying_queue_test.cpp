@@ -1,0 +1,147 @@
+// Devices with a queue for copies: they go on beside the kernels, and nothing is read before it is there, however late
+// either queue is.
+#include <gmock/gmock.h>
+
+#include <numeric>
+#include <set>
+
+#include "fault_test.h"
+#include "lent_device.h"
+#include "query_batches.h"
+
+namespace medial_vk::test {
+namespace {
+
+class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQueue> {
+ protected:
+  /// A device like a discrete one: memory of its own, and a queue that only copies.
+  Result<Context> open_discrete() {
+    DeviceProfile profile;
+    profile.split_memory = true;
+    profile.copying_queue = GetParam();
+    vulkan().set_profile(profile);
+    return open();
+  }
+
+  /// The same answer as that of the device as it is.
+  void expect_same(const Job& job) {
+    std::string expected;
+    vulkan().set_profile({});
+    {
+      Result<Context> plain = open();
+      ASSERT_TRUE(plain.ok()) << plain.error().message;
+      EXPECT_EQ(plain.value().impl().transfer_queue, VkQueue{VK_NULL_HANDLE});
+      expected = job(plain.value()).value();
+    }
+    Result<Context> discrete = open_discrete();
+    ASSERT_TRUE(discrete.ok()) << discrete.error().message;
+    EXPECT_EQ(discrete.value().impl().transfer_queue, TwoQueues::copying_queue());
+    const Answer answer = job(discrete.value());
+    ASSERT_TRUE(answer.ok()) << answer.error().message;
+    EXPECT_TRUE(answer.value() == expected);
+  }
+};
+
+TEST_P(CopyingQueue, AnswersQueriesAlike) {
+  const PreparedMesh mesh = small_box();
+  expect_same([&](Context& context) { return make_scene_and_ask(context, mesh); });
+}
+
+TEST_P(CopyingQueue, FollowsAMeshThatMoves) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  expect_same([&](Context& context) -> Answer {
+    Scene scene = Scene::create(context, mesh.view()).value();
+    const std::string before = ask_everything(scene).value();
+    EXPECT_TRUE(scene.update(moved.view()).ok());
+    return before + ask_everything(scene).value();
+  });
+}
+
+TEST_P(CopyingQueue, ExtractsAlike) {
+  const PreparedMesh mesh = small_box();
+  expect_same([&](Context& context) { return extract(context, mesh, Mode::kCertified); });
+  expect_same([&](Context& context) { return extract(context, mesh, Mode::kThesis); });
+}
+
+// Points of one chunk go down while the next is computed, into the same buffer in the end.
+TEST_P(CopyingQueue, ExtractsChunkByChunk) {
+  const PreparedMesh mesh = small_box();
+  ExtractionParameters parameters = small_job(Mode::kCertified);
+  parameters.resolution = 64;
+  parameters.extra_levels = 0;
+  parameters.memory_budget = 16u << 20;
+  expect_same([&](Context& context) -> Answer {
+    std::set<double> seen;
+    const auto extraction = extract_medial_spheres(context, mesh.view(), parameters, [&](double done) {
+      seen.insert(done);
+      return true;
+    });
+    if (!extraction.ok()) return extraction.error();
+    EXPECT_GT(seen.size(), 4u);  // chunks
+    return answer_of(extraction.value());
+  });
+}
+
+/// Batches whose kernel is a copy, so that every answer is its query.
+QuerySet echo(std::span<const float> values, std::vector<float>& answers) {
+  answers.assign(values.size(), -1.0f);
+  QuerySet set;
+  set.count = values.size();
+  set.batch = 60;
+  set.group_size = 20;
+  set.item_bytes = {16, 0};
+  set.write = [values](std::size_t first, std::span<Texel> out) -> Status {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[first + i], 0, 0, 0};
+    return {};
+  };
+  set.record = [](Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items) {
+    EXPECT_EQ(count % 20, 0u);
+    r.copy(asked, 0, items[0], 0, count * sizeof(Texel));
+    r.barrier();
+  };
+  set.read = [&answers](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
+    const auto* texels = reinterpret_cast<const Texel*>(items[0]);
+    for (std::size_t i = 0; i < count; ++i) answers[first + i] = texels[i][0];
+    return {};
+  };
+  return set;
+}
+
+TEST_P(CopyingQueue, AnswersManyBatches) {
+  Context context = open_discrete().value();
+  QueryBatches batches(context.impl(), 64, false);
+  for (const std::size_t count : {0u, 1u, 60u, 61u, 120u, 121u, 995u}) {
+    std::vector<float> values(count), answers;
+    std::iota(values.begin(), values.end(), 1.0f);
+    ASSERT_TRUE(batches.run(echo(values, answers)).ok());
+    EXPECT_EQ(answers, values) << count;
+  }
+}
+
+TEST_P(CopyingQueue, StartsOverAfterAQueryThatCannotBeAsked) {
+  Context context = open_discrete().value();
+  QueryBatches batches(context.impl(), 64, false);
+  std::vector<float> values(500), answers;
+  std::iota(values.begin(), values.end(), 1.0f);
+  for (const std::size_t bad : {0u, 60u, 130u, 499u}) {
+    QuerySet set = echo(values, answers);
+    const auto write = set.write;
+    set.write = [&](std::size_t first, std::span<Texel> out) -> Status {
+      if (bad >= first && bad < first + out.size()) return Error{ErrorCode::kUsage, "not this one"};
+      return write(first, out);
+    };
+    const Status status = batches.run(set);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().message, "not this one");
+    ASSERT_TRUE(batches.run(echo(values, answers)).ok());
+    EXPECT_EQ(answers, values);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, CopyingQueue, testing::Values(LateQueue::kCopies, LateQueue::kKernels),
+                         [](const auto& test) {
+                           return test.param == LateQueue::kCopies ? "CopiesAreLate" : "KernelsAreLate";
+                         });
+
+}  // namespace
+}  // namespace medial_vk::test
