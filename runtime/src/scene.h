@@ -131,9 +131,9 @@ struct DeviceMesh {
 
   Arena arena_;
   std::unique_ptr<Uploads> uploads_;  // under way, into buffers of the arena; or null
-  std::shared_ptr<const Bvh> bvh_;   // input units; a MeshIndex may share it
-  std::shared_ptr<Bvh> own_bvh_;     // the same if none does, or null
-  std::size_t linked_vertices_ = 0;  // vertices of the mesh in add_links()
+  std::shared_ptr<const Bvh> bvh_;    // input units; a MeshIndex may share it
+  std::shared_ptr<Bvh> own_bvh_;      // the same if none does, or null
+  std::size_t linked_vertices_ = 0;   // vertices of the mesh in add_links()
 };
 
 }  // namespace medial_vk

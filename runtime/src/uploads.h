@@ -23,9 +23,8 @@ class Uploads {
   /// Waits for what is under way; the rest is dropped.
   ~Uploads();
 
-  /// To the start of the buffer, which outlives this object or finish(); `bytes` may go when this returns. The device must
-  /// not use the buffer until finish().
-  /// Errors: kOutOfMemory, kInternal (too many bytes, device lost).
+  /// To the start of the buffer, which outlives this object or finish(); `bytes` may go when this returns. The device
+  /// must not use the buffer until finish(). Errors: kOutOfMemory, kInternal (too many bytes, device lost).
   Status add(const Buffer& buffer, std::span<const std::byte> bytes);
   /// Waits until all is there. Errors: kOutOfMemory, kInternal (device lost).
   Status finish();
