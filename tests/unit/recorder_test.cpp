@@ -11,8 +11,8 @@
 #include "context_impl.h"
 #include "memory.h"
 #include "support/device.h"
-#include "write_sequence_spirv.h"
 #include "uploads.h"
+#include "write_sequence_spirv.h"
 
 namespace medial_vk {
 namespace {
