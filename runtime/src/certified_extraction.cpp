@@ -46,7 +46,7 @@ class CertifiedRun {
   CertifiedRun& operator=(const CertifiedRun&) = delete;
   /// After an error one part may be under way without the other.
   ~CertifiedRun() {
-    for (Commands* part : {&search_, &collection_}) static_cast<void>(part->wait());
+    for (Commands* part : {&search_, &collection_}) part->drain();
   }
 
   Status run() {

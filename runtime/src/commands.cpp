@@ -38,37 +38,40 @@ Status Semaphore::prepare() {
 
 Semaphore::~Semaphore() { context_->vk.vkDestroySemaphore(context_->device, handle_, context_->allocation_callbacks); }
 
-Commands::Queue Commands::copying_queue(const Context::Impl& context) {
+Commands::Queue Commands::queue_for_transfers(const Context::Impl& context) {
   return context.transfer_queue != VK_NULL_HANDLE ? Queue::kTransfer : Queue::kCompute;
 }
 
 Commands::~Commands() {
-  if (under_way_) finish(*context_);
+  drain();
   recorder_.reset();
   context_->vk.vkDestroyFence(context_->device, fence_, context_->allocation_callbacks);
   context_->vk.vkDestroyCommandPool(context_->device, pool_, context_->allocation_callbacks);
 }
 
+/// What a call before has made is kept, if it failed half-way.
 Status Commands::create() {
-  VkCommandPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-  pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-  pool_info.queueFamilyIndex = queue_ == Queue::kTransfer ? context_->transfer_family : context_->queue_family;
   const VolkDeviceTable& vk = context_->vk;
-  VkResult result = vk.vkCreateCommandPool(context_->device, &pool_info, context_->allocation_callbacks, &pool_);
-  if (result != VK_SUCCESS) return vulkan_error("vkCreateCommandPool", result);
-
-  VkFenceCreateInfo fence_info{};
-  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-  result = vk.vkCreateFence(context_->device, &fence_info, context_->allocation_callbacks, &fence_);
-  if (result != VK_SUCCESS) return vulkan_error("vkCreateFence", result);
-
-  VkCommandBufferAllocateInfo buffer_info{};
-  buffer_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  buffer_info.commandPool = pool_;
-  buffer_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  buffer_info.commandBufferCount = 1;
-  result = vk.vkAllocateCommandBuffers(context_->device, &buffer_info, &buffer_);
+  if (pool_ == VK_NULL_HANDLE) {
+    VkCommandPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    info.queueFamilyIndex = queue_ == Queue::kTransfer ? context_->transfer_family : context_->queue_family;
+    const VkResult result = vk.vkCreateCommandPool(context_->device, &info, context_->allocation_callbacks, &pool_);
+    if (result != VK_SUCCESS) return vulkan_error("vkCreateCommandPool", result);
+  }
+  if (fence_ == VK_NULL_HANDLE) {
+    VkFenceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    const VkResult result = vk.vkCreateFence(context_->device, &info, context_->allocation_callbacks, &fence_);
+    if (result != VK_SUCCESS) return vulkan_error("vkCreateFence", result);
+  }
+  VkCommandBufferAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  info.commandPool = pool_;
+  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  info.commandBufferCount = 1;
+  const VkResult result = vk.vkAllocateCommandBuffers(context_->device, &info, &buffer_);
   if (result != VK_SUCCESS) return vulkan_error("vkAllocateCommandBuffers", result);
   return {};
 }
@@ -90,7 +93,7 @@ Status Commands::begin() {
   const VkResult result = vk.vkBeginCommandBuffer(buffer_, &begin_info);
   if (result != VK_SUCCESS) return vulkan_error("vkBeginCommandBuffer", result);
   recorder_.emplace(*context_, buffer_);
-  if (queue_ == Queue::kTransfer) recorder_->only_copy();
+  if (queue_ == Queue::kTransfer) recorder_->only_transfer();
   return {};
 }
 
@@ -127,6 +130,11 @@ void Commands::call_while_busy(const std::function<void()>& callback) {
     under_way_ = false;
     throw;
   }
+}
+
+void Commands::drain() noexcept {
+  if (under_way_) finish(*context_);
+  under_way_ = false;
 }
 
 Status Commands::wait(const std::function<void()>& while_waiting) {

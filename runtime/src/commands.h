@@ -40,7 +40,7 @@ class Commands {
     kTransfer,  // of the family that only copies; Context::Impl::transfer_queue is not null
   };
   /// For copies beside kernels: the latter queue if there is one.
-  static Queue copying_queue(const Context::Impl& context);
+  static Queue queue_for_transfers(const Context::Impl& context);
   explicit Commands(Context::Impl& context, Queue queue = Queue::kCompute) : context_(&context), queue_(queue) {}
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
@@ -54,6 +54,8 @@ class Commands {
   Status submit(const Semaphore* wait_for, const Semaphore* signal);
   /// Returns at once if nothing is under way. `while_waiting` is called every ten milliseconds. Errors: as submit().
   Status wait(const std::function<void()>& while_waiting = {});
+  /// The same where nobody can be told: on the way out of an error.
+  void drain() noexcept;
 
  private:
   Status create();

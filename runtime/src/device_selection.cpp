@@ -73,17 +73,6 @@ std::optional<std::uint32_t> compute_family(std::span<const VkQueueFamilyPropert
   return found;
 }
 
-/// A family that copies and does nothing else: its queues are engines of their own, which work beside the others.
-std::optional<std::uint32_t> transfer_family(std::span<const VkQueueFamilyProperties> families) {
-  constexpr VkQueueFlags kKernels = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
-  for (std::uint32_t i = 0; i < families.size(); ++i) {
-    const VkQueueFamilyProperties& family = families[i];
-    const bool copies = (family.queueFlags & VK_QUEUE_TRANSFER_BIT) != 0 && (family.queueFlags & kKernels) == 0;
-    if (copies && family.queueCount > 0) return i;
-  }
-  return std::nullopt;
-}
-
 std::vector<VkQueueFamilyProperties> families_of(VkPhysicalDevice handle) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(handle, &count, nullptr);
@@ -118,7 +107,7 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
     description.usable = true;
     device.queue_family = *family;
     device.timestamp_valid_bits = families[*family].timestampValidBits;
-    device.transfer_family = transfer_family(families);
+    device.transfer_family = choose_transfer_family(families);
   }
   return device;
 }
@@ -155,6 +144,16 @@ std::optional<std::uint32_t> as_index(const std::string& choice, std::size_t cou
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamilyProperties> families) {
+  // Not those of video: their engines have other work.
+  constexpr VkQueueFlags kAllowed = VK_QUEUE_TRANSFER_BIT | VK_QUEUE_SPARSE_BINDING_BIT | VK_QUEUE_PROTECTED_BIT;
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    const VkQueueFlags flags = families[i].queueFlags;
+    if ((flags & VK_QUEUE_TRANSFER_BIT) != 0 && (flags & ~kAllowed) == 0 && families[i].queueCount > 0) return i;
+  }
+  return std::nullopt;
+}
 
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   std::vector<VkPhysicalDevice> handles;

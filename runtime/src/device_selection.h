@@ -23,6 +23,9 @@ struct PhysicalDevice {
   DeviceDescription description;
 };
 
+/// A family that copies and does nothing else: its queues are engines of their own, which work beside the others.
+std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamilyProperties> families);
+
 /// All devices in Vulkan's order. Precondition: volk_mutex() is held, volk is loaded for `instance`.
 /// Errors: kNoDevice, kOutOfMemory. No device at all is an empty list, not an error.
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance);

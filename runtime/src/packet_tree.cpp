@@ -141,7 +141,8 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
   Result<Buffer> table = tree.arena_.create_buffer(position_bytes.size(), MemoryKind::kDevice, "leaf positions");
   if (!table.ok()) return table.error();
   tree.positions = table.value();
-  if (Status status = upload(context, tree.positions, position_bytes); !status.ok()) return status.error();
+  Uploads uploads(context);
+  if (Status status = uploads.add(tree.positions, position_bytes); !status.ok()) return status.error();
   tree.use_texels =
       device.use_texels && std::max(node_data.size(), frame_data.size()) <= context.limits.maxTexelBufferElements;
   const MemoryKind kind = tree.use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
@@ -157,7 +158,7 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
     Result<Buffer> buffer = tree.arena_.create_buffer(bytes.size(), kind, part.purpose);
     if (!buffer.ok()) return buffer.error();
     *part.buffer = buffer.value();
-    if (Status status = upload(context, *part.buffer, bytes); !status.ok()) return status.error();
+    if (Status status = uploads.add(*part.buffer, bytes); !status.ok()) return status.error();
     Result<Buffer> unread = buffer;
     if (!tree.use_texels) unread = tree.arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
     if (!unread.ok()) return unread.error();
@@ -165,6 +166,7 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
     if (!view.ok()) return view.error();
     *part.view = view.value();
   }
+  if (Status there = uploads.finish(); !there.ok()) return there.error();
   return tree;
 }
 

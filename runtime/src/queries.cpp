@@ -126,13 +126,14 @@ Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> sphere
   if (samples == 0 || samples > kMostFluxSamples) {
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kMostFluxSamples)};
   }
+  if (spheres.empty()) return std::vector<FluxSample>();
   const std::vector<Point> spiral = spiral_points(samples);
   const std::vector<Texel> directions = directions_of(spiral);
   QuerySet set;
   set.count = spheres.size();
   set.batch = std::max<std::size_t>(1, kBatch / samples);
   set.item_bytes = {16, 0};
-  const std::size_t at_once = std::min(set.batch, std::max<std::size_t>(1, set.count));
+  const std::size_t at_once = std::min(set.batch, set.count);
   const auto capacity = static_cast<std::uint32_t>(at_once * samples);
   Result<FluxSampler> sampler = FluxSampler::create(*context, *packets, capacity);
   if (!sampler.ok()) return sampler.error();

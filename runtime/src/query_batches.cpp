@@ -14,39 +14,32 @@ VkDeviceSize second_items_at(std::uint32_t capacity) { return VkDeviceSize{capac
 }  // namespace
 
 QueryBatches::Place::Place(Context::Impl& context)
-    : arena(context),
-      went_up(context),
-      computed(context),
-      up(context, Commands::copying_queue(context)),
+    : on_device(context),
+      for_upload(context),
+      for_download(context),
+      upload_commands(context, Commands::queue_for_transfers(context)),
       compute(context),
-      down(context, Commands::copying_queue(context)) {}
+      download_commands(context, Commands::queue_for_transfers(context)),
+      uploaded(context),
+      computed(context) {}
 
 Status QueryBatches::create_buffers(Place& place) const {
   const VkDeviceSize c = capacity_;
   constexpr std::array<std::uint32_t, 2> kItem = QuerySet::kMostItemBytes;
-  struct Request {
-    Buffer* buffer;
-    VkDeviceSize bytes;
-    MemoryKind kind;
-    const char* purpose;
-  };
-  const auto create = [&place](std::span<const Request> requests) -> Status {
-    for (const Request& request : requests) {
-      Result<Buffer> made = place.arena.create_buffer(request.bytes, request.kind, request.purpose);
-      if (!made.ok()) return made.error();
-      *request.buffer = made.value();
-    }
+  const auto create = [](Arena& arena, Buffer& buffer, VkDeviceSize bytes, MemoryKind kind) -> Status {
+    Result<Buffer> made = arena.create_buffer(bytes, kind, "queries and their answers");
+    if (!made.ok()) return made.error();
+    buffer = made.value();
     return {};
   };
-  const std::array on_device = {Request{&place.asked, c * sizeof(Texel), MemoryKind::kDevice, "queries"},
-                                Request{&place.items[0], c * kItem[0], MemoryKind::kDevice, "answers"},
-                                Request{&place.items[1], c * kItem[1], MemoryKind::kDevice, "answers"}};
-  if (Status status = create(on_device); !status.ok()) return status;
+  constexpr MemoryKind kDevice = MemoryKind::kDevice;
+  if (Status s = create(place.on_device, place.asked, c * sizeof(Texel), kDevice); !s.ok()) return s;
+  for (std::size_t i = 0; i < kItem.size(); ++i)
+    if (Status s = create(place.on_device, place.items[i], c * kItem[i], kDevice); !s.ok()) return s;
   place.is_shared = shares_memory_ && place.asked.mapped && place.items[0].mapped && place.items[1].mapped;
   if (place.is_shared) return {};
-  const std::array on_host = {Request{&place.upload, c * sizeof(Texel), MemoryKind::kUpload, "queries"},
-                              Request{&place.download, c * (kItem[0] + kItem[1]), MemoryKind::kReadback, "answers"}};
-  return create(on_host);
+  if (Status s = create(place.for_upload, place.upload, c * sizeof(Texel), MemoryKind::kUpload); !s.ok()) return s;
+  return create(place.for_download, place.download, c * (kItem[0] + kItem[1]), MemoryKind::kReadback);
 }
 
 /// Places are made when they are first needed: few queries need one.
@@ -55,8 +48,8 @@ Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
   if (place == nullptr) {
     auto made = std::make_unique<Place>(*context_);
     if (Status created = create_buffers(*made); !created.ok()) return created.error();
-    for (Semaphore* semaphore : {&made->went_up, &made->computed}) {
-      if (!copies_apart(*made)) break;
+    for (Semaphore* semaphore : {&made->uploaded, &made->computed}) {
+      if (!has_transfers_apart(*made)) break;
       if (Status prepared = semaphore->prepare(); !prepared.ok()) return prepared.error();
     }
     place = std::move(made);
@@ -64,20 +57,20 @@ Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
   return place.get();
 }
 
-bool QueryBatches::copies_apart(const Place& place) const {
+bool QueryBatches::has_transfers_apart(const Place& place) const {
   return !place.is_shared && context_->transfer_queue != VK_NULL_HANDLE;
 }
 
+/// After an error a semaphore may have been signalled for nobody, and a batch may be under way.
+void QueryBatches::start_over() noexcept {
+  for (const std::unique_ptr<Place>& place : places_) {
+    if (place == nullptr) continue;
+    for (Commands* commands : {&place->upload_commands, &place->compute, &place->download_commands}) commands->drain();
+  }
+  places_ = {};
+}
+
 Status QueryBatches::run(const QuerySet& queries) {
-  // After an error a semaphore may have been signalled for nobody, and a batch may be under way: everything is made
-  // anew, once the device has finished.
-  const auto start_over = [this] {
-    for (const std::unique_ptr<Place>& place : places_) {
-      if (place == nullptr) continue;
-      for (Commands* commands : {&place->up, &place->compute, &place->down}) static_cast<void>(commands->wait());
-    }
-    places_ = {};
-  };
   try {
     Status status = run_all(queries);
     if (!status.ok()) start_over();
@@ -88,7 +81,7 @@ Status QueryBatches::run(const QuerySet& queries) {
   }
 }
 
-// A copy down waits on its queue for the kernels before it. So it is submitted after the next copy up, which can go on
+// A download waits on its queue for the kernels before it. So it is submitted after the next upload, which can go on
 // meanwhile.
 Status QueryBatches::run_all(const QuerySet& queries) {
   std::size_t number = 0;
@@ -96,19 +89,19 @@ Status QueryBatches::run_all(const QuerySet& queries) {
     const Result<Place*> found = place(number);
     if (!found.ok()) return found.error();
     Place& here = *found.value();
-    if (Status answered = answer(queries, here); !answered.ok()) return answered;
+    if (Status answered = complete(queries, here); !answered.ok()) return answered;
     here.first = first;
     here.count = std::min(queries.batch, queries.count - first);
     const std::size_t groups = (here.count + queries.group_size - 1) / queries.group_size;
     here.padded = static_cast<std::uint32_t>(groups * queries.group_size);
     if (Status asked = ask(queries, here); !asked.ok()) return asked;
     if (number == 0) continue;
-    if (Status down = bring_down(queries, *places_[(number + 1) % 2]); !down.ok()) return down;
+    if (Status down = submit_download(queries, *places_[(number + 1) % 2]); !down.ok()) return down;
   }
   for (std::size_t last = number; last < number + 2; ++last) {
     const std::unique_ptr<Place>& place = places_[last % 2];
     if (place == nullptr) continue;
-    if (Status answered = answer(queries, *place); !answered.ok()) return answered;
+    if (Status answered = complete(queries, *place); !answered.ok()) return answered;
   }
   return {};
 }
@@ -121,47 +114,47 @@ Status QueryBatches::write(const QuerySet& queries, const Place& place) const {
 
 Status QueryBatches::ask(const QuerySet& queries, Place& place) const {
   if (Status written = write(queries, place); !written.ok()) return written;
-  const bool apart = copies_apart(place);
-  const auto copy_up = [&place](Recorder& r) {
+  const bool apart = has_transfers_apart(place);
+  const auto record_upload = [&place](Recorder& r) {
     r.copy(place.upload, 0, place.asked, 0, place.padded * sizeof(Texel));
     r.barrier();
   };
   if (apart) {
-    if (Status begun = place.up.begin(); !begun.ok()) return begun;
-    copy_up(place.up.recorder());
-    if (Status submitted = place.up.submit(nullptr, &place.went_up); !submitted.ok()) return submitted;
+    if (Status begun = place.upload_commands.begin(); !begun.ok()) return begun;
+    record_upload(place.upload_commands.recorder());
+    if (Status submitted = place.upload_commands.submit(nullptr, &place.uploaded); !submitted.ok()) return submitted;
   }
   if (Status begun = place.compute.begin(); !begun.ok()) return begun;
   Recorder& r = place.compute.recorder();
-  if (!apart && !place.is_shared) copy_up(r);
+  if (!apart && !place.is_shared) record_upload(r);
   queries.record(r, place.padded, place.asked, place.items);
   place.state = Place::State::kAsked;
-  if (apart) return place.compute.submit(&place.went_up, &place.computed);
-  if (!place.is_shared) copy_down(queries, place, r);
+  if (apart) return place.compute.submit(&place.uploaded, &place.computed);
+  if (!place.is_shared) record_download(queries, place, r);
   r.barrier_to_host();
   return place.compute.submit(nullptr, nullptr);
 }
 
-void QueryBatches::copy_down(const QuerySet& queries, const Place& place, Recorder& r) const {
+void QueryBatches::record_download(const QuerySet& queries, const Place& place, Recorder& r) const {
   const VkDeviceSize count = place.padded;
   r.copy(place.items[0], 0, place.download, 0, count * queries.item_bytes[0]);
   r.copy(place.items[1], 0, place.download, second_items_at(capacity_), count * queries.item_bytes[1]);
 }
 
-Status QueryBatches::bring_down(const QuerySet& queries, Place& place) const {
+Status QueryBatches::submit_download(const QuerySet& queries, Place& place) const {
   if (place.state != Place::State::kAsked) return {};
-  place.state = Place::State::kComingDown;
-  if (!copies_apart(place)) return {};
-  if (Status begun = place.down.begin(); !begun.ok()) return begun;
-  copy_down(queries, place, place.down.recorder());
-  place.down.recorder().barrier_to_host();
-  return place.down.submit(&place.computed, nullptr);
+  place.state = Place::State::kDownloading;
+  if (!has_transfers_apart(place)) return {};
+  if (Status begun = place.download_commands.begin(); !begun.ok()) return begun;
+  record_download(queries, place, place.download_commands.recorder());
+  place.download_commands.recorder().barrier_to_host();
+  return place.download_commands.submit(&place.computed, nullptr);
 }
 
-Status QueryBatches::answer(const QuerySet& queries, Place& place) const {
-  if (Status down = bring_down(queries, place); !down.ok()) return down;
+Status QueryBatches::complete(const QuerySet& queries, Place& place) const {
+  if (Status down = submit_download(queries, place); !down.ok()) return down;
   if (place.state == Place::State::kFree) return {};
-  for (Commands* commands : {&place.up, &place.compute, &place.down}) {
+  for (Commands* commands : {&place.upload_commands, &place.compute, &place.download_commands}) {
     if (Status done = commands->wait(); !done.ok()) return done;
   }
   place.state = Place::State::kFree;

@@ -33,8 +33,9 @@ struct QuerySet {
 };
 
 /// Two batches are under way at a time. While the device computes one, the host reads the one before and writes the
-/// next; where the device has a queue for copies, they go down and up meanwhile. Buffers are kept: fresh memory would
-/// cost as much as the queries.
+/// next; where the device has a queue for transfers, they go down and up meanwhile. Buffers are kept, for two batches
+/// if there ever were two: some 25 MiB each of 262,144 queries (lavapipe: 16). Fresh memory would cost as much as the
+/// queries.
 class QueryBatches {
  public:
   /// Of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same speed: nothing
@@ -50,26 +51,28 @@ class QueryBatches {
   /// What a batch needs from its first query on to its last answer.
   struct Place {
     explicit Place(Context::Impl& context);
-    Arena arena;
+    Arena on_device, for_upload, for_download;  // blocks of an arena grow: each kind by itself takes what it needs
     Buffer asked;
     std::array<Buffer, 2> items;
     Buffer upload, download;  // none where the host uses the others
     bool is_shared = false;
-    Semaphore went_up, computed;
-    Commands up, compute, down;  // one after the other; without a queue for copies, all in the middle one
-    enum class State { kFree, kAsked, kComingDown } state = State::kFree;
+    // One after the other; without a queue for transfers all is in the middle one, and the rest not used.
+    Commands upload_commands, compute, download_commands;
+    Semaphore uploaded, computed;
+    enum class State { kFree, kAsked, kDownloading } state = State::kFree;
     std::size_t first = 0, count = 0;
     std::uint32_t padded = 0;
   };
   Result<Place*> place(std::size_t number);
   Status create_buffers(Place& place) const;
+  void start_over() noexcept;
   Status run_all(const QuerySet& queries);
   Status ask(const QuerySet& queries, Place& place) const;
   Status write(const QuerySet& queries, const Place& place) const;
-  void copy_down(const QuerySet& queries, const Place& place, Recorder& r) const;
-  Status bring_down(const QuerySet& queries, Place& place) const;
-  Status answer(const QuerySet& queries, Place& place) const;
-  bool copies_apart(const Place& place) const;
+  void record_download(const QuerySet& queries, const Place& place, Recorder& r) const;
+  Status submit_download(const QuerySet& queries, Place& place) const;
+  Status complete(const QuerySet& queries, Place& place) const;
+  bool has_transfers_apart(const Place& place) const;
 
   Context::Impl* context_;
   std::uint32_t capacity_;

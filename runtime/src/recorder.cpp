@@ -194,7 +194,7 @@ void Recorder::dispatch_indirect(const ProgramKey& key, std::span<const BufferRa
   context_->vk.vkCmdDispatchIndirect(commands_, arguments.handle, offset);
 }
 
-void Recorder::only_copy() {
+void Recorder::only_transfer() {
   queue_stages_ = VK_PIPELINE_STAGE_TRANSFER_BIT;
   measure_nothing();
 }

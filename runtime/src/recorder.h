@@ -47,7 +47,7 @@ class Recorder {
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
   /// For a queue that can do nothing else: barriers are between copies, and nothing is measured.
-  void only_copy();
+  void only_transfer();
   /// No timestamps: stages have no times.
   void measure_nothing() { measures_ = false; }
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.

@@ -1,15 +1,11 @@
 #include "result_download.h"
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include "context_impl.h"
 
 namespace medial_vk {
 namespace {
-
-constexpr VkDeviceSize kLeastRoom = 1ull << 20;
 
 template <class T>
 std::span<const T> items(const Buffer& buffer, VkDeviceSize offset, std::uint32_t count) {
@@ -27,18 +23,17 @@ ResultDownload::ResultDownload(Context::Impl& context)
       computed_(context),
       copied_(context),
       computed_signal_(context),
-      copies_(context, Commands::copying_queue(context)) {}
+      copies_(context, Commands::queue_for_transfers(context)) {}
 
 ResultDownload::~ResultDownload() {
-  for (Commands* commands : {&computed_signal_, &copies_}) static_cast<void>(commands->wait());
+  for (Commands* commands : {&computed_signal_, &copies_}) commands->drain();
 }
 
 Status ResultDownload::make_room(VkDeviceSize bytes) {
   if (memory_.size >= bytes) return {};
   arena_ = Arena(*context_);
   memory_ = {};
-  Result<Buffer> made =
-      arena_.create_buffer(std::max(kLeastRoom, std::bit_ceil(bytes)), MemoryKind::kReadback, "points");
+  Result<Buffer> made = arena_.create_buffer(bytes + bytes / 4, MemoryKind::kReadback, "points");
   if (!made.ok()) return made.error();
   memory_ = made.value();
   return {};

@@ -12,9 +12,9 @@
 
 namespace medial_vk {
 
-/// The next chunk may be computed while points go down and are looked at: it writes its own at its very end, behind
-/// before_next(). Nothing is copied where host and device have the same memory; then is_shared(), and the host is done
-/// with the points before the next chunk begins.
+/// While points of one chunk are copied, and looked at by the host, the next chunk may be computed: all but its end,
+/// which writes points of its own and waits for before_next(). On a CPU nothing is copied: is_shared(), and the host
+/// takes the points before the next chunk begins.
 class ResultDownload {
  public:
   explicit ResultDownload(Context::Impl& context);

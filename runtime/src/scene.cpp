@@ -67,6 +67,7 @@ Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& me
   if (Status status = device.upload_whole(uploads, context.limits, mesh, links.spreads); !status.ok())
     return status.error();
   if (Status status = device.upload_all_links(through(uploads), mesh, links); !status.ok()) return status.error();
+  if (Status status = uploads.flush(); !status.ok()) return status.error();
   return device;
 }
 
@@ -87,6 +88,7 @@ Status DeviceMesh::upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& 
 Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
   Uploads uploads(context);
   if (Status status = update(context, mesh, through(uploads)); !status.ok()) return status;
+  intact = false;  // also if that throws
   const Status there = uploads.finish();
   intact = there.ok();
   return there;

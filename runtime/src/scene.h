@@ -30,6 +30,8 @@ using Uploader = std::function<Status(const Buffer& buffer, std::span<const std:
 /// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
+  DeviceMesh(DeviceMesh&&) noexcept = default;
+  DeviceMesh& operator=(DeviceMesh&&) = delete;  // what is under way to its buffers would have to be waited for
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
   /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 looks at its share of all

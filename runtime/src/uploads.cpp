@@ -17,27 +17,30 @@ constexpr VkDeviceSize kLargestPiece = 4ull << 20;  // a tenth of a millisecond 
 
 Uploads::Uploads(Context::Impl& context)
     : context_(&context),
-      arena_(context),
       sent_(context),
       received_(context),
-      pieces_{Piece(context, Commands::copying_queue(context)), Piece(context, Commands::copying_queue(context))} {}
+      pieces_{Piece(context, Commands::queue_for_transfers(context)),
+              Piece(context, Commands::queue_for_transfers(context))} {}
 
 Uploads::~Uploads() {
-  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_})
-    static_cast<void>(commands->wait());
+  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_}) commands->drain();
 }
 
+/// `expected`: bytes that are waiting. A piece that is small for them is replaced.
 Status Uploads::begin(Piece& piece, VkDeviceSize expected) {
-  if (piece.memory.handle == VK_NULL_HANDLE) {
-    const VkDeviceSize size = std::clamp(std::bit_ceil(expected), kLeastPiece, kLargestPiece);
-    Result<Buffer> made = arena_.create_buffer(size, MemoryKind::kUpload, "staging");
+  if (Status emptied = piece.commands.wait(); !emptied.ok()) return emptied;
+  const VkDeviceSize size = std::clamp(std::bit_ceil(expected), kLeastPiece, kLargestPiece);
+  if (expected > 0 && piece.memory.size < size) {
+    piece.arena = Arena(*context_);
+    piece.memory = {};
+    Result<Buffer> made = piece.arena.create_buffer(size, MemoryKind::kUpload, "staging");
     if (!made.ok()) return made.error();
     piece.memory = made.value();
   }
-  if (Status emptied = piece.commands.wait(); !emptied.ok()) return emptied;
   piece.used = 0;
+  if (Status begun = piece.commands.begin(); !begun.ok()) return begun;
   piece.records = true;
-  return piece.commands.begin();
+  return {};
 }
 
 Status Uploads::send(Piece& piece, const Semaphore* signal) {
@@ -74,27 +77,28 @@ Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
   return {};
 }
 
-// A wait for the fence of a copy would make its bytes available, but not visible to kernels on another queue: the
-// semaphore does.
-Status Uploads::finish() {
+Status Uploads::flush() {
   if (!is_sending_) return {};
   is_sending_ = false;
   Piece& last = pieces_[current_];
   const bool has_own_queue = context_->transfer_queue != VK_NULL_HANDLE;
-  if (!last.records) {
-    if (Status begun = begin(last, kLeastPiece); !begun.ok()) return begun;
+  if (!has_own_queue) return last.records ? send(last, nullptr) : Status();
+  if (!last.records) {  // the one before was full and is on its way: what signals follows it
+    if (Status begun = begin(last, 0); !begun.ok()) return begun;
   }
-  if (has_own_queue) {
-    if (Status ready = sent_.prepare(); !ready.ok()) return ready;
-  }
-  if (Status sent = send(last, has_own_queue ? &sent_ : nullptr); !sent.ok()) return sent;
-  if (has_own_queue) {
-    if (Status begun = received_.begin(); !begun.ok()) return begun;
-    if (Status submitted = received_.submit(&sent_, nullptr); !submitted.ok()) return submitted;
-  }
-  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_}) {
+  if (Status ready = sent_.prepare(); !ready.ok()) return ready;
+  if (Status sent = send(last, &sent_); !sent.ok()) return sent;
+  // A wait for the fence of a copy would make its bytes available, but not visible to kernels on another queue: the
+  // semaphore does.
+  if (Status done = received_.wait(); !done.ok()) return done;
+  if (Status begun = received_.begin(); !begun.ok()) return begun;
+  return received_.submit(&sent_, nullptr);
+}
+
+Status Uploads::finish() {
+  if (Status sent = flush(); !sent.ok()) return sent;
+  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_})
     if (Status done = commands->wait(); !done.ok()) return done;
-  }
   return {};
 }
 

@@ -26,12 +26,15 @@ class Uploads {
   /// To the start of the buffer, which outlives this object or finish(); `bytes` may go when this returns. The device
   /// must not use the buffer until finish(). Errors: kOutOfMemory, kInternal (too many bytes, device lost).
   Status add(const Buffer& buffer, std::span<const std::byte> bytes);
+  /// All is on its way when this returns. Errors: kOutOfMemory, kInternal (device lost).
+  Status flush();
   /// Waits until all is there. Errors: kOutOfMemory, kInternal (device lost).
   Status finish();
 
  private:
   struct Piece {
-    Piece(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
+    Piece(Context::Impl& context, Commands::Queue queue) : arena(context), commands(context, queue) {}
+    Arena arena;
     Buffer memory;
     VkDeviceSize used = 0;
     bool records = false;
@@ -41,7 +44,6 @@ class Uploads {
   Status send(Piece& piece, const Semaphore* signal);
 
   Context::Impl* context_;
-  Arena arena_;
   Semaphore sent_;
   Commands received_;  // on the queue of the kernels
   std::array<Piece, 2> pieces_;

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <set>
 
+#include "echo_queries.h"
 #include "fault_test.h"
 #include "lent_device.h"
-#include "query_batches.h"
 
 namespace medial_vk::test {
 namespace {
@@ -39,6 +39,7 @@ class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQu
     const Answer answer = job(discrete.value());
     ASSERT_TRUE(answer.ok()) << answer.error().message;
     EXPECT_TRUE(answer.value() == expected);
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());  // the next profile clears them
   }
 };
 
@@ -66,10 +67,7 @@ TEST_P(CopyingQueue, ExtractsAlike) {
 // Points of one chunk go down while the next is computed, into the same buffer in the end.
 TEST_P(CopyingQueue, ExtractsChunkByChunk) {
   const PreparedMesh mesh = small_box();
-  ExtractionParameters parameters = small_job(Mode::kCertified);
-  parameters.resolution = 64;
-  parameters.extra_levels = 0;
-  parameters.memory_budget = 16u << 20;
+  const ExtractionParameters parameters = job_of_many_chunks();
   expect_same([&](Context& context) -> Answer {
     std::set<double> seen;
     const auto extraction = extract_medial_spheres(context, mesh.view(), parameters, [&](double done) {
@@ -80,31 +78,6 @@ TEST_P(CopyingQueue, ExtractsChunkByChunk) {
     EXPECT_GT(seen.size(), 4u);  // chunks
     return answer_of(extraction.value());
   });
-}
-
-/// Batches whose kernel is a copy, so that every answer is its query.
-QuerySet echo(std::span<const float> values, std::vector<float>& answers) {
-  answers.assign(values.size(), -1.0f);
-  QuerySet set;
-  set.count = values.size();
-  set.batch = 60;
-  set.group_size = 20;
-  set.item_bytes = {16, 0};
-  set.write = [values](std::size_t first, std::span<Texel> out) -> Status {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[first + i], 0, 0, 0};
-    return {};
-  };
-  set.record = [](Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items) {
-    EXPECT_EQ(count % 20, 0u);
-    r.copy(asked, 0, items[0], 0, count * sizeof(Texel));
-    r.barrier();
-  };
-  set.read = [&answers](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
-    const auto* texels = reinterpret_cast<const Texel*>(items[0]);
-    for (std::size_t i = 0; i < count; ++i) answers[first + i] = texels[i][0];
-    return {};
-  };
-  return set;
 }
 
 TEST_P(CopyingQueue, AnswersManyBatches) {

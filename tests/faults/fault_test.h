@@ -47,6 +47,15 @@ inline ExtractionParameters small_job(Mode mode) {
   return parameters;
 }
 
+/// The box is searched piece by piece: points of one come down while the next is computed.
+inline ExtractionParameters job_of_many_chunks() {
+  ExtractionParameters parameters = small_job(Mode::kCertified);
+  parameters.resolution = 64;
+  parameters.extra_levels = 0;
+  parameters.memory_budget = 16u << 20;
+  return parameters;
+}
+
 /// All that is said about the solid, as bytes.
 inline std::string answer_of(const Extraction& extraction) {
   std::string out;

@@ -13,9 +13,16 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
                            const Report& report) {
   real_ = real;
   report_ = report;
+  if (info.commandBufferCount > 1 || info.waitSemaphoreCount > 1 || info.signalSemaphoreCount > 1)
+    report("a submission of more than one command buffer or semaphore");
   const Kept work{info.commandBufferCount != 0 ? info.pCommandBuffers[0] : VK_NULL_HANDLE,
                   info.waitSemaphoreCount != 0 ? info.pWaitSemaphores[0] : VK_NULL_HANDLE,
                   info.signalSemaphoreCount != 0 ? info.pSignalSemaphores[0] : VK_NULL_HANDLE, fence};
+  // What a submission waits for has been submitted before it.
+  if (work.waits != VK_NULL_HANDLE && promised_.erase(work.waits) == 0)
+    report("a submission waits for a semaphore that nobody signals");
+  if (work.signals != VK_NULL_HANDLE && !promised_.insert(work.signals).second)
+    report("a semaphore is signalled twice");
   const bool copies = queue == copying_queue();
   if (copies == (late == LateQueue::kCopies)) {
     kept_.push_back(work);
@@ -27,8 +34,7 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
 // The real queue does one thing after the other, so semaphores are only followed here.
 VkResult TwoQueues::run(const Kept& work) {
   if (work.waits != VK_NULL_HANDLE) {
-    if (!signalled_.contains(work.waits) && !run_until_signalled(work.waits))
-      report_("a submission waits for a semaphore that nobody has signalled");
+    if (!signalled_.contains(work.waits)) run_until_signalled(work.waits);
     signalled_.erase(work.waits);
   }
   VkSubmitInfo info{};
@@ -36,18 +42,17 @@ VkResult TwoQueues::run(const Kept& work) {
   info.commandBufferCount = work.commands != VK_NULL_HANDLE ? 1 : 0;
   info.pCommandBuffers = &work.commands;
   const VkResult result = real_(info, work.fence);
-  if (work.signals != VK_NULL_HANDLE && !signalled_.insert(work.signals).second)
-    report_("a semaphore is signalled twice");
+  if (result != VK_SUCCESS) report_("what was kept could not be submitted");
+  if (work.signals != VK_NULL_HANDLE) signalled_.insert(work.signals);
   return result;
 }
 
-bool TwoQueues::run_until_signalled(VkSemaphore semaphore) {
+void TwoQueues::run_until_signalled(VkSemaphore semaphore) {
   while (!kept_.empty() && !signalled_.contains(semaphore)) {
     const Kept first = kept_.front();
     kept_.erase(kept_.begin());
     run(first);
   }
-  return signalled_.contains(semaphore);
 }
 
 void TwoQueues::run_until(std::optional<VkFence> fence) {

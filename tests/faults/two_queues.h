@@ -23,13 +23,17 @@ class TwoQueues {
   static VkQueue copying_queue();
 
   /// What the late queue is given is kept until somebody waits for it. The other queue's runs at once, after what it
-  /// waits for. `report`: a wait for a semaphore that nobody has signalled.
+  /// waits for. `report`: a wait for a semaphore that nobody will have signalled, a second signal, submissions of a
+  /// form that is not followed here.
   VkResult submit(VkQueue queue, const VkSubmitInfo& info, VkFence fence, LateQueue late, const Submit& real,
                   const Report& report);
   /// Runs all that was kept, up to what signals this fence, or all of it.
   void run_until(std::optional<VkFence> fence);
   /// A semaphore that is destroyed: another one may get its handle.
-  void forget(VkSemaphore semaphore) { signalled_.erase(semaphore); }
+  void forget(VkSemaphore semaphore) {
+    signalled_.erase(semaphore);
+    promised_.erase(semaphore);
+  }
   bool is_idle() const { return kept_.empty(); }
 
  private:
@@ -39,10 +43,11 @@ class TwoQueues {
     VkFence fence;
   };
   VkResult run(const Kept& work);
-  bool run_until_signalled(VkSemaphore semaphore);
+  void run_until_signalled(VkSemaphore semaphore);
 
   std::vector<Kept> kept_;
-  std::set<VkSemaphore> signalled_;
+  std::set<VkSemaphore> signalled_;  // by what has run
+  std::set<VkSemaphore> promised_;   // by what was submitted, and not taken by a wait that was
   Submit real_;
   Report report_;
 };

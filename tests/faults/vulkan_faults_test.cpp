@@ -2,8 +2,10 @@
 // stays behind, and the context goes on to give right answers.
 #include <gmock/gmock.h>
 
+#include <numeric>
 #include <set>
 
+#include "echo_queries.h"
 #include "fault_test.h"
 #include "lent_device.h"
 
@@ -129,18 +131,96 @@ TEST_F(VulkanFaults, OfThesisExtraction) {
   fail_every_call_of("thesis extraction", [&](Context& context) { return extract(context, mesh, Mode::kThesis); });
 }
 
-// Semaphores, command buffers on two queues, staging memory.
-TEST_F(VulkanFaults, OfADeviceWithAQueueForCopies) {
-  DeviceProfile discrete;
-  discrete.split_memory = true;
-  discrete.copying_queue = LateQueue::kCopies;
-  vulkan().set_profile(discrete);
+// Semaphores, command buffers on two queues, staging memory; several batches and chunks under way.
+class TwoQueueFaults : public VulkanFaults, public testing::WithParamInterface<LateQueue> {
+ protected:
+  void SetUp() override {
+    VulkanFaults::SetUp();
+    DeviceProfile discrete;
+    discrete.split_memory = true;
+    discrete.copying_queue = GetParam();
+    vulkan().set_profile(discrete);
+  }
+};
+
+TEST_P(TwoQueueFaults, OfQueries) {
   const PreparedMesh mesh = small_box();
-  fail_every_call_of("queries, copies on a queue of their own",
-                     [&](Context& context) { return make_scene_and_ask(context, mesh); });
-  fail_every_call_of("certified extraction, copies on a queue of their own",
+  fail_every_call_of("queries, two queues", [&](Context& context) { return make_scene_and_ask(context, mesh); });
+}
+
+TEST_P(TwoQueueFaults, OfCertifiedExtraction) {
+  const PreparedMesh mesh = small_box();
+  fail_every_call_of("certified extraction, two queues",
                      [&](Context& context) { return extract(context, mesh, Mode::kCertified); });
 }
+
+TEST_P(TwoQueueFaults, OfManyBatches) {
+  std::vector<float> values(290);
+  std::iota(values.begin(), values.end(), 1.0f);
+  fail_every_call_of("many batches, two queues", [&](Context& context) -> Answer {
+    std::vector<float> answers;
+    QueryBatches batches(context.impl(), 64, false);
+    const Status status = in_runtime([&] { return batches.run(echo(values, answers)); });
+    if (!status.ok()) return status.error();
+    std::string out;
+    for (const float a : answers) append_bytes(out, a);
+    return out;
+  });
+}
+
+// After any failure the same batches answer everything again.
+TEST_P(TwoQueueFaults, OfBatchesThatStartOver) {
+  Context context = open().value();
+  QueryBatches batches(context.impl(), 64, false);
+  std::vector<float> values(290), answers;
+  std::iota(values.begin(), values.end(), 1.0f);
+  std::uint64_t failures = 0;
+  for (const Fault fault : kMemoryFaults) {
+    for (std::uint64_t k = 1; !HasFailure(); ++k) {
+      batches = QueryBatches(context.impl(), 64, false);
+      vulkan().fail_call(k, fault);
+      const Status status = in_runtime([&] { return batches.run(echo(values, answers)); });
+      if (vulkan().stop_failing().empty()) break;
+      failures += status.ok() ? 0 : 1;
+      ASSERT_TRUE(batches.run(echo(values, answers)).ok());
+      EXPECT_EQ(answers, values);
+    }
+  }
+  EXPECT_GT(failures, 100u);
+}
+
+// Too many calls to fail each: every 41st.
+TEST_P(TwoQueueFaults, OfManyChunks) {
+  const PreparedMesh mesh = small_box();
+  Context context = open().value();
+  const auto job = [&]() -> Answer {
+    const auto extraction =
+        in_runtime([&] { return extract_medial_spheres(context, mesh.view(), job_of_many_chunks()); });
+    if (!extraction.ok()) return extraction.error();
+    return answer_of(extraction.value());
+  };
+  const std::string expected = job().value();
+  for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory}) {
+    std::uint64_t failures = 0;
+    for (std::uint64_t k = 1; !HasFailure(); k += 41) {
+      vulkan().fail_call(k, fault);
+      const Answer answer = job();
+      const std::string call = vulkan().stop_failing();
+      EXPECT_TRUE(answer.ok() ? answer.value() == expected : answer.error().code == ErrorCode::kOutOfMemory) << call;
+      EXPECT_THAT(vulkan().violations(), testing::IsEmpty()) << call;
+      if (call.empty()) break;
+      failures += answer.ok() ? 0 : 1;
+    }
+    std::cout << "many chunks, " << fault_name(fault) << ": " << failures << " errors\n";
+    EXPECT_GT(failures, 10u);
+    EXPECT_TRUE(job().value() == expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, TwoQueueFaults, testing::Values(LateQueue::kCopies, LateQueue::kKernels),
+                         [](const auto& test) {
+                           return test.param == LateQueue::kCopies ? "CopiesAreLate" : "KernelsAreLate";
+                         });
 
 class RecordedJobFaults : public VulkanFaults {
  protected:

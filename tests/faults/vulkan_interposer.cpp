@@ -149,6 +149,13 @@ void look_at(Tag, Args...) {}
   X(vkUpdateDescriptorSets, 0, nullptr)                   \
   X(vkGetDeviceQueue, 0, nullptr)                         \
   X(vkCmdDispatch, 0, nullptr)                            \
+  X(vkCmdDispatchIndirect, 0, nullptr)                    \
+  X(vkCmdCopyBuffer, 0, nullptr)                          \
+  X(vkCmdFillBuffer, 0, nullptr)                          \
+  X(vkCmdBindDescriptorSets, 0, nullptr)                  \
+  X(vkCmdBindPipeline, 0, nullptr)                        \
+  X(vkCmdWriteTimestamp, 0, nullptr)                      \
+  X(vkCmdBeginRenderPass, 0, nullptr)                     \
   X(vkGetDeviceProcAddr, 0, nullptr)
 
 MEDIAL_VK_FALLIBLE(MEDIAL_VK_TAG)
@@ -288,17 +295,58 @@ void let_run(VulkanInterposer& self, vkWaitForFencesTag, VkDevice, std::uint32_t
   for (std::uint32_t i = 0; i < count; ++i) self.two_queues.run_until(fences[i]);
 }
 
-// What has been waited for.
+// After a call that has succeeded: who uses what.
 template <class Tag, class... Args>
-void has_waited(VulkanInterposer&, Tag, Args...) {}
-template <class... Args>
-void has_waited(VulkanInterposer& self, vkDeviceWaitIdleTag, Args...) {
-  self.waited_for({});
+void follow(WorkUnderWay&, Tag, Args...) {}
+
+constexpr auto as_handle = [](auto h) { return WorkUnderWay::handle(h); };
+
+void follow(WorkUnderWay& work, vkBindBufferMemoryTag, VkDevice, VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize) {
+  work.depends(as_handle(buffer), as_handle(memory));
 }
-void has_waited(VulkanInterposer& self, vkWaitForFencesTag, VkDevice, std::uint32_t count, const VkFence* fences,
-                VkBool32, std::uint64_t) {
-  for (std::uint32_t i = 0; i < count; ++i) self.waited_for(fences[i]);
+void follow(WorkUnderWay& work, vkCreateBufferViewTag, VkDevice, const VkBufferViewCreateInfo* info,
+            const VkAllocationCallbacks*, VkBufferView* view) {
+  work.depends(as_handle(*view), as_handle(info->buffer));
 }
+void follow(WorkUnderWay& work, vkBindImageMemoryTag, VkDevice, VkImage image, VkDeviceMemory memory, VkDeviceSize) {
+  work.depends(as_handle(image), as_handle(memory));
+}
+void follow(WorkUnderWay& work, vkCreateImageViewTag, VkDevice, const VkImageViewCreateInfo* info,
+            const VkAllocationCallbacks*, VkImageView* view) {
+  work.depends(as_handle(*view), as_handle(info->image));
+}
+void follow(WorkUnderWay& work, vkCreateFramebufferTag, VkDevice, const VkFramebufferCreateInfo* info,
+            const VkAllocationCallbacks*, VkFramebuffer* framebuffer) {
+  for (std::uint32_t i = 0; i < info->attachmentCount; ++i)
+    work.depends(as_handle(*framebuffer), as_handle(info->pAttachments[i]));
+}
+void follow(WorkUnderWay& work, vkAllocateDescriptorSetsTag, VkDevice, const VkDescriptorSetAllocateInfo* info,
+            VkDescriptorSet* sets) {
+  for (std::uint32_t i = 0; i < info->descriptorSetCount; ++i) {
+    work.destroyed(as_handle(sets[i]));
+    work.depends(as_handle(sets[i]), as_handle(info->descriptorPool));
+  }
+}
+void follow(WorkUnderWay& work, vkAllocateCommandBuffersTag, VkDevice, const VkCommandBufferAllocateInfo* info,
+            VkCommandBuffer* buffers) {
+  for (std::uint32_t i = 0; i < info->commandBufferCount; ++i) {
+    work.destroyed(as_handle(buffers[i]));
+    work.depends(as_handle(buffers[i]), as_handle(info->commandPool));
+  }
+}
+void follow(WorkUnderWay& work, vkBeginCommandBufferTag, VkCommandBuffer commands, const VkCommandBufferBeginInfo*) {
+  work.begin(commands);
+}
+void follow(WorkUnderWay& work, vkQueueSubmitTag, VkQueue, std::uint32_t count, const VkSubmitInfo* infos,
+            VkFence fence) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t k = 0; k < infos[i].commandBufferCount; ++k) work.submit(infos[i].pCommandBuffers[k], fence);
+}
+void follow(WorkUnderWay& work, vkWaitForFencesTag, VkDevice, std::uint32_t count, const VkFence* fences, VkBool32,
+            std::uint64_t) {
+  for (std::uint32_t i = 0; i < count; ++i) work.finished(fences[i]);
+}
+void follow(WorkUnderWay& work, vkDeviceWaitIdleTag, VkDevice) { work.finished({}); }
 
 template <class Tag, class F>
 struct Hook;
@@ -317,7 +365,7 @@ struct Hook<Tag, VkResult (*)(Args...)> {
       if (fault == VK_ERROR_DEVICE_LOST) {
         self.two_queues.run_until({});
         call_real<vkDeviceWaitIdleTag>(std::get<0>(std::make_tuple(args...)));
-        self.waited_for({});
+        self.work.finished({});
       }
     }
     if (fault != VK_SUCCESS) return fault;
@@ -326,9 +374,11 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     const VkResult result = make_call(Tag(), args...);
     current_call = nullptr;
     if (result != VK_SUCCESS) return result;
-    if constexpr (std::is_same_v<Tag, vkQueueSubmitTag>) self.submitted(std::get<3>(std::make_tuple(args...)));
-    has_waited(self, Tag(), args...);
-    if (Tag::kHandle != nullptr) self.created(Tag::kHandle);
+    if constexpr (Tag::kHandle != nullptr) {
+      self.created(Tag::kHandle);
+      self.work.destroyed(as_handle(*std::get<sizeof...(Args) - 1>(std::make_tuple(args...))));  // what had it before
+    }
+    follow(self.work, Tag(), args...);
     if constexpr (std::is_same_v<Tag, vkCreateBufferTag>) {
       const std::lock_guard lock(self.buffers_mutex);
       const auto all = std::make_tuple(args...);
@@ -347,11 +397,9 @@ struct Hook<Tag, void (*)(Args...)> {
     VulkanInterposer& self = VulkanInterposer::get();
     if (std::get<sizeof...(Args) - 2>(all) != VK_NULL_HANDLE) {
       self.destroyed(Tag::kHandle);
-      // The device never uses the first; which work uses the others only the validation layer knows.
-      constexpr bool kAnyTime = std::is_same_v<Tag, vkDestroyShaderModuleTag> ||
-                                std::is_same_v<Tag, vkDestroyDescriptorPoolTag> ||
-                                std::is_same_v<Tag, vkDestroyQueryPoolTag>;
-      if (!kAnyTime && self.at_work()) self.violation(std::string(Tag::kName) + " while the device is at work");
+      const WorkUnderWay::Handle handle = as_handle(std::get<sizeof...(Args) - 2>(all));
+      if (self.work.uses(handle)) self.violation(std::string(Tag::kName) + " of what the device is using");
+      self.work.destroyed(handle);
     }
     if constexpr (std::is_same_v<Tag, vkDestroySemaphoreTag>) self.two_queues.forget(std::get<1>(all));
     call_real<Tag>(args...);
@@ -476,6 +524,13 @@ void update_sets(VkDevice device, std::uint32_t count, const VkWriteDescriptorSe
         self.violation("a storage buffer at " + std::to_string(info.offset));
     }
   }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const VkWriteDescriptorSet& write = writes[i];
+    const bool is_view = write.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    const bool is_storage = write.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    if (is_view) self.work.depends(as_handle(write.dstSet), as_handle(*write.pTexelBufferView));
+    if (is_storage) self.work.depends(as_handle(write.dstSet), as_handle(write.pBufferInfo->buffer));
+  }
   call_real<vkUpdateDescriptorSetsTag>(device, count, writes, copies, copied);
 }
 
@@ -485,6 +540,54 @@ void dispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::u
   check(self, "groups along x", x, self.limits.maxComputeWorkGroupCount[0]);
   check(self, "groups along y", y, self.limits.maxComputeWorkGroupCount[1]);
   call_real<vkCmdDispatchTag>(commands, x, y, z);
+}
+
+// Commands that use something.
+void dispatch_indirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
+  const InDriver inside;
+  VulkanInterposer::get().work.records(commands, as_handle(buffer));
+  call_real<vkCmdDispatchIndirectTag>(commands, buffer, offset);
+}
+
+void copy_buffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, std::uint32_t count,
+                 const VkBufferCopy* regions) {
+  const InDriver inside;
+  for (const VkBuffer buffer : {from, to}) VulkanInterposer::get().work.records(commands, as_handle(buffer));
+  call_real<vkCmdCopyBufferTag>(commands, from, to, count, regions);
+}
+
+void fill_buffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
+                 std::uint32_t data) {
+  const InDriver inside;
+  VulkanInterposer::get().work.records(commands, as_handle(buffer));
+  call_real<vkCmdFillBufferTag>(commands, buffer, offset, size, data);
+}
+
+void bind_sets(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipelineLayout layout, std::uint32_t first,
+               std::uint32_t count, const VkDescriptorSet* sets, std::uint32_t offset_count,
+               const std::uint32_t* offsets) {
+  const InDriver inside;
+  for (std::uint32_t i = 0; i < count; ++i) VulkanInterposer::get().work.records(commands, as_handle(sets[i]));
+  call_real<vkCmdBindDescriptorSetsTag>(commands, point, layout, first, count, sets, offset_count, offsets);
+}
+
+void bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) {
+  const InDriver inside;
+  VulkanInterposer::get().work.records(commands, as_handle(pipeline));
+  call_real<vkCmdBindPipelineTag>(commands, point, pipeline);
+}
+
+void begin_render_pass(VkCommandBuffer commands, const VkRenderPassBeginInfo* info, VkSubpassContents contents) {
+  const InDriver inside;
+  VulkanInterposer::get().work.records(commands, as_handle(info->framebuffer));
+  VulkanInterposer::get().work.records(commands, as_handle(info->renderPass));
+  call_real<vkCmdBeginRenderPassTag>(commands, info, contents);
+}
+
+void write_timestamp(VkCommandBuffer commands, VkPipelineStageFlagBits stage, VkQueryPool pool, std::uint32_t query) {
+  const InDriver inside;
+  VulkanInterposer::get().work.records(commands, as_handle(pool));
+  call_real<vkCmdWriteTimestampTag>(commands, stage, pool, query);
 }
 
 PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real);
@@ -522,6 +625,13 @@ PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real) {
   if (wanted == "vkGetDeviceQueue") return keep<vkGetDeviceQueueTag>(real, get_queue);
   if (wanted == "vkUpdateDescriptorSets") return keep<vkUpdateDescriptorSetsTag>(real, update_sets);
   if (wanted == "vkCmdDispatch") return keep<vkCmdDispatchTag>(real, dispatch);
+  if (wanted == "vkCmdDispatchIndirect") return keep<vkCmdDispatchIndirectTag>(real, dispatch_indirect);
+  if (wanted == "vkCmdCopyBuffer") return keep<vkCmdCopyBufferTag>(real, copy_buffer);
+  if (wanted == "vkCmdFillBuffer") return keep<vkCmdFillBufferTag>(real, fill_buffer);
+  if (wanted == "vkCmdBindDescriptorSets") return keep<vkCmdBindDescriptorSetsTag>(real, bind_sets);
+  if (wanted == "vkCmdBindPipeline") return keep<vkCmdBindPipelineTag>(real, bind_pipeline);
+  if (wanted == "vkCmdWriteTimestamp") return keep<vkCmdWriteTimestampTag>(real, write_timestamp);
+  if (wanted == "vkCmdBeginRenderPass") return keep<vkCmdBeginRenderPassTag>(real, begin_render_pass);
   if (wanted == "vkGetDeviceProcAddr") return keep<vkGetDeviceProcAddrTag>(real, get_device_function);
   return real;
 }
@@ -624,24 +734,6 @@ void VulkanInterposer::set_profile(DeviceProfile profile) {
   const std::lock_guard lock(mutex_);
   profile_ = std::move(profile);
   violations_.clear();
-}
-
-void VulkanInterposer::submitted(VkFence fence) {
-  const std::lock_guard lock(mutex_);
-  under_way_.insert(fence);
-}
-
-void VulkanInterposer::waited_for(std::optional<VkFence> fence) {
-  const std::lock_guard lock(mutex_);
-  if (fence)
-    under_way_.erase(*fence);
-  else
-    under_way_.clear();
-}
-
-bool VulkanInterposer::at_work() const {
-  const std::lock_guard lock(mutex_);
-  return !under_way_.empty();
 }
 
 Usage VulkanInterposer::usage() const {

@@ -10,11 +10,11 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "two_queues.h"
+#include "work_under_way.h"
 
 namespace medial_vk::test {
 
@@ -89,10 +89,8 @@ class VulkanInterposer {
   void destroyed(const char* type);
   void use(const std::function<void(Usage&)>& change);
   void violation(std::string what);
-  void submitted(VkFence fence);
-  void waited_for(std::optional<VkFence> fence);  // none: for all
-  bool at_work() const;                           // something was submitted and not waited for
-  VkPhysicalDeviceLimits limits{};                // as they were last reported
+  WorkUnderWay work;
+  VkPhysicalDeviceLimits limits{};  // as they were last reported
   TwoQueues two_queues;
   VkQueue queue = VK_NULL_HANDLE;  // the real one
   std::mutex buffers_mutex;
@@ -106,7 +104,6 @@ class VulkanInterposer {
   Fault fault_ = Fault::kNone;
   std::string failed_;
   std::map<std::string, std::int64_t> created_, destroyed_;
-  std::multiset<VkFence> under_way_;
   DeviceProfile profile_;
   Usage usage_;
   std::vector<std::string> violations_;

@@ -84,5 +84,23 @@ TEST(DeviceSelection, NoDeviceAtAll) {
   }
 }
 
+VkQueueFamilyProperties family(VkQueueFlags flags, std::uint32_t count = 1) {
+  return {.queueFlags = flags, .queueCount = count, .timestampValidBits = 64, .minImageTransferGranularity = {1, 1, 1}};
+}
+
+TEST(TransferFamily, IsOneThatOnlyCopies) {
+  constexpr VkQueueFlags kAll = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+  constexpr VkQueueFlags kCopies = VK_QUEUE_TRANSFER_BIT | VK_QUEUE_SPARSE_BINDING_BIT;
+  constexpr VkQueueFlags kCompute = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+  constexpr VkQueueFlags kVideo = VK_QUEUE_TRANSFER_BIT | 0x20;  // VK_QUEUE_VIDEO_DECODE_BIT_KHR
+  using Families = std::vector<VkQueueFamilyProperties>;
+  EXPECT_EQ(choose_transfer_family(Families{family(kAll)}), std::nullopt);
+  EXPECT_EQ(choose_transfer_family(Families{family(kAll), family(kCompute)}), std::nullopt);
+  EXPECT_EQ(choose_transfer_family(Families{family(kAll), family(kVideo)}), std::nullopt);
+  EXPECT_EQ(choose_transfer_family(Families{family(kAll), family(kVideo), family(kCopies), family(kCompute)}), 2u);
+  EXPECT_EQ(choose_transfer_family(Families{family(kAll), family(kCopies, 0), family(VK_QUEUE_TRANSFER_BIT)}), 2u);
+  EXPECT_EQ(choose_transfer_family(Families{}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace medial_vk
