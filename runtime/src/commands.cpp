@@ -99,7 +99,7 @@ Status Commands::begin() {
 
 Status Commands::submit(const Semaphore* wait_for, const Semaphore* signal) {
   recorder_->end_stages();
-  if (const Status recorded = recorder_->status(); !recorded.ok()) return recorded;
+  if (Status recorded = recorder_->status(); !recorded.ok()) return recorded;
   VkResult result = context_->vk.vkEndCommandBuffer(buffer_);
   if (result != VK_SUCCESS) return vulkan_error("vkEndCommandBuffer", result);
   const VkPipelineStageFlags waiting_stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;

@@ -44,7 +44,7 @@ Status QueryBatches::create_buffers(Place& place) const {
 
 /// Places are made when they are first needed: few queries need one.
 Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
-  std::unique_ptr<Place>& place = places_[number % places_.size()];
+  std::unique_ptr<Place>& place = places_[number % at_once()];
   if (place == nullptr) {
     auto made = std::make_unique<Place>(*context_);
     if (Status created = create_buffers(*made); !created.ok()) return created.error();
@@ -96,10 +96,10 @@ Status QueryBatches::run_all(const QuerySet& queries) {
     here.padded = static_cast<std::uint32_t>(groups * queries.group_size);
     if (Status asked = ask(queries, here); !asked.ok()) return asked;
     if (number == 0) continue;
-    if (Status down = submit_download(queries, *places_[(number + 1) % 2]); !down.ok()) return down;
+    if (Status down = submit_download(queries, *places_[(number - 1) % at_once()]); !down.ok()) return down;
   }
-  for (std::size_t last = number; last < number + 2; ++last) {
-    const std::unique_ptr<Place>& place = places_[last % 2];
+  for (std::size_t last = number; last < number + at_once(); ++last) {
+    const std::unique_ptr<Place>& place = places_[last % at_once()];
     if (place == nullptr) continue;
     if (Status answered = complete(queries, *place); !answered.ok()) return answered;
   }

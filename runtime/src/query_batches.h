@@ -32,10 +32,10 @@ struct QuerySet {
   std::function<Status(std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items)> read;
 };
 
-/// Two batches are under way at a time. While the device computes one, the host reads the one before and writes the
-/// next; where the device has a queue for transfers, they go down and up meanwhile. Buffers are kept, for two batches
-/// if there ever were two: some 25 MiB each of 262,144 queries (lavapipe: 16). Fresh memory would cost as much as the
-/// queries.
+/// Two batches are under way at a time, or one where the device is the host's processors. While the device computes
+/// one, the host reads the one before and writes the next; where the device has a queue for transfers, they go down and
+/// up meanwhile. Buffers are kept, for two batches if there ever were two: some 25 MiB each of 262,144 queries
+/// (lavapipe: 16). Fresh memory would cost as much as the queries.
 class QueryBatches {
  public:
   /// Of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same speed: nothing
@@ -72,6 +72,7 @@ class QueryBatches {
   void record_download(const QuerySet& queries, const Place& place, Recorder& r) const;
   Status submit_download(const QuerySet& queries, Place& place) const;
   Status complete(const QuerySet& queries, Place& place) const;
+  std::size_t at_once() const { return shares_memory_ ? 1 : places_.size(); }
   bool has_transfers_apart(const Place& place) const;
 
   Context::Impl* context_;

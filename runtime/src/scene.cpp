@@ -89,7 +89,7 @@ Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
   Uploads uploads(context);
   if (Status status = update(context, mesh, through(uploads)); !status.ok()) return status;
   intact = false;  // also if that throws
-  const Status there = uploads.finish();
+  Status there = uploads.finish();
   intact = there.ok();
   return there;
 }

@@ -70,7 +70,7 @@ class Scene::Impl {
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance);
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
-  Status answer(const QuerySet& queries);
+  Status answer(const QuerySet& asked);
 
   Context::Impl* context;
   /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies turn it off before
