@@ -11,7 +11,10 @@ namespace medial_vk::test::hooks {
 template <class Tag, class... Args>
 void follow(WorkUnderWay&, Tag, Args...) {}
 
-constexpr auto as_handle = [](auto h) { return WorkUnderWay::handle(h); };
+template <class T>
+WorkUnderWay::Handle as_handle(T vulkan_handle) {
+  return WorkUnderWay::handle(vulkan_handle);
+}
 
 inline void follow(WorkUnderWay& work, vkBindBufferMemoryTag, VkDevice, VkBuffer buffer, VkDeviceMemory memory,
                    VkDeviceSize) {

@@ -33,7 +33,7 @@ class VulkanFaults : public FaultTest {
       vulkan().fail_call(++k, fault);
       const Answer answer = job();
       const std::string call = vulkan().stop_failing();
-      SCOPED_TRACE(name + ", " + fault_name(fault) + ", call " + std::to_string(k) + " (" + call + ")");
+      SCOPED_TRACE(::testing::Message() << name << ", " << fault_name(fault) << ", call " << k << " (" << call << ")");
       failed = !call.empty();
       calls.insert(call);
       if (answer.ok()) {
@@ -300,7 +300,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     const auto job = [&]() -> Answer {
       const Status updated = scene.update(moved.view());
       // Afterwards: a scene that was left half-way must say so, and not answer for a mixture of two meshes.
-      const Answer now = ask_everything(scene);
+      Answer now = ask_everything(scene);
       if (!updated.ok()) {
         EXPECT_TRUE(!now.ok() || now.value() == before);
         return updated.error();
