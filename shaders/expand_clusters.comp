@@ -100,8 +100,9 @@ void main() {
           vec3 v = vector_to_triangle(centre, texels);
           float d = length(v);
           vec3 g = v / max(d, 1e-30);
-          bool contact = k + lane < run.count && is_contact(front, d, g) && is_contact(back, d, g) &&
-                         is_contact(prism, v, texels.normal);
+          bool near_front = is_contact(front, d, g), near_back = is_contact(back, d, g);
+          bool near_prism = is_contact(prism, v, texels.normal), is_entry = k + lane < run.count;
+          bool contact = near_front && near_back && near_prism && is_entry;
           uvec2 place = count_lanes(contact ? 1u : 0u);
           if (contact) lists[offset.y + position + place.x] = t;
           position += place.y;

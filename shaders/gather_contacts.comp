@@ -56,8 +56,8 @@ uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance
       vec3 upper = texel_of_lane(my_upper, name, kClusterUpper, k);
       vec3 v = max(lower - centre, vec3(0.0)) + min(upper - centre, vec3(0.0));
       float d = length(v);
-      bool is_listed = first + begin + k <= last && is_contact(witness, d, v / max(d, 1e-30));
-      word |= is_listed ? 1u << (begin + k) : 0u;
+      bool is_near = is_contact(witness, d, v / max(d, 1e-30)), is_cluster = first + begin + k <= last;
+      word |= is_near && is_cluster ? 1u << (begin + k) : 0u;
       clearance = min(clearance, d);
     }
     begin += kLanes;

@@ -78,9 +78,12 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
       vec3 v = vector_to_cluster(centre, bounds);
       float d = length(v);
       vec3 g = v / max(d, 1e-30);
-      vec3 h = step.touch_half_side * g;
-      bool contact = entry + k < parent.list_count && is_contact(front, d, g) && is_contact(back, d, g);
-      bool touches = contact && touches_cube(front, d, h) && touches_cube(back, d, h);
+      vec4 along = corners_along(step.touch_half_side * g);
+      bool near_front = is_contact(front, d, g), near_back = is_contact(back, d, g);
+      bool is_entry = entry + k < parent.list_count;
+      bool contact = near_front && near_back && is_entry;
+      bool cube_by_front = touches_cube(front, d, along), cube_by_back = touches_cube(back, d, along);
+      bool touches = contact && cube_by_front && cube_by_back;
       uint bit = 1u << (entry + k & 31u);
       word |= contact ? bit : 0u;
       touch_word |= touches ? bit : 0u;
@@ -88,9 +91,11 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
       tally.axis += touches ? bounds.axis.xyz : vec3(0.0);
       tally.clearance = contact ? min(tally.clearance, d) : tally.clearance;
       float side = side_of_cluster(centre, bounds);
-      bool may_be_nearest = contact && d <= front.distance + 6.0 * step.slack;
-      tally.behind = tally.behind && (!may_be_nearest || side > 0.0);
-      tally.in_front = tally.in_front && (!may_be_nearest || side < 0.0);
+      bool is_as_near = d <= front.distance + 6.0 * step.slack, is_behind = side > 0.0, is_in_front = side < 0.0;
+      bool may_be_nearest = contact && is_as_near;
+      bool keeps_behind = is_behind || !may_be_nearest, keeps_in_front = is_in_front || !may_be_nearest;
+      tally.behind = tally.behind && keeps_behind;
+      tally.in_front = tally.in_front && keeps_in_front;
     }
     entry += 8u;
     if ((entry & 31u) == 0u || entry >= parent.list_count) {
@@ -125,7 +130,8 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
       vec3 g;
       float by_direction = least_cosine_of_directions(centre, axis, bounds, g);
       float cosine = max(by_normal, by_direction);
-      bool is_worst = (touches >> (entry + k & 31u) & 1u) != 0u && cosine < worst.cosine;
+      bool is_touching = (touches >> (entry + k & 31u) & 1u) != 0u, is_less = cosine < worst.cosine;
+      bool is_worst = is_touching && is_less;
       worst.help = is_worst ? by_direction > by_normal ? g : bounds.axis.xyz : worst.help;
       worst.cosine = is_worst ? cosine : worst.cosine;
     }

@@ -120,11 +120,11 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
       vec3 v = vector_to_triangle(centre, texels);
       float d = length(v);
       vec3 g = v / max(d, 1e-30);
-      vec3 h = step.touch_half_side * g;
+      vec4 along = corners_along(step.touch_half_side * g);
       bool near_front = is_contact(front, d, g), near_back = is_contact(back, d, g);
       bool near_prism = is_contact(prism, v, texels.normal), is_entry = entry + k < end;
       bool contact = near_front && near_back && near_prism && is_entry;
-      bool cube_by_front = touches_cube(front, d, h), cube_by_back = touches_cube(back, d, h);
+      bool cube_by_front = touches_cube(front, d, along), cube_by_back = touches_cube(back, d, along);
       bool cube_by_prism = touches_cube(prism, v, texels.normal);
       bool touches = contact && cube_by_front && cube_by_back && cube_by_prism;
       uint bit = 1u << (entry + k & 31u);

@@ -60,9 +60,12 @@ void main() {
     [[unroll]] for (uint k = 0; k < kLanes; ++k) {
       vec4 tangent = tangent_of_lane(mine, centre, min(next + k, last), k);
       bool listed = false;
-      [[unroll]] for (uint i = 0; i < kFluxGroup; ++i)
-        listed = listed || tangent.w - dot(tangent.xyz, away[i]) <= limit[i];
-      word |= listed && entry + k < end ? 1u << (entry + k & 31u) : 0u;
+      [[unroll]] for (uint i = 0; i < kFluxGroup; ++i) {
+        bool is_near = tangent.w - dot(tangent.xyz, away[i]) <= limit[i];
+        listed = listed || is_near;
+      }
+      bool is_entry = entry + k < end;
+      word |= listed && is_entry ? 1u << (entry + k & 31u) : 0u;
     }
     entry += kLanes;
     if ((entry & 31u) == 0u || entry >= end) {

@@ -48,10 +48,8 @@ float corner_distance[8];  // from the corners of the box to the triangle neares
 
 // Lemma A for a box.
 bool touches_box(vec3 v, float d, Box box) {
-  vec3 h = box.half_sides * (v / max(d, 1e-30));
-  float most = -1.0;
-  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, corner_distance[k] + dot(h, corner_sign(k)));
-  return d - distance_slack(d, box.circumradius) <= most;
+  vec4 along = corners_along(box.half_sides * (v / max(d, 1e-30)));
+  return d - distance_slack(d, box.circumradius) <= most_at_corners(corner_distance, along);
 }
 
 // What may carry spokes, before it is a carrier.

@@ -43,8 +43,8 @@ uint turning_partners(Carrier mine, Carrier row, float theta) {
     uint k = (lane + r) % kLanes;
     Carrier other = CARRIER_OF_LANE(row, carrier_order, kept_count, kLanes * next_other_row, k);
     bool is_pair = !is_same_row || r < 4u || lane < 4u;
-    bool asked = is_pair && exists && kLanes * next_other_row + k < kept_count;
-    mask |= asked && can_turn(mine, other, theta) ? 1u << r : 0u;
+    bool is_other = kLanes * next_other_row + k < kept_count, turns = can_turn(mine, other, theta);
+    mask |= is_pair && exists && is_other && turns ? 1u << r : 0u;
   }
   return mask;
 }

@@ -49,6 +49,21 @@ vec3 finest_voxel_corner(Cell cell) {
 // Corners are numbered like children.
 vec3 corner_sign(uint k) { return vec3(k & 1u, (k >> 1) & 1u, k >> 2) * 2.0 - 1.0; }
 
+// How far corners 7, 5, 3 and 1 of a cube lie along a direction, h: it times half the side. Corners 0, 2, 4 and 6 are
+// opposite.
+vec4 corners_along(vec3 h) {
+  vec2 xy = vec2(h.x + h.y, h.x - h.y);
+  return vec4(xy + h.z, xy - h.z);
+}
+
+// The most of what the eight corners have, and of how far they lie along a direction: both added up.
+float most_at_corners(float corners[8], vec4 along) {
+  vec4 forth = vec4(corners[7], corners[5], corners[3], corners[1]) + along;
+  vec4 back = vec4(corners[0], corners[2], corners[4], corners[6]) - along;
+  vec4 most = max(forth, back);
+  return max(max(most.x, most.y), max(most.z, most.w));
+}
+
 // Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g is wrong by up
 // to 2 slack / D.
 float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1.0 + circumradius / max(d, 1e-30)); }

@@ -38,12 +38,9 @@ bool is_contact(Witness w, float d, vec3 g) {
   return near || turned;
 }
 
-// Lemma A for the cube, h = g times half its side: at some corner x_k, D - g.x_k <= dist(x_k, witness).
-bool touches_cube(Witness w, float d, vec3 h) {
-  float limit = d - distance_slack(d, 1.7321 * step.touch_half_side);
-  float most = -1.0;  // at the corner that lies farthest along h it is positive
-  [[unroll]] for (uint k = 0; k < 8u; ++k) most = max(most, w.to_corner[k] + dot(h, corner_sign(k)));
-  return most >= limit;
+// Lemma A for the cube, whose corners lie so far along g: at some corner x_k, D - g.x_k <= dist(x_k, witness).
+bool touches_cube(Witness w, float d, vec4 along) {
+  return most_at_corners(w.to_corner, along) >= d - distance_slack(d, 1.7321 * step.touch_half_side);
 }
 
 // Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
@@ -64,7 +61,8 @@ Prism prism_at(float distance, bool is_asked) { return Prism(is_asked, distance 
 // How far beside a triangle the points may be that have spokes to it.
 float room_beside(Prism prism, vec4 normal) {
   float room = 8.0 * step.slack + prism.spokes * (normal.w - 1.0);
-  return prism.is_asked && normal.w > 0.5 ? room : 1e15;
+  bool is_trusted = normal.w > 0.5;
+  return prism.is_asked && is_trusted ? room : 1e15;
 }
 
 // `v`: from the centre to the nearest point of the triangle.
