@@ -79,8 +79,8 @@ class Certifier {
     // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
     const double expected = expected_radius(s), reach = expected + 2 * epsilon_;
     std::vector<std::uint32_t>& nearby = around.nearby;
-    triangles_.gather(around.region, s.centre, reach, nearby);
-    BvhHit nearest = bvh_.closest_of(s.centre, nearby);
+    const std::size_t inner = triangles_.gather(around.region, s.centre, reach, expected, nearby);
+    BvhHit nearest = bvh_.closest_of(s.centre, std::span(nearby).first(inner));
     if (!(nearest.squared_distance <= expected * expected)) {
       nearest = bvh_.closest(s.centre);
       bvh_.gather_within(s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/point_ops.h"
 
@@ -71,7 +72,7 @@ unsigned NearTriangles::boxes_near(const Query& query, const Region& region, std
 // A bit for each of the four triangles from `position` on: not set if the plane at the limit's distance across the
 // direction s, to about its middle, separates it from the centre, that is, if s.(corner - centre) > limit |s| for its
 // corners.
-unsigned NearTriangles::lanes_near(const Query& query, std::size_t position) const {
+NearTriangles::Lanes NearTriangles::lanes_near(const Query& query, std::size_t position) const {
   std::array<std::array<float, kLanes>, 9> v;
   for (std::size_t c = 0; c < 9; ++c)
     for (std::size_t k = 0; k < kLanes; ++k) v[c][k] = corners_[c][position + k] - query.centre[c % 3];
@@ -82,35 +83,45 @@ unsigned NearTriangles::lanes_near(const Query& query, std::size_t position) con
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t k = 0; k < kLanes; ++k)
       along[c][k] = s[0][k] * v[3 * c][k] + s[1][k] * v[3 * c + 1][k] + s[2][k] * v[3 * c + 2][k];
-  unsigned near = 0;
+  Lanes lanes = {0, 0};
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const float least = std::min(std::min(along[0][k], along[1][k]), along[2][k]);
+    const float least = std::max(std::min(std::min(along[0][k], along[1][k]), along[2][k]), 0.0f);
     const float squared = s[0][k] * s[0][k] + s[1][k] * s[1][k] + s[2][k] * s[2][k];
-    near |= (least > 0 && least * least > query.squared_limit * squared ? 0u : 1u) << k;
+    lanes.near |= (least * least > query.squared_limit * squared ? 0u : 1u) << k;
+    lanes.inner |= (least * least > query.inner_squared_limit * squared ? 0u : 1u) << k;
   }
-  return near;
+  return lanes;
 }
 
-void NearTriangles::gather(const Region& region, const Point& centre, double radius,
-                           std::vector<std::uint32_t>& positions) const {
-  const Query query = {rounded(centre), static_cast<float>(square(scale_ * radius + kMargin))};
+std::size_t NearTriangles::gather(const Region& region, const Point& centre, double radius, double inner_radius,
+                                  std::vector<std::uint32_t>& positions) const {
+  const auto squared = [this](double r) { return static_cast<float>(square(scale_ * r + kMargin)); };
+  const Query query = {rounded(centre), squared(radius), squared(inner_radius)};
   const bool is_in_reach = std::ranges::all_of(query.centre, [](float x) { return std::fabs(x) < 1; });
-  if (!is_in_reach || length(centre - region.centre) + radius > region.radius)
-    return bvh_.gather_within(centre, radius, positions);
+  if (!is_in_reach || length(centre - region.centre) + radius > region.radius) {
+    bvh_.gather_within(centre, radius, positions);
+    return positions.size();
+  }
+  std::size_t inner_count = 0;
   positions.clear();
   for (std::size_t first = 0; first < region.leaves.size(); first += kLanes) {
     const unsigned near = boxes_near(query, region, first);
     for (std::size_t k = 0; k < std::min(kLanes, region.leaves.size() - first); ++k)
-      if ((near >> k & 1) != 0) gather_leaf(query, region.leaves[first + k], positions);
+      if ((near >> k & 1) != 0) gather_leaf(query, region.leaves[first + k], inner_count, positions);
   }
+  return inner_count;
 }
 
-void NearTriangles::gather_leaf(const Query& query, std::uint32_t leaf, std::vector<std::uint32_t>& positions) const {
+void NearTriangles::gather_leaf(const Query& query, std::uint32_t leaf, std::size_t& inner_count,
+                                std::vector<std::uint32_t>& positions) const {
   const BvhNode& node = bvh_.nodes()[leaf];
   for (std::uint32_t first = 0; first < node.count; first += kLanes) {
-    const unsigned near = lanes_near(query, node.first + first);
-    for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kLanes, node.count - first); ++k)
-      if ((near >> k & 1) != 0) positions.push_back(node.first + first + k);
+    const Lanes lanes = lanes_near(query, node.first + first);
+    for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kLanes, node.count - first); ++k) {
+      if ((lanes.near >> k & 1) == 0) continue;
+      positions.push_back(node.first + first + k);
+      if ((lanes.inner >> k & 1) != 0) std::swap(positions.back(), positions[inner_count++]);
+    }
   }
 }
 

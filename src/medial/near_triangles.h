@@ -24,20 +24,27 @@ class NearTriangles {
   explicit NearTriangles(const Bvh& bvh);
 
   void surround(const Point& centre, double radius, Region& region) const;
-  /// As Bvh::gather_within(), in another order; quick where the ball lies in `region`.
-  void gather(const Region& region, const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
+  /// As Bvh::gather_within(), in another order; quick where the ball lies in `region`. The first ones, whose number is
+  /// returned, are all that may reach into the smaller ball of `inner_radius`.
+  std::size_t gather(const Region& region, const Point& centre, double radius, double inner_radius,
+                     std::vector<std::uint32_t>& positions) const;
 
  private:
   static constexpr std::size_t kLanes = 4;
   struct Query {
     std::array<float, 3> centre;
-    float squared_limit;
+    float squared_limit, inner_squared_limit;
+  };
+  // Bits for four triangles: near the ball, and near the inner one.
+  struct Lanes {
+    unsigned near, inner;
   };
 
   std::array<float, 3> rounded(const Point& p) const;
   unsigned boxes_near(const Query& query, const Region& region, std::size_t first) const;
-  unsigned lanes_near(const Query& query, std::size_t position) const;
-  void gather_leaf(const Query& query, std::uint32_t leaf, std::vector<std::uint32_t>& positions) const;
+  Lanes lanes_near(const Query& query, std::size_t position) const;
+  void gather_leaf(const Query& query, std::uint32_t leaf, std::size_t& inner_count,
+                   std::vector<std::uint32_t>& positions) const;
 
   const Bvh& bvh_;
   Point origin_ = {0, 0, 0};

@@ -27,22 +27,32 @@ void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
   std::uniform_real_distribution<double> share(0, 1);
   Region region;
   std::vector<std::uint32_t> found;
+  int fewer = 0;
   for (int i = 0; i < 300; ++i) {
     Point p;
     for (std::size_t axis = 0; axis < 3; ++axis)
       p[axis] = box.lower[axis] + share(random) * (box.upper[axis] - box.lower[axis]);
     const double radius = std::sqrt(bvh.closest(p).squared_distance) * (1 + 1e-9 + 0.2 * share(random));
     if (i % 3 == 0) triangles.surround(p, 1.5 * radius, region);
-    triangles.gather(region, p, radius, found);
+    const double inner_radius = radius * (i % 2 == 0 ? 1 : 0.95);
+    const std::size_t inner = triangles.gather(region, p, radius, inner_radius, found);
+    ASSERT_LE(inner, found.size());
+    fewer += inner < found.size() ? 1 : 0;
+    std::vector<std::uint32_t> first(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(inner));
+    std::ranges::sort(first);
     std::ranges::sort(found);
+    EXPECT_TRUE(std::ranges::adjacent_find(found) == found.end());
     std::vector<std::uint32_t> one(1);
     for (one[0] = 0; one[0] < bvh.corners().size(); ++one[0]) {
       const bool is_near = bvh.closest_of(p, one).squared_distance <= radius * radius;
       EXPECT_TRUE(!is_near || std::ranges::binary_search(found, one[0]));
+      const bool is_inner = bvh.closest_of(p, one).squared_distance <= inner_radius * inner_radius;
+      EXPECT_TRUE(!is_inner || std::ranges::binary_search(first, one[0]));
       EXPECT_EQ(bvh.find_within(p, radius, one) == 0, std::sqrt(bvh.closest_of(p, one).squared_distance) < radius);
     }
     EXPECT_LT(found.size(), bvh.corners().size());
   }
+  EXPECT_GT(fewer, 0);
 }
 
 TEST(NearTriangles, NoneIsMissing) {

@@ -60,7 +60,7 @@ class Bvh {
   /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
   /// As closest(), among the triangles at these leaf positions.
-  BvhHit closest_of(const Point& p, const std::vector<std::uint32_t>& positions) const;
+  BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions) const;
   /// Index in `positions` of the first of these triangles that is closer to p than `radius` (positive), or their
   /// number.
   std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
