@@ -8,15 +8,6 @@
 namespace medial_vk {
 namespace {
 
-/// After a wait that failed, for want of memory say: the device is still at work on buffers that are about to go, and
-/// what is submitted cannot be taken back. A wait that fails again and again is given up.
-void finish(const Context::Impl& context) {
-  for (int attempt = 0; attempt < 16; ++attempt) {
-    const VkResult result = context.vk.vkDeviceWaitIdle(context.device);
-    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) return;
-  }
-}
-
 Error submission_error(const Context::Impl& context, const char* call, VkResult result) {
   if (result != VK_ERROR_DEVICE_LOST) return vulkan_error(call, result);
   return {ErrorCode::kInternal, "the device \"" + context.description.name + "\" was lost while it computed (" + call +
@@ -126,14 +117,20 @@ void Commands::call_while_busy(const std::function<void()>& callback) {
   try {
     callback();
   } catch (...) {
-    finish(*context_);
-    under_way_ = false;
+    drain();
     throw;
   }
 }
 
+// By its own fence: what else a host's device does is not ours to wait for. A wait may fail for want of memory, but the
+// device is still at work on what is about to go, and what is submitted cannot be taken back. A wait that fails again
+// and again is given up.
 void Commands::drain() noexcept {
-  if (under_way_) finish(*context_);
+  for (int attempt = 0; under_way_ && attempt < 16; ++attempt) {
+    constexpr std::uint64_t kForever = ~std::uint64_t{0};
+    const VkResult result = context_->vk.vkWaitForFences(context_->device, 1, &fence_, VK_TRUE, kForever);
+    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) break;
+  }
   under_way_ = false;
 }
 
@@ -148,9 +145,9 @@ Status Commands::wait(const std::function<void()>& while_waiting) {
     if (result != VK_TIMEOUT) break;
     if (while_waiting) call_while_busy(while_waiting);
   }
+  if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST) drain();
   under_way_ = false;
   if (result == VK_SUCCESS) return {};
-  if (result != VK_ERROR_DEVICE_LOST) finish(*context_);
   return submission_error(*context_, "vkWaitForFences", result);
 }
 

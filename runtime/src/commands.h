@@ -15,7 +15,8 @@
 namespace medial_vk {
 
 /// Orders two submissions on any queues: the second waits on the device until the first, and all before it on its
-/// queue, are done, and sees what they wrote. Every signal is waited for once. Made with the first call of prepare().
+/// queue, are done, and sees what they wrote. A signal is waited for once, before the next; or never, and then all that
+/// is left for the semaphore is destruction. Made with the first call of prepare().
 class Semaphore {
  public:
   explicit Semaphore(Context::Impl& context) : context_(&context) {}

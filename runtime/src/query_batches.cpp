@@ -1,6 +1,8 @@
 #include "query_batches.h"
 
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <utility>
 
 #include "context_impl.h"
@@ -17,11 +19,19 @@ QueryBatches::Place::Place(Context::Impl& context)
     : on_device(context),
       for_upload(context),
       for_download(context),
+      uploaded(context),
+      computed(context),
       upload_commands(context, Commands::queue_for_transfers(context)),
       compute(context),
-      download_commands(context, Commands::queue_for_transfers(context)),
-      uploaded(context),
-      computed(context) {}
+      download_commands(context, Commands::queue_for_transfers(context)) {}
+
+Status QueryBatches::check(const QuerySet& queries) const {
+  const bool is_batch = queries.batch > 0 && queries.batch <= capacity_ && queries.batch % queries.group_size == 0;
+  if (is_batch && std::ranges::equal(queries.item_bytes, QuerySet::kMostItemBytes, std::less_equal<>())) return {};
+  return Error{ErrorCode::kInternal, "batches of " + std::to_string(queries.batch) + " queries, in groups of " +
+                                         std::to_string(queries.group_size) + ", where there is room for " +
+                                         std::to_string(capacity_)};
+}
 
 Status QueryBatches::create_buffers(Place& place) const {
   const VkDeviceSize c = capacity_;
@@ -48,17 +58,9 @@ Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
   if (place == nullptr) {
     auto made = std::make_unique<Place>(*context_);
     if (Status created = create_buffers(*made); !created.ok()) return created.error();
-    for (Semaphore* semaphore : {&made->uploaded, &made->computed}) {
-      if (!has_transfers_apart(*made)) break;
-      if (Status prepared = semaphore->prepare(); !prepared.ok()) return prepared.error();
-    }
     place = std::move(made);
   }
   return place.get();
-}
-
-bool QueryBatches::has_transfers_apart(const Place& place) const {
-  return !place.is_shared && context_->transfer_queue != VK_NULL_HANDLE;
 }
 
 /// After an error a semaphore may have been signalled for nobody, and a batch may be under way.
@@ -71,6 +73,7 @@ void QueryBatches::start_over() noexcept {
 }
 
 Status QueryBatches::run(const QuerySet& queries) {
+  if (Status fits = check(queries); !fits.ok()) return fits;
   try {
     Status status = run_all(queries);
     if (!status.ok()) start_over();
@@ -114,22 +117,25 @@ Status QueryBatches::write(const QuerySet& queries, const Place& place) const {
 
 Status QueryBatches::ask(const QuerySet& queries, Place& place) const {
   if (Status written = write(queries, place); !written.ok()) return written;
-  const bool apart = has_transfers_apart(place);
+  // A batch alone has nothing to overlap with: one submission does.
+  place.is_apart = !place.is_shared && context_->transfer_queue != VK_NULL_HANDLE && queries.count > queries.batch;
   const auto record_upload = [&place](Recorder& r) {
     r.copy(place.upload, 0, place.asked, 0, place.padded * sizeof(Texel));
     r.barrier();
   };
-  if (apart) {
+  if (place.is_apart) {
+    for (Semaphore* semaphore : {&place.uploaded, &place.computed})
+      if (Status prepared = semaphore->prepare(); !prepared.ok()) return prepared;
     if (Status begun = place.upload_commands.begin(); !begun.ok()) return begun;
     record_upload(place.upload_commands.recorder());
     if (Status submitted = place.upload_commands.submit(nullptr, &place.uploaded); !submitted.ok()) return submitted;
   }
   if (Status begun = place.compute.begin(); !begun.ok()) return begun;
   Recorder& r = place.compute.recorder();
-  if (!apart && !place.is_shared) record_upload(r);
+  if (!place.is_apart && !place.is_shared) record_upload(r);
   queries.record(r, place.padded, place.asked, place.items);
   place.state = Place::State::kAsked;
-  if (apart) return place.compute.submit(&place.uploaded, &place.computed);
+  if (place.is_apart) return place.compute.submit(&place.uploaded, &place.computed);
   if (!place.is_shared) record_download(queries, place, r);
   r.barrier_to_host();
   return place.compute.submit(nullptr, nullptr);
@@ -144,7 +150,7 @@ void QueryBatches::record_download(const QuerySet& queries, const Place& place, 
 Status QueryBatches::submit_download(const QuerySet& queries, Place& place) const {
   if (place.state != Place::State::kAsked) return {};
   place.state = Place::State::kDownloading;
-  if (!has_transfers_apart(place)) return {};
+  if (!place.is_apart) return {};
   if (Status begun = place.download_commands.begin(); !begun.ok()) return begun;
   record_download(queries, place, place.download_commands.recorder());
   place.download_commands.recorder().barrier_to_host();

@@ -21,7 +21,7 @@ struct QuerySet {
   static constexpr std::array<std::uint32_t, 2> kMostItemBytes = {16, 4};
 
   std::size_t count = 0;
-  std::size_t batch = 0;         // queries of a submission
+  std::size_t batch = 0;         // queries of a submission: a multiple of group_size, at most the capacity
   std::uint32_t group_size = 1;  // the last batch is padded to a multiple of this, with queries to pass over
   std::array<std::uint32_t, 2> item_bytes = {0, 0};
   /// Queries [first, first + out.size()). Error: one of them cannot be asked.
@@ -34,8 +34,8 @@ struct QuerySet {
 
 /// Two batches are under way at a time, or one where the device is the host's processors. While the device computes
 /// one, the host reads the one before and writes the next; where the device has a queue for transfers, they go down and
-/// up meanwhile. Buffers are kept, for two batches if there ever were two: some 25 MiB each of 262,144 queries
-/// (lavapipe: 16). Fresh memory would cost as much as the queries.
+/// up meanwhile, if there is more than one. Buffers are kept, for two batches if there ever were two: some 25 MiB each
+/// of 262,144 queries (lavapipe: 16). Fresh memory would cost as much as the queries.
 class QueryBatches {
  public:
   /// Of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same speed: nothing
@@ -44,7 +44,7 @@ class QueryBatches {
       : context_(&context), capacity_(capacity), shares_memory_(shares_memory) {}
 
   /// Blocks until all are answered; on errors too, nothing is under way then. Errors: kOutOfMemory, kInternal (device
-  /// lost), and those of `write` and `read`.
+  /// lost; batches or items that are too large), and those of `write` and `read`.
   Status run(const QuerySet& queries);
 
  private:
@@ -56,13 +56,15 @@ class QueryBatches {
     std::array<Buffer, 2> items;
     Buffer upload, download;  // none where the host uses the others
     bool is_shared = false;
-    // One after the other; without a queue for transfers all is in the middle one, and the rest not used.
-    Commands upload_commands, compute, download_commands;
+    bool is_apart = false;  // transfers are, on their queue: of the run that is under way
     Semaphore uploaded, computed;
+    // One after the other; without transfers apart all is in the middle one, and the rest not used.
+    Commands upload_commands, compute, download_commands;
     enum class State { kFree, kAsked, kDownloading } state = State::kFree;
     std::size_t first = 0, count = 0;
     std::uint32_t padded = 0;
   };
+  Status check(const QuerySet& queries) const;
   Result<Place*> place(std::size_t number);
   Status create_buffers(Place& place) const;
   void start_over() noexcept;
@@ -73,7 +75,6 @@ class QueryBatches {
   Status submit_download(const QuerySet& queries, Place& place) const;
   Status complete(const QuerySet& queries, Place& place) const;
   std::size_t at_once() const { return shares_memory_ ? 1 : places_.size(); }
-  bool has_transfers_apart(const Place& place) const;
 
   Context::Impl* context_;
   std::uint32_t capacity_;

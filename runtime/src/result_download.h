@@ -26,7 +26,7 @@ class ResultDownload {
   /// After a chunk has run: the first so many of its points and undecided voxels. The buffers outlive finish(). Errors:
   /// kOutOfMemory, kInternal (device lost).
   Status start(const Buffer& points, std::uint32_t point_count, const Buffer& undecided, std::uint32_t undecided_count);
-  /// What the next chunk waits for before it writes points of its own; null: nothing. Once for every start().
+  /// What the next chunk waits for before it writes points of its own; null: nothing, or something has waited already.
   const Semaphore* before_next();
   /// Waits for the copies. False: there was no start() since. Errors: as start().
   Result<bool> finish();

@@ -1,7 +1,6 @@
 #include "uploads.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <string>
 
@@ -10,13 +9,13 @@
 namespace medial_vk {
 namespace {
 
-constexpr VkDeviceSize kLeastPiece = 64ull << 10;
-constexpr VkDeviceSize kLargestPiece = 4ull << 20;  // a tenth of a millisecond and more on its way
+constexpr VkDeviceSize kPiece = 4ull << 20;  // a tenth of a millisecond and more on its way
 
 }  // namespace
 
 Uploads::Uploads(Context::Impl& context)
     : context_(&context),
+      arena_(context),
       sent_(context),
       received_(context),
       pieces_{Piece(context, Commands::queue_for_transfers(context)),
@@ -26,14 +25,10 @@ Uploads::~Uploads() {
   for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_}) commands->drain();
 }
 
-/// `expected`: bytes that are waiting. A piece that is small for them is replaced.
-Status Uploads::begin(Piece& piece, VkDeviceSize expected) {
+Status Uploads::begin(Piece& piece) {
   if (Status emptied = piece.commands.wait(); !emptied.ok()) return emptied;
-  const VkDeviceSize size = std::clamp(std::bit_ceil(expected), kLeastPiece, kLargestPiece);
-  if (expected > 0 && piece.memory.size < size) {
-    piece.arena = Arena(*context_);
-    piece.memory = {};
-    Result<Buffer> made = piece.arena.create_buffer(size, MemoryKind::kUpload, "staging");
+  if (piece.memory.mapped == nullptr) {
+    Result<Buffer> made = arena_.create_buffer(kPiece, MemoryKind::kUpload, "staging");
     if (!made.ok()) return made.error();
     piece.memory = made.value();
   }
@@ -61,7 +56,7 @@ Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     Piece& piece = pieces_[current_];
     if (!piece.records) {
-      if (Status begun = begin(piece, bytes.size() - done); !begun.ok()) return begun;
+      if (Status begun = begin(piece); !begun.ok()) return begun;
     }
     const std::size_t count = std::min<std::size_t>(bytes.size() - done, piece.memory.size - piece.used);
     std::memcpy(static_cast<std::byte*>(piece.memory.mapped) + piece.used, bytes.data() + done, count);
@@ -84,13 +79,13 @@ Status Uploads::flush() {
   const bool has_own_queue = context_->transfer_queue != VK_NULL_HANDLE;
   if (!has_own_queue) return last.records ? send(last, nullptr) : Status();
   if (!last.records) {  // the one before was full and is on its way: what signals follows it
-    if (Status begun = begin(last, 0); !begun.ok()) return begun;
+    if (Status begun = begin(last); !begun.ok()) return begun;
   }
+  if (Status done = received_.wait(); !done.ok()) return done;  // the semaphore is signalled again only after its wait
   if (Status ready = sent_.prepare(); !ready.ok()) return ready;
   if (Status sent = send(last, &sent_); !sent.ok()) return sent;
   // A wait for the fence of a copy would make its bytes available, but not visible to kernels on another queue: the
   // semaphore does.
-  if (Status done = received_.wait(); !done.ok()) return done;
   if (Status begun = received_.begin(); !begun.ok()) return begun;
   return received_.submit(&sent_, nullptr);
 }

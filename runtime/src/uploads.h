@@ -33,17 +33,17 @@ class Uploads {
 
  private:
   struct Piece {
-    Piece(Context::Impl& context, Commands::Queue queue) : arena(context), commands(context, queue) {}
-    Arena arena;
+    Piece(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
     Buffer memory;
     VkDeviceSize used = 0;
     bool records = false;
     Commands commands;
   };
-  Status begin(Piece& piece, VkDeviceSize expected);
+  Status begin(Piece& piece);
   Status send(Piece& piece, const Semaphore* signal);
 
   Context::Impl* context_;
+  Arena arena_;
   Semaphore sent_;
   Commands received_;  // on the queue of the kernels
   std::array<Piece, 2> pieces_;

@@ -91,6 +91,23 @@ TEST_P(CopyingQueue, AnswersManyBatches) {
   }
 }
 
+TEST_P(CopyingQueue, RefusesBatchesThatDoNotFit) {
+  Context context = open_discrete().value();
+  QueryBatches batches(context.impl(), 64, false);
+  std::vector<float> values(200), answers;
+  const auto refuses = [&](const std::function<void(QuerySet&)>& change) {
+    QuerySet set = echo(values, answers);
+    change(set);
+    const Status status = batches.run(set);
+    return !status.ok() && status.error().code == ErrorCode::kInternal;
+  };
+  EXPECT_TRUE(refuses([](QuerySet& set) { set.batch = 0; }));
+  EXPECT_TRUE(refuses([](QuerySet& set) { set.batch = 50; }));  // groups of 20
+  EXPECT_TRUE(refuses([](QuerySet& set) { set.batch = 80; }));
+  EXPECT_TRUE(refuses([](QuerySet& set) { set.item_bytes[0] = 20; }));
+  EXPECT_FALSE(refuses([](QuerySet& set) { set.batch = 40; }));
+}
+
 TEST_P(CopyingQueue, StartsOverAfterAQueryThatCannotBeAsked) {
   Context context = open_discrete().value();
   QueryBatches batches(context.impl(), 64, false);

@@ -6,7 +6,9 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <numeric>
 
+#include "echo_queries.h"
 #include "failing_new.h"
 #include "fault_test.h"
 #include "host_memory.h"
@@ -82,6 +84,33 @@ TEST_F(HostMemory, RunsOutInThesisExtraction) {
   fail_every_allocation("thesis extraction", [&] { return extract(context.value(), mesh, Mode::kThesis); });
 }
 
+// Copies are under way on a queue of their own when memory runs out: nothing that they use goes before them.
+TEST_F(HostMemory, RunsOutBesideCopies) {
+  DeviceProfile discrete;
+  discrete.split_memory = true;
+  discrete.copying_queue = LateQueue::kCopies;
+  vulkan().set_profile(discrete);
+  {
+    Context context = open().value();
+    std::vector<float> values(290);
+    std::iota(values.begin(), values.end(), 1.0f);
+    fail_every_allocation("many batches", [&]() -> Answer {
+      std::vector<float> answers(values.size());
+      QueryBatches batches(context.impl(), 64, false);
+      const QuerySet queries = echo(values, answers);
+      const Status status =
+          in_runtime([&] { return catch_out_of_memory("asking", [&] { return batches.run(queries); }); });
+      if (!status.ok()) return status.error();
+      std::string out;
+      for (const float a : answers) append_bytes(out, a);
+      return out;
+    });
+    const PreparedMesh mesh = small_box();
+    fail_every_allocation("queries, two queues", [&] { return make_scene_and_ask(context, mesh); });
+    fail_every_allocation("certified extraction, two queues", [&] { return extract(context, mesh, Mode::kCertified); });
+  }
+}
+
 // The callback's allocations count as the foam's: what they throw is caught with the rest.
 TEST_F(HostMemory, RunsOutInAFoam) {
   const Ball sphere = {{0, 0, 0}, 1};
@@ -134,7 +163,7 @@ Status remove_or_leave(ShrinkingUnion& rest, std::span<const std::uint32_t> ball
   const std::vector<std::uint32_t> changed(rest.changed().begin(), rest.changed().end());
   const double volume = rest.volume();
   const std::vector<bool> held = {rest.holds(balls.front()), rest.holds(balls.back())};
-  const Status status = in_runtime([&] { return rest.remove(balls); });
+  Status status = in_runtime([&] { return rest.remove(balls); });
   if (status.ok()) return status;
   EXPECT_EQ(rest.volume(), volume);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), rest.volumes().begin(), rest.volumes().end()));
@@ -185,7 +214,7 @@ std::string bytes_of(const DynamicUnion& balls) {
 /// A change, or a question. When that fails, nothing has changed: not the balls, not what the last change was.
 Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& change) {
   const std::string before = bytes_of(balls);
-  const Status status = in_runtime(change);
+  Status status = in_runtime(change);
   if (status.ok()) return status;
   EXPECT_TRUE(bytes_of(balls) == before);
   return status;
@@ -206,6 +235,7 @@ TEST_F(HostMemory, RunsOutInADynamicUnion) {
     DynamicUnion& balls = built.value();
     const auto status_of = [](const auto& result) { return result.ok() ? Status{} : Status{result.error()}; };
     std::vector<std::function<Status()>> changes;
+    changes.reserve(list.size() + 6);
     for (const Ball& ball : list)
       changes.emplace_back([&balls, &status_of, ball] { return status_of(balls.add(ball)); });
     for (const std::uint32_t place : {3u, 7u, 29u}) changes.emplace_back([&, place] { return balls.remove(place); });

@@ -57,8 +57,7 @@ inline void follow(WorkUnderWay& work, vkBeginCommandBufferTag, VkCommandBuffer 
 }
 inline void follow(WorkUnderWay& work, vkQueueSubmitTag, VkQueue, std::uint32_t count, const VkSubmitInfo* infos,
                    VkFence fence) {
-  for (std::uint32_t i = 0; i < count; ++i)
-    for (std::uint32_t k = 0; k < infos[i].commandBufferCount; ++k) work.submit(infos[i].pCommandBuffers[k], fence);
+  for (std::uint32_t i = 0; i < count; ++i) work.submit(infos[i], fence);
 }
 inline void follow(WorkUnderWay& work, vkWaitForFencesTag, VkDevice, std::uint32_t count, const VkFence* fences,
                    VkBool32, std::uint64_t) {

@@ -26,12 +26,17 @@ void WorkUnderWay::add_with_all_it_uses(Handle used, std::set<Handle>& all) cons
   for (const Handle next : found->second) add_with_all_it_uses(next, all);
 }
 
-void WorkUnderWay::submit(VkCommandBuffer commands, VkFence fence) {
+void WorkUnderWay::submit(const VkSubmitInfo& info, VkFence fence) {
   const std::lock_guard lock(mutex_);
   std::set<Handle>& all = under_way_[fence];
-  add_with_all_it_uses(handle(fence), all);
-  add_with_all_it_uses(handle(commands), all);
-  for (const Handle used : recorded_[commands]) add_with_all_it_uses(used, all);
+  all.insert(handle(fence));
+  for (std::uint32_t i = 0; i < info.waitSemaphoreCount; ++i) all.insert(handle(info.pWaitSemaphores[i]));
+  for (std::uint32_t i = 0; i < info.signalSemaphoreCount; ++i) all.insert(handle(info.pSignalSemaphores[i]));
+  for (std::uint32_t i = 0; i < info.commandBufferCount; ++i) {
+    const VkCommandBuffer commands = info.pCommandBuffers[i];
+    add_with_all_it_uses(handle(commands), all);
+    for (const Handle used : recorded_[commands]) add_with_all_it_uses(used, all);
+  }
 }
 
 void WorkUnderWay::finished(std::optional<VkFence> fence) {

@@ -23,7 +23,8 @@ class WorkUnderWay {
   void depends(Handle user, Handle used);
   void begin(VkCommandBuffer commands);
   void records(VkCommandBuffer commands, Handle used);
-  void submit(VkCommandBuffer commands, VkFence fence);
+  /// What it records, and the semaphores that it waits for and signals.
+  void submit(const VkSubmitInfo& info, VkFence fence);
   /// Waited for: what signals this fence, or all.
   void finished(std::optional<VkFence> fence);
   bool uses(Handle used) const;

@@ -24,7 +24,9 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
     return p;
   }
   Result<Extraction> extract(const ProgressCallback& progress, const std::stop_token& stop) {
-    return extract_medial_spheres(*context_, mesh_.view(), parameters(kLong), progress, stop);
+    // Seconds on any CPU.
+    const std::uint32_t resolution = GetParam() == Mode::kCertified ? 2000 : 400;
+    return extract_medial_spheres(*context_, mesh_.view(), parameters(resolution), progress, stop);
   }
   void expect_interrupted(const Result<Extraction>& result) {
     ASSERT_FALSE(result.ok());
@@ -47,7 +49,6 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
     EXPECT_EQ(spheres_of(*context_), expected);
   }
 
-  static constexpr std::uint32_t kLong = 400;  // seconds on any CPU
   PreparedMesh mesh_ = test::prepare(test::make_torus(1.0, 0.4, 24, 48));
 };
 
