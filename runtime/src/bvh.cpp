@@ -202,8 +202,7 @@ void Bvh::gather_leaves(const Point& centre, double radius, std::vector<std::uin
   for_each_leaf(nodes_, centre, radius * radius, [&](std::uint32_t leaf) { leaves.push_back(leaf); });
 }
 
-BvhHit Bvh::closest_of(const Point& p, std::span<const std::uint32_t> positions) const {
-  BvhHit best;
+BvhHit Bvh::closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best) const {
   for (const std::uint32_t position : positions) improve(p, position, best);
   return best;
 }

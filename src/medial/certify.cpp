@@ -39,6 +39,7 @@ double half_angle(const std::array<float, 3>& a, const std::array<float, 3>& b) 
 struct Surroundings {
   Region region;
   std::vector<std::uint32_t> nearby;
+  std::vector<float> bounds;
 };
 
 class Certifier {
@@ -80,7 +81,7 @@ class Certifier {
     const double expected = expected_radius(s), reach = expected + 2 * epsilon_;
     std::vector<std::uint32_t>& nearby = around.nearby;
     const std::size_t inner = triangles_.gather(around.region, s.centre, reach, expected, nearby);
-    BvhHit nearest = bvh_.closest_of(s.centre, std::span(nearby).first(inner));
+    BvhHit nearest = triangles_.closest_of(s.centre, std::span(nearby).first(inner), around.bounds);
     if (!(nearest.squared_distance <= expected * expected)) {
       nearest = bvh_.closest(s.centre);
       bvh_.gather_within(s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);
@@ -186,7 +187,7 @@ class Certifier {
   double longest_, epsilon_, rounding_;
 };
 
-/// Spheres in cubes of two voxels along a side: neighbours, whose queries look at the same leaves.
+/// Spheres in cubes of four voxels along a side: neighbours, whose queries look at the same leaves.
 class NeighbourGroups {
  public:
   explicit NeighbourGroups(const std::vector<MedialSphere>& spheres) {
@@ -210,7 +211,7 @@ class NeighbourGroups {
  private:
   static std::uint64_t key_of(const MedialSphere& s) {
     std::uint64_t key = 0;
-    for (const std::uint32_t coordinate : s.voxel) key = key << 21 | coordinate >> 1;
+    for (const std::uint32_t coordinate : s.voxel) key = key << 21 | coordinate >> 2;
     return key;
   }
 
@@ -219,7 +220,7 @@ class NeighbourGroups {
 };
 
 /// What a thread takes: enough that threads do not meet, little enough that none waits long for another at the end.
-constexpr std::size_t kGroupsAtOnce = 32;
+constexpr std::size_t kGroupsAtOnce = 8;
 
 /// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
 /// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.

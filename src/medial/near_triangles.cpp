@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "medial/float_lanes.h"
 #include "mesh/point_ops.h"
 
 namespace medial_vk {
@@ -13,10 +14,30 @@ namespace {
 // unit is the longest side of the tree's box, whose middle is the origin; balls have their centres within 1 of it,
 // along each axis, and radii below 1. With u = 2^-24: rounding moves the centre by u and the corners by u / 2 a
 // coordinate, and their differences by 1.5 u: 5.2 u in all. A product s.a is off by 4 u |s| |a| with |a| < 2.6. That is
-// less than 16 u = 9.6e-7; the squares of limit, s and s.a add less than 1e-6.
+// less than 16 u = 9.6e-7; the squares of limit, s and s.a, and their quotient, add less than 1e-6.
 constexpr double kMargin = 4e-6;
 
 double square(double x) { return x * x; }
+
+bool is_in_reach(const std::array<float, 3>& p) {
+  return std::ranges::all_of(p, [](float x) { return std::fabs(x) < 1; });
+}
+
+/// The points of segments from a to b that are nearest to the origin, or about that.
+Vectors toward_segments(const Vectors& a, const Vectors& b) {
+  const Vectors edge = b - a;
+  const Floats t = -dot(a, edge) / max(dot(edge, edge), kTiny);
+  return a + min(max(t, kZero), kOne) * edge;
+}
+
+/// The points of triangles that are nearest to the origin, or about that.
+Vectors toward_triangles(const Vectors& a, const Vectors& b, const Vectors& c) {
+  const Vectors normal = cross(b - a, c - a);
+  const Floats inside = least(dot(cross(a, b), normal), dot(cross(b, c), normal), dot(cross(c, a), normal));
+  const Vectors edges = shorter(toward_segments(a, b), shorter(toward_segments(b, c), toward_segments(c, a)));
+  const Vectors foot = dot(a, normal) / max(dot(normal, normal), kTiny) * normal;
+  return choose(inside > kZero, foot, edges);
+}
 
 }  // namespace
 
@@ -38,6 +59,10 @@ std::array<float, 3> NearTriangles::rounded(const Point& p) const {
   return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])};
 }
 
+float NearTriangles::squared_limit(double radius) const {
+  return static_cast<float>(square(scale_ * radius + kMargin));
+}
+
 void NearTriangles::surround(const Point& centre, double radius, Region& region) const {
   region.centre = centre;
   region.radius = radius;
@@ -55,50 +80,33 @@ void NearTriangles::surround(const Point& centre, double radius, Region& region)
 
 // A bit for each of the four leaves from `first` on: not set if its box is farther away than the limit.
 unsigned NearTriangles::boxes_near(const Query& query, const Region& region, std::size_t first) const {
-  std::array<float, kLanes> squared{};
+  Floats squared = kZero;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float below = region.boxes[axis][first + k] - query.centre[axis];
-      const float above = query.centre[axis] - region.boxes[3 + axis][first + k];
-      const float away = std::max(std::max(below, above), 0.0f);
-      squared[k] += away * away;
-    }
+    const Floats below = four(region.boxes[axis], first) - query.centre[axis];
+    const Floats above = query.centre[axis] - four(region.boxes[3 + axis], first);
+    const Floats away = max(max(below, above), kZero);
+    squared += away * away;
   }
-  unsigned near = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) near |= (squared[k] > query.squared_limit ? 0u : 1u) << k;
-  return near;
+  return bits(~(squared > query.squared_limit));
 }
 
 // A bit for each of the four triangles from `position` on: not set if the plane at the limit's distance across the
 // direction s, to about its middle, separates it from the centre, that is, if s.(corner - centre) > limit |s| for its
 // corners.
 NearTriangles::Lanes NearTriangles::lanes_near(const Query& query, std::size_t position) const {
-  std::array<std::array<float, kLanes>, 9> v;
-  for (std::size_t c = 0; c < 9; ++c)
-    for (std::size_t k = 0; k < kLanes; ++k) v[c][k] = corners_[c][position + k] - query.centre[c % 3];
-  std::array<std::array<float, kLanes>, 3> s;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < kLanes; ++k) s[axis][k] = v[axis][k] + v[3 + axis][k] + v[6 + axis][k];
-  std::array<std::array<float, kLanes>, 3> along;
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t k = 0; k < kLanes; ++k)
-      along[c][k] = s[0][k] * v[3 * c][k] + s[1][k] * v[3 * c + 1][k] + s[2][k] * v[3 * c + 2][k];
-  Lanes lanes = {0, 0};
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const float least = std::max(std::min(std::min(along[0][k], along[1][k]), along[2][k]), 0.0f);
-    const float squared = s[0][k] * s[0][k] + s[1][k] * s[1][k] + s[2][k] * s[2][k];
-    lanes.near |= (least * least > query.squared_limit * squared ? 0u : 1u) << k;
-    lanes.inner |= (least * least > query.inner_squared_limit * squared ? 0u : 1u) << k;
-  }
-  return lanes;
+  std::array<Vectors, 3> v;
+  for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3] = four(corners_[c], position) - query.centre[c % 3];
+  const Vectors s = v[0] + v[1] + v[2];
+  const Floats along = max(least(dot(s, v[0]), dot(s, v[1]), dot(s, v[2])), kZero);
+  const Floats squared = dot(s, s);
+  return {bits(~(along * along > query.squared_limit * squared)),
+          bits(~(along * along > query.inner_squared_limit * squared))};
 }
 
 std::size_t NearTriangles::gather(const Region& region, const Point& centre, double radius, double inner_radius,
                                   std::vector<std::uint32_t>& positions) const {
-  const auto squared = [this](double r) { return static_cast<float>(square(scale_ * r + kMargin)); };
-  const Query query = {rounded(centre), squared(radius), squared(inner_radius)};
-  const bool is_in_reach = std::ranges::all_of(query.centre, [](float x) { return std::fabs(x) < 1; });
-  if (!is_in_reach || length(centre - region.centre) + radius > region.radius) {
+  const Query query = {rounded(centre), squared_limit(radius), squared_limit(inner_radius)};
+  if (!is_in_reach(query.centre) || length(centre - region.centre) + radius > region.radius) {
     bvh_.gather_within(centre, radius, positions);
     return positions.size();
   }
@@ -110,6 +118,39 @@ std::size_t NearTriangles::gather(const Region& region, const Point& centre, dou
       if ((near >> k & 1) != 0) gather_leaf(query, region.leaves[first + k], inner_count, positions);
   }
   return inner_count;
+}
+
+// Squares of distances that four triangles (the last ones may be the same) are not below, but for what squared_limit()
+// adds. As in lanes_near(), by a plane across some direction; here it is that of the nearest point, and the plane
+// touches there.
+std::array<float, NearTriangles::kLanes> NearTriangles::squared_bounds(const std::array<float, 3>& p,
+                                                                       std::span<const std::uint32_t> positions) const {
+  std::array<Vectors, 3> v;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const std::uint32_t position = positions[std::min(k, positions.size() - 1)];
+    for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3][k] = corners_[c][position];
+  }
+  for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3] = v[c / 3][c % 3] - p[c % 3];
+  const Vectors s = toward_triangles(v[0], v[1], v[2]);
+  const Floats along = max(least(dot(s, v[0]), dot(s, v[1]), dot(s, v[2])), kZero);
+  const Floats bounds = along * along / max(dot(s, s), kTiny);
+  return {bounds[0], bounds[1], bounds[2], bounds[3]};
+}
+
+BvhHit NearTriangles::closest_of(const Point& p, std::span<std::uint32_t> positions, std::vector<float>& bounds) const {
+  const std::array<float, 3> centre = rounded(p);
+  if (positions.empty() || !is_in_reach(centre)) return bvh_.closest_of(p, positions);
+  bounds.resize(positions.size() + kLanes);
+  for (std::size_t first = 0; first < positions.size(); first += kLanes)
+    std::ranges::copy(squared_bounds(centre, positions.subspan(first)),
+                      bounds.begin() + static_cast<std::ptrdiff_t>(first));
+  const auto least = std::min_element(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(positions.size()));
+  const BvhHit hit = bvh_.closest_of(p, positions.subspan(static_cast<std::size_t>(least - bounds.begin()), 1));
+  const float limit = squared_limit(std::sqrt(hit.squared_distance));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (!(bounds[i] > limit)) std::swap(positions[i], positions[kept++]);
+  return bvh_.closest_of(p, positions.first(kept), hit);
 }
 
 void NearTriangles::gather_leaf(const Query& query, std::uint32_t leaf, std::size_t& inner_count,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial_vk/bvh.h"
@@ -28,6 +29,8 @@ class NearTriangles {
   /// returned, are all that may reach into the smaller ball of `inner_radius`.
   std::size_t gather(const Region& region, const Point& centre, double radius, double inner_radius,
                      std::vector<std::uint32_t>& positions) const;
+  /// As Bvh::closest_of(); the order of `positions` changes, and `bounds` is room to work in.
+  BvhHit closest_of(const Point& p, std::span<std::uint32_t> positions, std::vector<float>& bounds) const;
 
  private:
   static constexpr std::size_t kLanes = 4;
@@ -41,6 +44,9 @@ class NearTriangles {
   };
 
   std::array<float, 3> rounded(const Point& p) const;
+  float squared_limit(double radius) const;
+  std::array<float, kLanes> squared_bounds(const std::array<float, 3>& p,
+                                           std::span<const std::uint32_t> positions) const;
   unsigned boxes_near(const Query& query, const Region& region, std::size_t first) const;
   Lanes lanes_near(const Query& query, std::size_t position) const;
   void gather_leaf(const Query& query, std::uint32_t leaf, std::size_t& inner_count,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "medial/near_triangles.h"
 #include "support/solids.h"
@@ -19,6 +20,12 @@ Bvh tree_of(Mesh mesh, double scale, const Point& shift) {
   return std::move(bvh).value();
 }
 
+void expect_same(const BvhHit& a, const BvhHit& b) {
+  EXPECT_EQ(a.triangle, b.triangle);
+  EXPECT_EQ(a.squared_distance, b.squared_distance);
+  EXPECT_EQ(a.point, b.point);
+}
+
 /// Balls around points anywhere in the box, just large enough for some triangle, within a region and beside it.
 void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
   const NearTriangles triangles(bvh);
@@ -27,6 +34,7 @@ void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
   std::uniform_real_distribution<double> share(0, 1);
   Region region;
   std::vector<std::uint32_t> found;
+  std::vector<float> bounds;
   int fewer = 0;
   for (int i = 0; i < 300; ++i) {
     Point p;
@@ -51,6 +59,7 @@ void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
       EXPECT_EQ(bvh.find_within(p, radius, one) == 0, std::sqrt(bvh.closest_of(p, one).squared_distance) < radius);
     }
     EXPECT_LT(found.size(), bvh.corners().size());
+    expect_same(triangles.closest_of(p, found, bounds), bvh.closest(p));
   }
   EXPECT_GT(fewer, 0);
 }
@@ -61,6 +70,32 @@ TEST(NearTriangles, NoneIsMissing) {
 
 TEST(NearTriangles, NoneIsMissingFarFromTheOrigin) {
   expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1, {1e6, -3e6, 2e5}), 2);
+}
+
+// Ties and near-ties: along the axis of a capsule all faces around are at one distance, but for rounding.
+TEST(NearTriangles, TheClosestIsThatOfAllInDouble) {
+  const Bvh bvh = tree_of(test::make_capsule(0.5, 2.0, 40), 1, {0.1, 0.2, 0.3});
+  const NearTriangles triangles(bvh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-1, 1);
+  Region region;
+  std::vector<std::uint32_t> found;
+  std::vector<float> bounds;
+  for (int i = 0; i < 2000; ++i) {
+    const double off = std::pow(10.0, -2 - i % 14);
+    const Point p = {0.1 + off * share(random), 0.2 + off * share(random), 0.3 + 0.4 * share(random)};
+    const double radius = std::sqrt(bvh.closest(p).squared_distance) * (1 + 1e-9);
+    triangles.surround(p, radius, region);
+    const std::size_t inner = triangles.gather(region, p, radius, radius, found);
+    expect_same(triangles.closest_of(p, std::span(found).first(inner), bounds), bvh.closest(p));
+  }
+}
+
+TEST(NearTriangles, NothingIsClosestOfNone) {
+  const Bvh bvh = tree_of(test::make_turned_torus(24, 12), 1, {0, 0, 0});
+  const NearTriangles triangles(bvh);
+  std::vector<float> bounds;
+  EXPECT_EQ(triangles.closest_of({0, 0, 0}, {}, bounds).triangle, 0xffffffffu);
 }
 
 TEST(NearTriangles, NoneIsMissingOfTinyAndOfHugeMeshes) {

@@ -59,8 +59,8 @@ class Bvh {
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
   /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
-  /// As closest(), among the triangles at these leaf positions.
-  BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions) const;
+  /// As closest(), among the triangles at these leaf positions and `best`, what is known of others.
+  BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {}) const;
   /// Index in `positions` of the first of these triangles that is closer to p than `radius` (positive), or their
   /// number.
   std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
