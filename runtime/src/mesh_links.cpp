@@ -45,22 +45,49 @@ struct Cap {
   double angle;
 };
 
+// Of unit vectors.
+const Point& farthest_from(const Point& axis, std::span<const Point> directions) {
+  std::size_t farthest = 0;
+  double least = 2;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double cosine = dot(directions[i], axis);
+    farthest = cosine < least ? i : farthest;
+    least = std::min(least, cosine);
+  }
+  return directions[farthest];
+}
+
 // A cap below a right angle that holds all directions, nearly the smallest: the axis moves towards the direction
-// farthest from it, a little less each time (Badoiu and Clarkson 2003).
+// farthest from it, a little less each time (Badoiu and Clarkson 2003). Of none, none.
 std::optional<Cap> cap_around(std::span<const Point> directions) {
   constexpr int kSteps = 16;
+  if (directions.empty()) return std::nullopt;
   Point sum = {0, 0, 0};
   for (const Point& d : directions) sum = sum + d;
   Point axis = unit(sum);
   for (int step = 0; step < kSteps; ++step) {
-    const auto farthest = std::min_element(directions.begin(), directions.end(),
-                                           [&](const Point& a, const Point& b) { return dot(a, axis) < dot(b, axis); });
-    axis = unit(axis + (1 / (step + 2.5)) * (*farthest - axis));
+    axis = unit(axis + (1 / (step + 2.5)) * (farthest_from(axis, directions) - axis));
   }
   double angle = 0;
   for (const Point& d : directions) angle = std::max(angle, angle_between(d, axis));
   if (length(axis) == 0 || angle + kCapSlack >= kRightAngle) return std::nullopt;
   return Cap{axis, angle + kCapSlack};
+}
+
+struct Sides {
+  bool front = true, back = true;
+};
+
+// Is each of s and -s at no more than a right angle from all edges, with slack?
+Sides supported_sides(const Point& s, std::span<const Point> edges) {
+  Sides sides;
+  for (const Point& edge : edges) {
+    const double along = dot(s, edge);
+    sides.front = sides.front && along >= -kTouchSlack;
+    sides.back = sides.back && along <= kTouchSlack;
+    if (!sides.front && !sides.back) break;
+  }
+  return sides;
 }
 
 // The extreme rays of {s : s.e >= 0 for all edges e}, with slack; nothing if two edges are too close to a line.
@@ -69,12 +96,12 @@ std::optional<std::vector<Point>> supporting_rays(std::span<const Point> edges) 
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Point across = cross(edges[i], edges[j]);
-      if (length(across) < 1e-6) return std::nullopt;
-      for (const double sign : {1.0, -1.0}) {
-        const Point ray = sign * unit(across);
-        const auto supports = [&](const Point& edge) { return dot(ray, edge) >= -kTouchSlack; };
-        if (std::all_of(edges.begin(), edges.end(), supports)) rays.push_back(ray);
-      }
+      const double size = length(across);
+      if (size < 1e-6) return std::nullopt;
+      const Point ray = (1 / size) * across;
+      const Sides sides = supported_sides(ray, edges);
+      if (sides.front) rays.push_back(ray);
+      if (sides.back) rays.push_back(-1.0 * ray);
     }
   }
   return rays;
