@@ -70,7 +70,7 @@ Witness witness_of(vec3 centre, uint triangle) {
 void main() {
   uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint lane = gl_LocalInvocationID.x;
-  if (item >= 8u * counters[kParents]) return;
+  if (item >= 8u * counters[kParents] || counters[kOverflow] != 0u) return;
   uvec4 state = states[item];
   Cell parent = parents[item / 8];
   if (state.x == 0u || step.first_entry >= parent.list_count) return;

@@ -39,7 +39,7 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching
 
 void main() {
   uint item = invocation_index();
-  if (item >= 8u * counters[kParents]) return;
+  if (item >= 8u * counters[kParents] || counters[kOverflow] != 0u) return;
   uvec4 state = states[item];
   if (state.x == 0u) return;
   Cell parent = parents[item / 8];

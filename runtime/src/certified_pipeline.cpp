@@ -299,7 +299,6 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   d.least_items = gpu::kFewElements + 1;
   d.list_counter = gpu::kNoCounter;
   const VkDeviceSize groups = prepare(r, d);
-  arguments_.counters_change();
   if (arguments_.plans()) return;
   if (parameters_.kernel_times) r.begin_stage("scan");
   const auto push = bytes_of(constants);

@@ -152,6 +152,7 @@ class CertifiedPipeline {
                    std::uint32_t limit);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
+  // Counters change: who needs what is counted here, or may not go on where it does not fit, says so.
   void scan(Recorder& r, const gpu::ScanConstants& constants);
   // Where in arguments_ the group counts are.
   VkDeviceSize prepare(Recorder& r, const gpu::DispatchConstants& constants);

@@ -90,6 +90,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   decide_sides(r, step, gpu::kParents, cells_[0]);
   scan(r, {gpu::kParents, 1, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
+  arguments_.counters_change();
   run(r, gather, top_cells, step);
   arguments_.start(r, gpu::kStartChildren);
 }
@@ -238,6 +239,7 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
       seeds, step);
   scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
            0xffffffffu});
+  arguments_.counters_change();
   run(r,
       {"start_lines",
        {mesh_->storage_of(mesh_->triangles), counters_.range(), points_.range(), nearest_.range(), states_.range(),
@@ -311,6 +313,7 @@ void CertifiedPipeline::record_collection(Recorder& r) {
                         result_.range(), cells_[2].range(), reasons_.range(), undecided_.range()}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
+  arguments_.counters_change();
   step.second_task = 1;
   run(r, collect, {gpu::kVoxels}, step);
   for (uint first = 0; first < capacity_.cells; first += capacity_.flux_block) record_flux(r, first);
