@@ -5,7 +5,7 @@
 #include "step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
-layout(set = 0, binding = 1) readonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 1) readonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 2) buffer States { uvec4 states[]; };
 layout(set = 0, binding = 3) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 4) readonly buffer Points { FoundPoint points[]; };
@@ -13,6 +13,7 @@ layout(set = 0, binding = 5) writeonly buffer Result { FoundPoint result[]; };
 layout(set = 0, binding = 6) readonly buffer Voxels { Cell voxels[]; };
 layout(set = 0, binding = 7) readonly buffer Reasons { uvec2 reasons[]; };
 layout(set = 0, binding = 8) writeonly buffer UndecidedCells { UndecidedCell undecided[]; };
+layout(set = 0, binding = 9) readonly buffer GivenUp { uint given_up[]; };
 
 UndecidedCell describe(uint index) {
   Cell voxel = voxels[index];
@@ -29,6 +30,6 @@ void main() {
     if (states[index].x != 0u) result[offsets[index].x] = points[index];
     return;
   }
-  uint found = verdicts[index] & kVerdictFound;
-  states[index] = uvec4(found, found == 0u ? verdicts[index] / kVerdictUndecided : 0u, 0u, 0u);
+  bool found = winners[index] != kNoWinner;
+  states[index] = uvec4(found ? 1u : 0u, found ? 0u : given_up[index], 0u, 0u);
 }

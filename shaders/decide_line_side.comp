@@ -6,17 +6,19 @@
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
-#define TRIANGLE_TEXEL_BINDING 6
-#define TREE_TEXEL_BINDING 7
+#define TRIANGLE_TEXEL_BINDING 7
+#define TREE_TEXEL_BINDING 8
 #include "triangles.glsl"
 #include "tree.glsl"
 #include "winding.glsl"
 
 layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
-layout(set = 0, binding = 3) buffer Lines { Line lines[]; };
+layout(set = 0, binding = 3) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
-layout(set = 0, binding = 5) readonly buffer OpenEdges { OpenEdge open_edges[]; };
+layout(set = 0, binding = 5) buffer Winners { uint winners[]; };
+layout(set = 0, binding = 6) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "closure.glsl"
+#include "elect.glsl"
 
 bool is_inside_by_tree(vec3 point) {
   float tolerance = 0.3;  // most points are clear at once
@@ -39,5 +41,6 @@ void main() {
   if (invocation_index() >= counters[kAsked]) return;
   uint index = asked[invocation_index()];
   vec3 point = lines[index].accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
-  if (!is_inside(point)) lines[index].accepted = 0u;
+  float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
+  if (is_inside(point)) elect(index, lines[index].voxel, turn);
 }

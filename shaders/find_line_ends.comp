@@ -1,11 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // The nearest triangles, among the contacts of a cell, of the two ends of every proposed line, and a mask of the
-// contacts that may be the nearest of some point of it: all that narrowing and the growth test ask. Lists longer than
-// kEntriesPerRound take several rounds; each goes on from the result of the one before.
+// contacts that may be the nearest of some point of it: all that narrowing and the growth test ask. A line is worth
+// narrowing if the direction to the boundary turns by at least twice the object angle between its ends; points that need
+// no line have been asked for that already. Lists longer than kEntriesPerRound take several rounds; each goes on from the
+// result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 7
+#define TRIANGLE_TEXEL_BINDING 8
 #include "triangles.glsl"
 #include "segment_test.glsl"
 
@@ -15,6 +17,7 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };
 layout(set = 0, binding = 5) buffer Nearest { uvec2 nearest[]; };       // squared distance (bits), triangle
 layout(set = 0, binding = 6) writeonly buffer Masks { uint masks[]; };  // of every seed of the cell
+layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // x: worth narrowing
 
 float distance_to(vec3 p, uint triangle) { return length(vector_to_triangle(p, load_triangle(triangle))); }
 
@@ -24,15 +27,25 @@ Segment segment_of(Cell cell, vec3 p, vec3 q) {
                          vec2(distance_to(p, second), distance_to(q, second)));
 }
 
+bool is_worth_narrowing(vec3 p, vec3 q, uint triangle_p, uint triangle_q) {
+  vec3 a = vector_to_triangle(p, load_triangle(triangle_p)), b = vector_to_triangle(q, load_triangle(triangle_q));
+  float turn = dot(unit_or_zero(a), unit_or_zero(b));
+  bool deep = max(length(a), length(b)) + step.slack >= step.radius;
+  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
+  return turn <= threshold;
+}
+
 void main() {
   uint item = invocation_index();
   if (item >= step.lines_per_cell * counters[kCells]) return;
+  if (step.first_entry == 0u) states[item] = uvec4(0u);
   Cell cell = cells[item / step.lines_per_cell];
   uint list_count = line_list_count(cell), entry = step.first_entry;
   if (entry >= list_count || points[2 * item].w < 0.0) return;  // no line
 
   vec3 p = points[2 * item].xyz;
-  vec3 q = points[2 * item].w == float(kDirectSeed) ? p : points[2 * item + 1].xyz;
+  bool is_direct = points[2 * item].w == float(kDirectSeed);
+  vec3 q = is_direct ? p : points[2 * item + 1].xyz;
   Segment segment = segment_of(cell, p, q);
   uvec2 best_p = entry == 0u ? uvec2(kFarthestBits, 0u) : nearest[2 * item];
   uvec2 best_q = entry == 0u ? best_p : nearest[2 * item + 1];
@@ -56,4 +69,7 @@ void main() {
   }
   nearest[2 * item] = best_p;
   nearest[2 * item + 1] = best_q;
+  if (end < list_count) return;
+  bool is_worth = is_direct || is_worth_narrowing(p, q, best_p.y, best_q.y);
+  states[item].x = is_worth ? 1u : 0u;
 }

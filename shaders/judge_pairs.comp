@@ -28,7 +28,7 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 #define CORNER_TEXEL_BINDING 11
 #include "links.glsl"
 layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
-layout(set = 0, binding = 7) readonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 7) readonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 #include "pair_queue.glsl"
 #include "foot_sides.glsl"
@@ -149,7 +149,7 @@ void main() {
   Cell cell = cells[exists ? index : 0u];
   bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
   if (classifies) {
-    exists = exists && (cell.flags & kCellEmpty) == 0u && (verdicts[cell.voxel] & kVerdictFound) == 0u &&
+    exists = exists && (cell.flags & kCellEmpty) == 0u && winners[cell.voxel] == kNoWinner &&
              (gives_up || step.settles != 0u);
   }
   if (!exists) cell.touching = 0u;

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : enable
 // Does a narrowed line end at a salient medial point? The directions at its ends must differ by twice the object
 // angle (or the radius suffice), and the ball at the accepted end, grown by epsilon away from its contact, must meet
-// the boundary elsewhere (Lemma 2.3). Whether the end lies in the solid is asked afterwards.
+// the boundary elsewhere (Lemma 2.3). If it is not known that the end lies in the solid, that is asked before the voxel
+// elects its point.
 #include "step.glsl"
 #include "in_voxel.glsl"
 
@@ -11,6 +12,8 @@ layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // of the two grown ends
 layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 4) writeonly buffer Asked { uint asked[]; };  // accepted lines that do not know their side
+layout(set = 0, binding = 5) buffer Winners { uint winners[]; };
+#include "elect.glsl"
 
 // A hundredth of epsilon keeps most of float's rounding out; certify_spheres() makes the test in double and decides.
 const float kGrowthMargin = 0.01;
@@ -39,5 +42,9 @@ void main() {
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
   // Where open edges are not listed, sides of cells rest on an assumption: points are asked one by one.
   bool inside = step.open_edges <= kMostOpenEdges && (cell.flags & kCellInside) != 0u;
-  if ((p || q) && !inside) asked[atomicAdd(counters[kAsked], 1u)] = index;
+  if (!p && !q) return;
+  if (inside)
+    elect(index, lines[index].voxel, turn);
+  else
+    asked[atomicAdd(counters[kAsked], 1u)] = index;
 }

@@ -17,7 +17,7 @@ layout(set = 0, binding = 9) writeonly buffer Lists { uint lists[]; };
 // Before the first round: contacts, those that touch, and the partner. Between rounds: where the next of either kind goes.
 layout(set = 0, binding = 10) buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 11) writeonly buffer Winners { uint winners[]; };
-layout(set = 0, binding = 12) writeonly buffer Verdicts { uint verdicts[]; };
+layout(set = 0, binding = 12) writeonly buffer GivenUp { uint given_up[]; };
 layout(set = 0, binding = 13) writeonly buffer Reasons { uvec2 reasons[]; };
 
 void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching) {
@@ -28,8 +28,8 @@ void write_cell(Cell parent, uint item, uvec4 state, uvec4 offset, uint touching
       Cell(c.x, c.y, c.z, voxel, offset.y, state.y, offset.z, state.w, nearest[item].y, touching,
            counts[item].z, 0u);
   if (is_finest) {
-    winners[voxel] = 0xffffffffu;
-    verdicts[voxel] = 0u;
+    winners[voxel] = kNoWinner;
+    given_up[voxel] = 0u;
     reasons[voxel] = uvec2(0u);
   }
   atomicMax(counters[kLongestCellList], state.y);

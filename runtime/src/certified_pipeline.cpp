@@ -118,7 +118,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   const std::uint64_t entries =
       std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
   capacity_.cells = static_cast<uint>(cells);
-  capacity_.lines = std::min(2 * capacity_.cells, 1u << 22);
+  capacity_.lines = std::min(2 * capacity_.cells, 1u << gpu::kRankShift);
   capacity_.list_entries = static_cast<uint>(entries);
   capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u) / 64 * 64;  // whole workgroups
   const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;
@@ -151,7 +151,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&points_, 16 * c * 16, "line ends"},
       {&lines_, lines * sizeof(gpu::Line), "lines"},
       {&winners_, c * 4, "winners"},
-      {&verdicts_, c * 4, "verdicts"},
+      {&given_up_, c * 4, "voxels given up"},
       {&reasons_, c * 8, "reasons of undecided voxels"},
       {&undecided_, c * sizeof(gpu::UndecidedCell), "undecided voxels"},
       {&voxel_points_, c * sizeof(gpu::FoundPoint), "points of voxels"},
@@ -326,7 +326,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const 
       {"judge_pairs",
        {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
         mesh_->storage_of(mesh_->triangle_links), mesh_->storage_of(mesh_->corner_cones), aims_.range(),
-        verdicts_.range(), reasons_.range()},
+        winners_.range(), reasons_.range()},
        Reads::kLinks,
        {mesh_->has_untrusted ? 1u : 0u},
        kEightLanes,

@@ -175,7 +175,7 @@ class CertifiedPipeline {
   Buffer counters_, counters_readback_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
-  Buffer aims_, points_, lines_, winners_, verdicts_, reasons_, voxel_points_, result_, undecided_;
+  Buffer aims_, points_, lines_, winners_, given_up_, reasons_, voxel_points_, result_, undecided_;
   Buffer opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
 };
 

@@ -155,7 +155,7 @@ void CertifiedPipeline::write_children(Recorder& r, gpu::StepConstants step, con
              {"write_children",
               {level.parents->range(), level.parent_lists->range(), counters_.range(), masks_.range(),
                first_masks.range(), states_.range(), offsets_.range(), nearest_.range(), level.cells->range(),
-               level.lists->range(), counts_.range(), winners_.range(), verdicts_.range(), reasons_.range()}},
+               level.lists->range(), counts_.range(), winners_.range(), given_up_.range(), reasons_.range()}},
              {gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList}, step);
   arguments_.counters_change();  // the longest list
 }
@@ -229,14 +229,9 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
   run_rounds(r,
              {"find_line_ends",
               {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
-               points_.range(), nearest_.range(), masks_.range()},
+               points_.range(), nearest_.range(), masks_.range(), states_.range()},
               Reads::kTriangles},
              {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step);
-  run(r,
-      {"keep_turning",
-       {mesh_->storage_of(mesh_->triangles), counters_.range(), points_.range(), nearest_.range(), states_.range()},
-       Reads::kTriangles},
-      seeds, step);
   scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
            0xffffffffu});
   arguments_.counters_change();
@@ -247,13 +242,6 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
        Reads::kTriangles},
       seeds, step);
   record_narrowing(r, step, level);
-  const Extent lines{gpu::kLines};
-  run(r, {"elect_points", {counters_.range(), lines_.range(), winners_.range()}}, lines, step);
-  run(r,
-      {"store_points",
-       {counters_.range(), lines_.range(), winners_.range(), cells_[2].range(), verdicts_.range(),
-        voxel_points_.range()}},
-      lines, step);
 }
 
 void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
@@ -271,9 +259,11 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
   clear_counters(r, {gpu::kAsked});
   run(r,
       {"verify_lines",
-       {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range(), asked_.range()}},
+       {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range(), asked_.range(),
+        winners_.range()}},
       {gpu::kLines}, step);
-  run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range()}), {gpu::kAsked}, step);
+  run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range(), winners_.range()}),
+      {gpu::kAsked}, step);
 }
 
 // Cells give up at the last level, some before it, from kBoundaryDepth on where the mesh cannot be trusted.
@@ -298,7 +288,11 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
   const Extent cells{gpu::kCells};
   gpu::StepConstants drop = step;
   drop.second_task = searched_once ? 1 : 0;
-  run(r, {"drop_found", {counters_.range(), level.cells->range(), verdicts_.range(), states_.range()}}, cells, drop);
+  run(r,
+      {"drop_found",
+       {counters_.range(), level.cells->range(), winners_.range(), lines_.range(), cells_[2].range(), given_up_.range(),
+        voxel_points_.range(), states_.range()}},
+      cells, drop);
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
@@ -309,8 +303,8 @@ void CertifiedPipeline::record_collection(Recorder& r) {
   begin_stage(r, "flux");
   gpu::StepConstants step = level_constants(coarse_levels_);
   const Kernel collect{"collect_points",
-                       {counters_.range(), verdicts_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
-                        result_.range(), cells_[2].range(), reasons_.range(), undecided_.range()}};
+                       {counters_.range(), winners_.range(), states_.range(), offsets_.range(), voxel_points_.range(),
+                        result_.range(), cells_[2].range(), reasons_.range(), undecided_.range(), given_up_.range()}};
   run(r, collect, {gpu::kVoxels}, step);
   scan(r, {gpu::kVoxels, 1, gpu::kFound, gpu::kUndecided, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   arguments_.counters_change();

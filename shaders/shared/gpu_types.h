@@ -162,9 +162,9 @@ MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // never of top cells
 MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and so do those of the children
 MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children will hold triangles
 
-// What became of a finest voxel (bits).
-MEDIAL_VK_GPU_CONSTANT kVerdictFound = 1u;
-MEDIAL_VK_GPU_CONSTANT kVerdictUndecided = 2u;
+// Which line gave a finest voxel its point: a rank above this many bits, the line's number below; or none.
+MEDIAL_VK_GPU_CONSTANT kRankShift = 22u;
+MEDIAL_VK_GPU_CONSTANT kNoWinner = 0xffffffffu;
 
 // Arguments of the prefix sums: `items` elements, totals to counters, limits of what may be used.
 struct ScanConstants {
