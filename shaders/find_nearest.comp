@@ -5,12 +5,12 @@
 // An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
 // of a line, or a group of flux samples or of their opposites.
 // Points of a line ask only the contacts that find_line_ends.comp has left of it, and samples those that mark_samples.comp
-// has left of their group. Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one
+// has left of their group. The grown ends of a line decide whether it has found a point. Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one
 // before.
 #include "step.glsl"
 #include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 10
+#define TRIANGLE_TEXEL_BINDING 11
 #include "triangles.glsl"
 
 layout(constant_id = 1) const uint kSource = 0;
@@ -21,11 +21,13 @@ layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // opposites of flux samples
-layout(set = 0, binding = 5) readonly buffer Lines { Line lines[]; };
+layout(set = 0, binding = 5) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
-layout(set = 0, binding = 8) readonly buffer Asked { uint asked[]; };  // groups of opposites
+layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines that do not know their side
 layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
+layout(set = 0, binding = 10) buffer Winners { uint winners[]; };
+#include "verify_line.glsl"
 
 const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
 
@@ -118,4 +120,5 @@ void main() {
   }
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k)
     nearest[result_of(item, k)] = uvec2(floatBitsToUint(best[k]), triangle[k]);
+  if (kSource == kGrownEnds && end >= list_count) verify_line(item, cell, sqrt(vec2(best[0], best[1])));
 }

@@ -35,7 +35,7 @@ End end_at(Line line, uint index, uint k) {
 
 float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
 
-// By as much as verify_lines.comp asks: less where one of the ends is deep.
+// By as much as verify_line.glsl asks: less where one of the ends is deep.
 bool turns_enough(End a, End b) {
   bool deep = max(a.point.w, b.point.w) + step.slack >= step.radius;
   float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
@@ -53,7 +53,7 @@ float rank(End a, End b) {
   return !turns_enough(a, b) ? turn + 4.0 : may_cross_boundary(a, b) ? turn + 2.0 : turn;
 }
 
-// So near to each other that the growth test should hold at both (verify_lines.comp asks): docs/theory.md, "How far to
+// So near to each other that the growth test should hold at both (verify_line.glsl asks): docs/theory.md, "How far to
 // narrow", with the angle that there is.
 bool is_narrow(End a, End b) {
   float d = min(a.point.w, b.point.w);

@@ -347,7 +347,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   run_rounds(r,
              {"find_nearest",
               {mesh_->storage_of(mesh_->triangles), cells.range(), lists.range(), counters_.range(), points.range(),
-               lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range()},
+               lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range(), winners_.range()},
               Reads::kTriangles,
               {static_cast<uint>(source), points_per_lane}},
              lanes, s);

@@ -255,13 +255,8 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
          Reads::kTriangles},
         {gpu::kLines}, step);
   }
-  find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
   clear_counters(r, {gpu::kAsked});
-  run(r,
-      {"verify_lines",
-       {counters_.range(), lines_.range(), grown_nearest_.range(), level.cells->range(), asked_.range(),
-        winners_.range()}},
-      {gpu::kLines}, step);
+  find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
   run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range(), winners_.range()}),
       {gpu::kAsked}, step);
 }

@@ -1,18 +1,10 @@
-#version 450
-#extension GL_GOOGLE_include_directive : enable
 // Does a narrowed line end at a salient medial point? The directions at its ends must differ by twice the object
 // angle (or the radius suffice), and the ball at the accepted end, grown by epsilon away from its contact, must meet
 // the boundary elsewhere (Lemma 2.3). If it is not known that the end lies in the solid, that is asked before the voxel
-// elects its point.
-#include "step.glsl"
+// elects its point. Include after declaring `counters`, `lines`, `asked` and `winners`.
+#ifndef MEDIAL_VK_VERIFY_LINE_GLSL
+#define MEDIAL_VK_VERIFY_LINE_GLSL
 #include "in_voxel.glsl"
-
-layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 1) buffer Lines { Line lines[]; };
-layout(set = 0, binding = 2) readonly buffer Nearest { uvec2 nearest[]; };  // of the two grown ends
-layout(set = 0, binding = 3) readonly buffer Cells { Cell cells[]; };
-layout(set = 0, binding = 4) writeonly buffer Asked { uint asked[]; };  // accepted lines that do not know their side
-layout(set = 0, binding = 5) buffer Winners { uint winners[]; };
 #include "elect.glsl"
 
 // A hundredth of epsilon keeps most of float's rounding out; certify_spheres() makes the test in double and decides.
@@ -20,31 +12,30 @@ const float kGrowthMargin = 0.01;
 // Closer to the boundary than this many rounding errors, directions are noise.
 const float kLeastRadius = 8.0;
 
-bool is_medial(float distance_before, uint grown, float turn) {
+bool is_medial(float distance_before, float distance_after, float turn) {
   bool deep = distance_before >= step.radius;
   float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
-  float distance_after = sqrt(uintBitsToFloat(nearest[grown].x));
   return distance_before >= kLeastRadius * step.slack && turn <= threshold &&
          distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
 }
 
-void main() {
-  uint index = invocation_index();
-  if (index >= counters[kLines]) return;
+// `grown`: distances from the boundary of its two ends, each pushed away from its contact.
+void verify_line(uint index, Cell cell, vec2 grown) {
   float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
   float gap = distance(lines[index].p.xyz, lines[index].q.xyz);
   // If the distances at the ends add up to more than the gap, the boundary does not pass between them. Else the
   // directions may differ only because one end lies outside, next to a crease of any angle.
   bool narrow = gap <= step.epsilon && lines[index].p.w + lines[index].q.w > 1.01 * gap;
-  Cell cell = cells[lines[index].cell];
-  bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, 2 * index, turn);
-  bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, 2 * index + 1, turn);
+  bool p = narrow && is_in_voxel(lines[index].p.xyz, cell) && is_medial(lines[index].p.w, grown.x, turn);
+  bool q = narrow && is_in_voxel(lines[index].q.xyz, cell) && is_medial(lines[index].q.w, grown.y, turn);
   lines[index].accepted = p ? 1u : q ? 2u : 0u;
+  if (!p && !q) return;
   // Where open edges are not listed, sides of cells rest on an assumption: points are asked one by one.
   bool inside = step.open_edges <= kMostOpenEdges && (cell.flags & kCellInside) != 0u;
-  if (!p && !q) return;
   if (inside)
     elect(index, lines[index].voxel, turn);
   else
     asked[atomicAdd(counters[kAsked], 1u)] = index;
 }
+
+#endif
