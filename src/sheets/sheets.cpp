@@ -49,12 +49,16 @@ double area_in_voxel(const MedialSphere& sphere, const VoxelGrid& grid, double e
   return 0.5 * (section_area(place + aside, normal) + section_area(place - aside, normal));
 }
 
-std::vector<double> areas_in_voxels(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon) {
+/// Sums in voxel order, so that they come out the same whatever the order of the points.
+void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon,
+                   const std::vector<std::int32_t>& sheet_of, Sheets& out) {
   std::vector<double> areas(graph.size());
   parallel_for(graph.size(), 1024, [&](std::size_t i) {
     areas[i] = area_in_voxel(graph.sphere(static_cast<std::uint32_t>(i)), grid, epsilon);
   });
-  return areas;
+  for (std::size_t place = 0; place < graph.size(); ++place)
+    out.sheets[static_cast<std::size_t>(sheet_of[place])].area += areas[place];
+  for (Sheet& sheet : out.sheets) sheet.area *= grid.voxel_size * grid.voxel_size;
 }
 
 /// Is there a gap of a third of a turn or more between the directions to its neighbours, seen along the normal? Within
@@ -82,9 +86,8 @@ std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& 
   return static_cast<std::uint8_t>((seam ? kSeam : 0) | (is_rim(graph, place) ? kRim : 0));
 }
 
-/// Sums in voxel order, so that they come out the same whatever the order of the points.
-void describe(const VoxelGraph& graph, std::span<const double> areas, const std::vector<std::int32_t>& sheet_of,
-              std::size_t count, Sheets& out) {
+/// Sums in voxel order, too.
+void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::size_t count, Sheets& out) {
   std::vector<std::uint8_t> marks(graph.size());
   parallel_for(graph.size(), 1024, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
@@ -96,7 +99,6 @@ void describe(const VoxelGraph& graph, std::span<const double> areas, const std:
   for (std::uint32_t place = 0; place < graph.size(); ++place) {
     Sheet& sheet = out.sheets[static_cast<std::size_t>(sheet_of[place])];
     ++sheet.points;
-    sheet.area += areas[place];
     sheet.mean_radius += graph.sphere(place).radius;
     sheet.mean_object_angle += double{graph.sphere(place).object_angle};
     out.of_point[graph.index(place)] = sheet_of[place];
@@ -116,11 +118,10 @@ void describe(const VoxelGraph& graph, std::span<const double> areas, const std:
 }  // namespace
 
 Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
-                   const SheetParameters& parameters) {
+                   const SheetParameters& parameters, SheetAreas areas) {
   const VoxelGraph graph(spheres);
   std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
   join_pieces(graph, extraction.object_angle, parameters, piece_of);
-  const std::vector<double> areas = areas_in_voxels(graph, grid, extraction.epsilon);
   Sheets out;
   for (const std::uint32_t piece : piece_of) out.pieces = std::max(out.pieces, std::uint64_t{piece} + 1);
   const Absorbed absorbed = absorb_pieces(graph, grid.voxel_size, parameters, piece_of);
@@ -128,8 +129,8 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   out.absorbed_points = absorbed.points;
   std::size_t count = 0;
   const std::vector<std::int32_t> sheet_of = number_sheets(piece_of, count);
-  describe(graph, areas, sheet_of, count, out);
-  for (Sheet& sheet : out.sheets) sheet.area *= grid.voxel_size * grid.voxel_size;
+  describe(graph, sheet_of, count, out);
+  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, out);
   return out;
 }
 

@@ -59,10 +59,13 @@ struct Sheets {
   std::uint64_t rim_points = 0;
 };
 
+/// Groups do not need them; kLeftOut: they stay 0.
+enum class SheetAreas { kMeasured, kLeftOut };
+
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` is what the points were found with: its object angle and epsilon. Precondition: at most one point per
 /// voxel of `grid`.
 Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
-                   const SheetParameters& parameters);
+                   const SheetParameters& parameters, SheetAreas areas = SheetAreas::kMeasured);
 
 }  // namespace medial_vk
