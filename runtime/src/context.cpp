@@ -133,6 +133,14 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
+void Context::leave(Context context) noexcept {
+  if (!context.impl_->owns_device_) return;
+  context.impl_->close_pipeline_cache();
+  // Somebody points to it: it has not been lost.
+  [[maybe_unused]] static Impl* volatile left = nullptr;
+  left = context.impl_.release();
+}
+
 Result<Context> Context::create(const ContextOptions& options) try {
   auto impl = std::make_unique<Impl>();
   if (Status status = impl->initialize(options); !status.ok()) return status.error();

@@ -61,6 +61,8 @@ class ExtractionRun {
     progress_.clear();
     if (interrupted()) return stopped();
     if (Status status = write_files(files_); !status) return status;
+    if (context_) Context::leave(std::move(*context_));  // all is done: the process ends
+    context_.reset();
     return conclude();
   }
 

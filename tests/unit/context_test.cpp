@@ -187,6 +187,18 @@ TEST_F(ContextTest, PipelineCacheIsWrittenAndStaysTheSame) {
   EXPECT_EQ(contents(file).size(), written.size());
 }
 
+TEST_F(ContextTest, PipelineCacheIsWrittenWhenTheDeviceIsLeft) {
+  const fs::path file = use_cache(options());
+  const std::string written = contents(file);
+  fs::remove(file);
+  Context context = Context::create(options()).value();
+  context.impl().extra_shaders = kTestShaders;
+  ASSERT_TRUE(context.impl().program(test_program()).ok());
+  Context::leave(std::move(context));
+  EXPECT_EQ(find_cache_file(), file);
+  EXPECT_EQ(contents(file).size(), written.size());
+}
+
 TEST_F(ContextTest, DamagedPipelineCacheIsReplaced) {
   const fs::path file = use_cache(options());
   ASSERT_FALSE(file.empty());

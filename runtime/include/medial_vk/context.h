@@ -50,6 +50,10 @@ class Context {
   static Result<Context> adopt(const HostDevice& host);
   static Result<std::vector<DeviceDescription>> list_devices();
 
+  /// In place of the destructor, where the process is about to end: keeps new programs for the next one, as that does,
+  /// and leaves the device to the operating system, which takes it back in a moment. (A host's device is not touched.)
+  static void leave(Context context) noexcept;
+
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
   ~Context();
