@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : enable
 // After the search of a level: voxels that have elected a line get their point, from the cell whose line it is, and all
 // their cells are done. What is left is subdivided, or stays undecided: at the last level, or where subdividing is
-// hopeless or settles nothing. Where another search of the level follows (step.second_task), all that is left goes there.
+// hopeless or settles nothing. Where another search of the level follows (step.second_task), all that is left goes
+// there.
 #include "step.glsl"
 
 layout(set = 0, binding = 0) buffer Counters { uint counters[]; };

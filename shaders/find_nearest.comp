@@ -4,9 +4,9 @@
 // The nearest triangle, among the contacts of a cell, of points in that cell.
 // An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
 // of a line, or a group of flux samples or of their opposites.
-// Points of a line ask only the contacts that find_line_ends.comp has left of it, and samples those that mark_samples.comp
-// has left of their group. The grown ends of a line decide whether it has found a point. Lists longer than kEntriesPerRound take several rounds; each goes on from the result of the one
-// before.
+// Points of a line ask only the contacts that find_line_ends.comp has left of it, and samples those that
+// mark_samples.comp has left of their group. The grown ends of a line decide whether it has found a point. Lists longer
+// than kEntriesPerRound take several rounds; each goes on from the result of the one before.
 #include "step.glsl"
 #include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

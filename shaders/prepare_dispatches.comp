@@ -1,15 +1,17 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The group counts of all indirect dispatches up to the next that changes a counter. On a CPU one more dispatch costs as
-// much as the work of a small one. Before that, counters move on to another level, if they do.
+// The group counts of all indirect dispatches up to the next that needs a counter which has changed. On a CPU one more
+// dispatch costs as much as the work of a small one. Before that, counters move on to another level, if they do.
 #include "gpu_types.h"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { PrepareConstants prepare; };
 layout(set = 0, binding = 0) coherent buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
-layout(set = 0, binding = 2) readonly coherent buffer Stop { uint stop; };
+layout(set = 0, binding = 2) readonly coherent buffer Stop { uint stop_word; };
 layout(set = 0, binding = 3) readonly buffer Table { DispatchConstants table[]; };
+// The host may stop at any moment: all rows see the same. What is written without its prefix sums would go anywhere.
+shared uint stop;
 #include "prepare.glsl"
 
 void move_on() {
@@ -32,7 +34,10 @@ void wait_for_counters() {
 
 void main() {
   uint lane = gl_LocalInvocationID.x, end = prepare.first + prepare.count;
-  if (lane == 0u && prepare.start != kStartNothing) move_on();
+  if (lane == 0u) {
+    stop = stop_word;
+    if (prepare.start != kStartNothing) move_on();
+  }
   wait_for_counters();
   for (uint i = prepare.first + lane; i < end; i += gl_WorkGroupSize.x) check_rounds(table[i]);
   wait_for_counters();

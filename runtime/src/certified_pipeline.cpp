@@ -118,7 +118,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   const std::uint64_t entries =
       std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
   capacity_.cells = static_cast<uint>(cells);
-  capacity_.lines = std::min(2 * capacity_.cells, 1u << gpu::kRankShift);
+  capacity_.lines = std::min(2 * capacity_.cells, (1u << gpu::kRankShift) - 1);
   capacity_.list_entries = static_cast<uint>(entries);
   capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u) / 64 * 64;  // whole workgroups
   const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;

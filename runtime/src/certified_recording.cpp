@@ -144,6 +144,7 @@ void CertifiedPipeline::decide_sides(Recorder& r, const gpu::StepConstants& step
 void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
                                                    const LevelBuffers& level) {
   decide_sides(r, step, gpu::kAsked, *level.parents);
+  // Those that write children are sized before they know whether there is room: they look at the overflow themselves.
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
 }
@@ -225,7 +226,8 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
 
 void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent seeds{gpu::kCells, step.lines_per_cell};
-  // Their queries are counted where they are proposed: most seeds have none.
+  // Their queries are counted where they are proposed: most seeds have none. The first round is for all: a cell's list
+  // has its nearest triangle at least (Lemma A), so no level that has cells goes without.
   run_rounds(r,
              {"find_line_ends",
               {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
@@ -288,6 +290,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
        {counters_.range(), level.cells->range(), winners_.range(), lines_.range(), cells_[2].range(), given_up_.range(),
         voxel_points_.range(), states_.range()}},
       cells, drop);
+  // No more are kept than there are: this cannot overflow, and what gathers them is sized already.
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);

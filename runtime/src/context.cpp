@@ -120,7 +120,8 @@ Status Context::Impl::create_device(std::optional<std::uint32_t> copying_family)
 Context::Impl::~Impl() {
   if (device != VK_NULL_HANDLE) {
     if (owns_device_) vk.vkDeviceWaitIdle(device);
-    close_pipeline_cache();
+    save_pipeline_cache();
+    vk.vkDestroyPipelineCache(device, pipeline_cache_, allocation_callbacks);
     programs_.clear();
     if (owns_device_) vk.vkDestroyDevice(device, allocation_callbacks);
   }
@@ -133,13 +134,7 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
-void Context::leave(Context context) noexcept {
-  if (!context.impl_->owns_device_) return;
-  context.impl_->close_pipeline_cache();
-  // Somebody points to it: it has not been lost.
-  [[maybe_unused]] static Impl* volatile left = nullptr;
-  left = context.impl_.release();
-}
+void Context::save_programs() noexcept { impl_->save_pipeline_cache(); }
 
 Result<Context> Context::create(const ContextOptions& options) try {
   auto impl = std::make_unique<Impl>();

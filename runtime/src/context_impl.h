@@ -66,7 +66,7 @@ class Context::Impl {
   Status create_device(std::optional<std::uint32_t> copying_family);
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
-  void close_pipeline_cache() noexcept;  // writes the file, if there is anything new
+  void save_pipeline_cache() noexcept;  // writes the file, if there is anything new
   const EmbeddedShader* shader(const ProgramKey& key) const;
   Result<OwnedProgram> build_program(const ProgramKey& key) const;
 

@@ -138,7 +138,7 @@ Status Context::Impl::open_pipeline_cache(const std::string& folder_option) {
   return {};
 }
 
-void Context::Impl::close_pipeline_cache() noexcept try {
+void Context::Impl::save_pipeline_cache() noexcept try {
   if (pipeline_cache_ == VK_NULL_HANDLE) return;
   std::size_t bytes = 0;
   std::vector<std::byte> data;
@@ -148,15 +148,10 @@ void Context::Impl::close_pipeline_cache() noexcept try {
     data.resize(bytes);
     const VkResult result = vk.vkGetPipelineCacheData(device, pipeline_cache_, &bytes, data.data());
     data.resize(bytes);
-    if (result == VK_SUCCESS && !data.empty() && fnv1a(data) != pipeline_cache_checksum_) {
-      write_pipeline_cache(pipeline_cache_file_, data);
-    }
+    const bool is_new = result == VK_SUCCESS && !data.empty() && fnv1a(data) != pipeline_cache_checksum_;
+    if (is_new && write_pipeline_cache(pipeline_cache_file_, data)) pipeline_cache_checksum_ = fnv1a(data);
   }
-  vk.vkDestroyPipelineCache(device, pipeline_cache_, allocation_callbacks);
-  pipeline_cache_ = VK_NULL_HANDLE;
 } catch (...) {  // out of memory, or a path that cannot be: the file is only there to save time
-  vk.vkDestroyPipelineCache(device, pipeline_cache_, allocation_callbacks);
-  pipeline_cache_ = VK_NULL_HANDLE;
 }
 
 }  // namespace medial_vk

@@ -26,8 +26,10 @@ QueryBatches::Place::Place(Context::Impl& context)
       download_commands(context, Commands::queue_for_transfers(context)) {}
 
 Status QueryBatches::check(const QuerySet& queries) const {
-  const bool is_batch = queries.batch > 0 && queries.batch <= capacity_ && queries.batch % queries.group_size == 0;
-  if (is_batch && std::ranges::equal(queries.item_bytes, QuerySet::kMostItemBytes, std::less_equal<>())) return {};
+  if (!std::ranges::equal(queries.item_bytes, QuerySet::kMostItemBytes, std::less_equal<>()))
+    return Error{ErrorCode::kInternal, "answers of " + std::to_string(queries.item_bytes[0]) + " and " +
+                                           std::to_string(queries.item_bytes[1]) + " bytes"};
+  if (queries.batch > 0 && queries.batch <= capacity_ && queries.batch % queries.group_size == 0) return {};
   return Error{ErrorCode::kInternal, "batches of " + std::to_string(queries.batch) + " queries, in groups of " +
                                          std::to_string(queries.group_size) + ", where there is room for " +
                                          std::to_string(capacity_)};

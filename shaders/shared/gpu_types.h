@@ -53,7 +53,7 @@ struct Line {
   vec4 toward_q;
   uint cell;
   uint voxel;
-  uint accepted;  // 0 no, 1 by its end p, 2 by its end q
+  uint accepted;  // 0 no, 1 by its end p, 2 by its end q, if that is inside: winners tell
   uint seed;      // which of its cell's
 };
 
@@ -162,7 +162,8 @@ MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // never of top cells
 MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and so do those of the children
 MEDIAL_VK_GPU_CONSTANT kListsExpanded = 2u;  // clusters; those of the children will hold triangles
 
-// Which line gave a finest voxel its point: a rank above this many bits, the line's number below; or none.
+// Which line gave a finest voxel its point: a rank above this many bits, the line's number below, never all of them; or
+// none.
 MEDIAL_VK_GPU_CONSTANT kRankShift = 22u;
 MEDIAL_VK_GPU_CONSTANT kNoWinner = 0xffffffffu;
 
@@ -206,7 +207,7 @@ MEDIAL_VK_GPU_CONSTANT kFewElements = 2048u;
 
 // Counters on the device.
 MEDIAL_VK_GPU_CONSTANT kNoCounter = 0xffffffffu;
-MEDIAL_VK_GPU_CONSTANT kOverflow = 0u;          // bit per limit exceeded; all later dispatches are empty
+MEDIAL_VK_GPU_CONSTANT kOverflow = 0u;          // bit per limit exceeded; what is sized after that is empty
 MEDIAL_VK_GPU_CONSTANT kTooFewRounds = 8u;      // the bit of lists that are longer than the recorded rounds read
 MEDIAL_VK_GPU_CONSTANT kParents = 1u;           // cells whose children are examined
 MEDIAL_VK_GPU_CONSTANT kCells = 2u;             // cells kept at this level

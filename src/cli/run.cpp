@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <new>
 #include <optional>
 #include <utility>
@@ -61,8 +62,7 @@ class ExtractionRun {
     progress_.clear();
     if (interrupted()) return stopped();
     if (Status status = write_files(files_); !status) return status;
-    if (context_) Context::leave(std::move(*context_));  // all is done: the process ends
-    context_.reset();
+    leave_device();
     return conclude();
   }
 
@@ -271,6 +271,15 @@ class ExtractionRun {
 
   bool standard_output_taken() const {
     return std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
+  }
+
+  /// All is done, and the process ends: the operating system takes the device back sooner than its driver would.
+  void leave_device() {
+    if (!context_) return;
+    context_->save_programs();
+    alignas(Context) static std::byte left[sizeof(Context)];  // is never destroyed
+    new (left) Context(std::move(*context_));
+    context_.reset();
   }
 
   Status conclude() {

@@ -10,11 +10,12 @@
 namespace medial_vk {
 namespace {
 
-// How much nearer a triangle may be than lanes_near() says, and a box than boxes_near() does, which rounds less. The
+// How much nearer a triangle may be than lanes_near() and squared_bounds() say, and a box than boxes_near() does. The
 // unit is the longest side of the tree's box, whose middle is the origin; balls have their centres within 1 of it,
-// along each axis, and radii below 1. With u = 2^-24: rounding moves the centre by u and the corners by u / 2 a
-// coordinate, and their differences by 1.5 u: 5.2 u in all. A product s.a is off by 4 u |s| |a| with |a| < 2.6. That is
-// less than 16 u = 9.6e-7; the squares of limit, s and s.a, and their quotient, add less than 1e-6.
+// along each axis; |a| below is what is between a centre and a corner, whatever the radius. With u = 2^-24: rounding
+// moves the centre by u and the corners by u / 2 a coordinate, and their differences by 1.5 u: 5.2 u in all. A product
+// s.a is off by 4 u |s| |a| with |a| < 2.6. That is less than 16 u = 9.6e-7; the squares of limit, s and s.a, and their
+// quotient, add less than 1e-6.
 constexpr double kMargin = 4e-6;
 
 double square(double x) { return x * x; }

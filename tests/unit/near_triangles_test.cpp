@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <span>
 
@@ -88,6 +89,37 @@ TEST(NearTriangles, TheClosestIsThatOfAllInDouble) {
     triangles.surround(p, radius, region);
     const std::size_t inner = triangles.gather(region, p, radius, radius, found);
     expect_same(triangles.closest_of(p, std::span(found).first(inner), bounds), bvh.closest(p));
+  }
+}
+
+// Needles, points, duplicates, far from points and in reach or out of it.
+TEST(NearTriangles, TheClosestOfTrianglesOfAnyShape) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto anywhere = [&](double low, double high) {
+    return Point{low + (high - low) * share(random), low + (high - low) * share(random),
+                 low + (high - low) * share(random)};
+  };
+  for (int round = 0; round < 40; ++round) {
+    Mesh mesh;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      const Point a = anywhere(0, 1), b = anywhere(0, 1);
+      Point c = i % 4 == 0 ? a : anywhere(0, 1);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        c[axis] = i % 4 == 1 ? 0.5 * (a[axis] + b[axis]) + std::pow(10.0, -round) * share(random) : c[axis];
+      mesh.vertices.insert(mesh.vertices.end(), {a, i % 4 == 2 ? a : b, c});
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+      if (i % 5 == 0) mesh.triangles.push_back(mesh.triangles.back());
+    }
+    const Bvh bvh = tree_of(std::move(mesh), 1, {0, 0, 0});
+    const NearTriangles triangles(bvh);
+    std::vector<std::uint32_t> all(bvh.corners().size());
+    std::vector<float> bounds;
+    for (int i = 0; i < 100; ++i) {
+      const Point p = anywhere(-2, 3);
+      std::iota(all.begin(), all.end(), 0u);
+      expect_same(triangles.closest_of(p, all, bounds), bvh.closest_of(p, all));
+    }
   }
 }
 

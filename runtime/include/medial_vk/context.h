@@ -50,15 +50,13 @@ class Context {
   static Result<Context> adopt(const HostDevice& host);
   static Result<std::vector<DeviceDescription>> list_devices();
 
-  /// In place of the destructor, where the process is about to end: keeps new programs for the next one, as that does,
-  /// and leaves the device to the operating system, which takes it back in a moment. (A host's device is not touched.)
-  static void leave(Context context) noexcept;
-
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
   ~Context();
 
   const DeviceDescription& device() const;
+  /// Keeps new programs for the next process now, as the destructor does: for those that end without it.
+  void save_programs() noexcept;
   /// Messages of the validation layer (warnings and errors) since creation; 0 without validation.
   std::uint64_t validation_messages() const;
 
