@@ -120,9 +120,8 @@ Status Context::Impl::create_device(std::optional<std::uint32_t> copying_family)
 Context::Impl::~Impl() {
   if (device != VK_NULL_HANDLE) {
     if (owns_device_) vk.vkDeviceWaitIdle(device);
-    save_pipeline_cache();
+    close_programs();
     vk.vkDestroyPipelineCache(device, pipeline_cache_, allocation_callbacks);
-    programs_.clear();
     if (owns_device_) vk.vkDestroyDevice(device, allocation_callbacks);
   }
   const std::lock_guard lock(volk_mutex());
@@ -134,7 +133,7 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
-void Context::save_programs() noexcept { impl_->save_pipeline_cache(); }
+void Context::close_programs() noexcept { impl_->close_programs(); }
 
 Result<Context> Context::create(const ContextOptions& options) try {
   auto impl = std::make_unique<Impl>();

@@ -67,6 +67,7 @@ class Context::Impl {
   void query_properties();
   Status open_pipeline_cache(const std::string& folder_option);
   void save_pipeline_cache() noexcept;  // writes the file, if there is anything new
+  void close_programs() noexcept;
   const EmbeddedShader* shader(const ProgramKey& key) const;
   Result<OwnedProgram> build_program(const ProgramKey& key) const;
 

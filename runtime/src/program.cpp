@@ -170,6 +170,11 @@ Result<const Program*> Context::Impl::program(const ProgramKey& key) {
 }
 
 // Vulkan lets any thread create pipelines of one device and one cache.
+void Context::Impl::close_programs() noexcept {
+  save_pipeline_cache();
+  programs_.clear();
+}
+
 Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
   std::vector<const ProgramKey*> missing;
   for (const ProgramKey& key : keys)

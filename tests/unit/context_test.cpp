@@ -187,14 +187,14 @@ TEST_F(ContextTest, PipelineCacheIsWrittenAndStaysTheSame) {
   EXPECT_EQ(contents(file).size(), written.size());
 }
 
-TEST_F(ContextTest, PipelineCacheIsWrittenWhenAsked) {
+TEST_F(ContextTest, PipelineCacheIsWrittenWhenProgramsAreClosed) {
   const fs::path file = use_cache(options());
   const std::string written = contents(file);
   fs::remove(file);
   Context context = Context::create(options()).value();
   context.impl().extra_shaders = kTestShaders;
   ASSERT_TRUE(context.impl().program(test_program()).ok());
-  context.save_programs();
+  context.close_programs();
   EXPECT_EQ(find_cache_file(), file);
   EXPECT_EQ(contents(file).size(), written.size());
   EXPECT_TRUE(context.impl().program(test_program()).ok());

@@ -55,8 +55,9 @@ class Context {
   ~Context();
 
   const DeviceDescription& device() const;
-  /// Keeps new programs for the next process now, as the destructor does: for those that end without it.
-  void save_programs() noexcept;
+  /// What the destructor begins with: programs are kept for the next process, and destroyed. For a process that ends
+  /// without the destructor; made again if they are needed after all.
+  void close_programs() noexcept;
   /// Messages of the validation layer (warnings and errors) since creation; 0 without validation.
   std::uint64_t validation_messages() const;
 
