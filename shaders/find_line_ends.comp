@@ -31,8 +31,7 @@ bool is_worth_narrowing(vec3 p, vec3 q, uint triangle_p, uint triangle_q) {
   vec3 a = vector_to_triangle(p, load_triangle(triangle_p)), b = vector_to_triangle(q, load_triangle(triangle_q));
   float turn = dot(unit_or_zero(a), unit_or_zero(b));
   bool deep = max(length(a), length(b)) + step.slack >= step.radius;
-  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
-  return turn <= threshold;
+  return turn <= cosine_of_least_turn(deep);
 }
 
 void main() {

@@ -38,8 +38,7 @@ float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
 // By as much as verify_line.glsl asks: less where one of the ends is deep.
 bool turns_enough(End a, End b) {
   bool deep = max(a.point.w, b.point.w) + step.slack >= step.radius;
-  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
-  return turn_between(a, b) <= threshold;
+  return turn_between(a, b) <= cosine_of_least_turn(deep);
 }
 
 bool may_cross_boundary(End a, End b) {

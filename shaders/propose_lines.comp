@@ -184,7 +184,7 @@ void main() {
     d0 = length(to_nearest);
     g0 = unit_or_zero(to_nearest);
     bool deep = d0 + step.circumradius + step.slack >= step.radius;
-    cos_threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
+    cos_threshold = cosine_of_least_turn(deep);
     float least_turn = sin(deep ? min(step.deep_angle, step.angle) : step.angle);
     bool aimed = aims[kAimsPerCell * (index / kLinesPerCell)].direction.w > 0.0;
     if (aimed && lane < kAimsPerCell) {

@@ -19,6 +19,12 @@ uint invocation_index() {
     if (before + more < before) COUNT(kTestCount + 1u, 1u);                     \
   }
 
+// Between the directions at the ends of a line that is worth asking: twice the object angle, or,
+// where one of them is deep, what is asked there, if that is less.
+float cosine_of_least_turn(bool deep) {
+  return deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
+}
+
 // Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
 uint line_list_count(Cell cell) { return step.depth == 0u ? cell.touching : cell.list_count; }
 

@@ -14,8 +14,7 @@ const float kLeastRadius = 8.0;
 
 bool is_medial(float distance_before, float distance_after, float turn) {
   bool deep = distance_before >= step.radius;
-  float threshold = deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
-  return distance_before >= kLeastRadius * step.slack && turn <= threshold &&
+  return distance_before >= kLeastRadius * step.slack && turn <= cosine_of_least_turn(deep) &&
          distance_after < distance_before + (1.0 - kGrowthMargin) * step.epsilon;
 }
 

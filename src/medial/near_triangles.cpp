@@ -24,6 +24,11 @@ bool is_in_reach(const std::array<float, 3>& p) {
   return std::ranges::all_of(p, [](float x) { return std::fabs(x) < 1; });
 }
 
+/// How far along s triangles begin, times its length; 0 if that is behind the origin.
+Floats least_along(const Vectors& s, const std::array<Vectors, 3>& corners) {
+  return max(least(dot(s, corners[0]), dot(s, corners[1]), dot(s, corners[2])), kZero);
+}
+
 /// The points of segments from a to b that are nearest to the origin, or about that.
 Vectors toward_segments(const Vectors& a, const Vectors& b) {
   const Vectors edge = b - a;
@@ -98,8 +103,7 @@ NearTriangles::Lanes NearTriangles::lanes_near(const Query& query, std::size_t p
   std::array<Vectors, 3> v;
   for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3] = four(corners_[c], position) - query.centre[c % 3];
   const Vectors s = v[0] + v[1] + v[2];
-  const Floats along = max(least(dot(s, v[0]), dot(s, v[1]), dot(s, v[2])), kZero);
-  const Floats squared = dot(s, s);
+  const Floats along = least_along(s, v), squared = dot(s, s);
   return {bits(~(along * along > query.squared_limit * squared)),
           bits(~(along * along > query.inner_squared_limit * squared))};
 }
@@ -133,7 +137,7 @@ std::array<float, NearTriangles::kLanes> NearTriangles::squared_bounds(const std
   }
   for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3] = v[c / 3][c % 3] - p[c % 3];
   const Vectors s = toward_triangles(v[0], v[1], v[2]);
-  const Floats along = max(least(dot(s, v[0]), dot(s, v[1]), dot(s, v[2])), kZero);
+  const Floats along = least_along(s, v);
   const Floats bounds = along * along / max(dot(s, s), kTiny);
   return {bounds[0], bounds[1], bounds[2], bounds[3]};
 }
