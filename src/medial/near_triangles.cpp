@@ -149,12 +149,13 @@ BvhHit NearTriangles::closest_of(const Point& p, std::span<std::uint32_t> positi
   for (std::size_t first = 0; first < positions.size(); first += kLanes)
     std::ranges::copy(squared_bounds(centre, positions.subspan(first)),
                       bounds.begin() + static_cast<std::ptrdiff_t>(first));
-  const auto least = std::min_element(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(positions.size()));
-  const BvhHit hit = bvh_.closest_of(p, positions.subspan(static_cast<std::size_t>(least - bounds.begin()), 1));
+  const auto end = bounds.begin() + static_cast<std::ptrdiff_t>(positions.size());
+  const auto likely = static_cast<std::size_t>(std::min_element(bounds.begin(), end) - bounds.begin());
+  const BvhHit hit = bvh_.closest_of(p, positions.subspan(likely, 1));
   const float limit = squared_limit(std::sqrt(hit.squared_distance));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (!(bounds[i] > limit)) std::swap(positions[i], positions[kept++]);
+    if (i != likely && !(bounds[i] > limit)) std::swap(positions[i], positions[kept++]);
   return bvh_.closest_of(p, positions.first(kept), hit);
 }
 
