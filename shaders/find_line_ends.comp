@@ -7,7 +7,7 @@
 // from the result of the one before.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 8
+#define TRIANGLE_TEXEL_BINDING 9
 #include "triangles.glsl"
 #include "segment_test.glsl"
 
@@ -18,6 +18,7 @@ layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };
 layout(set = 0, binding = 5) buffer Nearest { uvec2 nearest[]; };       // squared distance (bits), triangle
 layout(set = 0, binding = 6) writeonly buffer Masks { uint masks[]; };  // of every seed of the cell
 layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // x: worth narrowing
+layout(set = 0, binding = 8) readonly buffer Order { uint order[]; };      // sort_lines.comp
 
 float distance_to(vec3 p, uint triangle) { return length(vector_to_triangle(p, load_triangle(triangle))); }
 
@@ -37,6 +38,7 @@ bool is_worth_narrowing(vec3 p, vec3 q, uint triangle_p, uint triangle_q) {
 void main() {
   uint item = invocation_index();
   if (item >= step.lines_per_cell * counters[kCells]) return;
+  if (step.depth <= kSortedDepth) item = order[item];
   if (step.first_entry == 0u) states[item] = uvec4(0u);
   Cell cell = cells[item / step.lines_per_cell];
   uint list_count = line_list_count(cell), entry = step.first_entry;

@@ -10,7 +10,7 @@
 #include "step.glsl"
 #include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 11
+#define TRIANGLE_TEXEL_BINDING 12
 #include "triangles.glsl"
 
 layout(constant_id = 1) const uint kSource = 0;
@@ -27,6 +27,7 @@ layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared di
 layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines that do not know their side
 layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
 layout(set = 0, binding = 10) buffer Winners { uint winners[]; };
+layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of lines: sort_lines.comp
 #include "verify_line.glsl"
 
 const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
@@ -98,6 +99,7 @@ void main() {
   const bool is_packed = kSource == kOpposites;
   if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
   if (is_packed) item = asked[item];
+  if (kIsLine && step.depth <= kSortedDepth) item = order[item];
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
   uint list_count = kIsLine ? line_list_count(cell) : cell.list_count;

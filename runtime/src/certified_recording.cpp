@@ -226,12 +226,13 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
 
 void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent seeds{gpu::kCells, step.lines_per_cell};
+  sort_lines(r, step, level, seeds);
   // Their queries are counted where they are proposed: most seeds have none. The first round is for all: a cell's list
   // has its nearest triangle at least (Lemma A), so no level that has cells goes without.
   run_rounds(r,
              {"find_line_ends",
               {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
-               points_.range(), nearest_.range(), masks_.range(), states_.range()},
+               points_.range(), nearest_.range(), masks_.range(), states_.range(), line_order_.range()},
               Reads::kTriangles},
              {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step);
   scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
@@ -246,8 +247,21 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
   record_narrowing(r, step, level);
 }
 
+// Of proposed lines, or, with second_task, of those that are narrowed.
+void CertifiedPipeline::sort_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, Extent lines) {
+  if (step.depth > gpu::kSortedDepth) return;
+  lines.divisor = gpu::kSortedPerLane;
+  run(r,
+      {"sort_lines",
+       {counters_.range(), level.cells->range(), points_.range(), lines_.range(), masks_.range(), line_order_.range()}},
+      lines, step);
+}
+
 void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent lines{gpu::kLines, 1, 1, 0, 0xffffffffu, gpu::kLongestCellList};
+  gpu::StepConstants sort = step;
+  sort.second_task = 1;
+  sort_lines(r, sort, level, {gpu::kLines});
   for (uint i = 0; i < narrowing_steps_; ++i) {
     find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
     run(r,
