@@ -17,8 +17,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };
 layout(set = 0, binding = 5) buffer Nearest { uvec2 nearest[]; };       // squared distance (bits), triangle
 layout(set = 0, binding = 6) writeonly buffer Masks { uint masks[]; };  // of every seed of the cell
-layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // x: worth narrowing
-layout(set = 0, binding = 8) readonly buffer Order { uint order[]; };      // sort_lines.comp
+layout(set = 0, binding = 7) buffer States { uvec4 states[]; };  // x: worth narrowing; w: contacts in its mask
+layout(set = 0, binding = 8) readonly buffer Order { uint order[]; };  // sort_by_work.comp
 
 float distance_to(vec3 p, uint triangle) { return length(vector_to_triangle(p, load_triangle(triangle))); }
 
@@ -51,7 +51,7 @@ void main() {
   uvec2 best_p = entry == 0u ? uvec2(kFarthestBits, 0u) : nearest[2 * item];
   uvec2 best_q = entry == 0u ? best_p : nearest[2 * item + 1];
   uint end = min(list_count, entry + kEntriesPerRound);
-  uint base = line_mask_begin(cell, item % step.lines_per_cell), word = 0u;
+  uint base = line_mask_begin(cell, item % step.lines_per_cell), word = 0u, listed_count = 0u;
   for (;;) {
     uint t = lists[cell.list_begin + entry];
     TriangleTexels texels = load_triangle(t);
@@ -64,12 +64,14 @@ void main() {
     ++entry;
     if ((entry & 31u) == 0u || entry >= end) {
       masks[base + (entry - 1u) / 32u] = word;
+      listed_count += bitCount(word);
       word = 0u;
     }
     if (entry >= end) break;
   }
   nearest[2 * item] = best_p;
   nearest[2 * item + 1] = best_q;
+  states[item].w += listed_count;
   if (end < list_count) return;
   bool is_worth = is_direct || is_worth_narrowing(p, q, best_p.y, best_q.y);
   states[item].x = is_worth ? 1u : 0u;

@@ -27,7 +27,7 @@ layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared di
 layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines that do not know their side
 layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
 layout(set = 0, binding = 10) buffer Winners { uint winners[]; };
-layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of lines: sort_lines.comp
+layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of lines and samples: sort_by_work.comp
 #include "verify_line.glsl"
 
 const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
@@ -99,7 +99,7 @@ void main() {
   const bool is_packed = kSource == kOpposites;
   if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
   if (is_packed) item = asked[item];
-  if (kIsLine && step.depth <= kSortedDepth) item = order[item];
+  if (kIsLine && step.depth <= kSortedDepth || kSource == kSamples) item = order[item];
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
   uint list_count = kIsLine ? line_list_count(cell) : cell.list_count;

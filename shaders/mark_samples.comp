@@ -8,7 +8,7 @@
 #include "step.glsl"
 #include "flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 6
+#define TRIANGLE_TEXEL_BINDING 7
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
@@ -16,6 +16,7 @@ layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 6) buffer Work { uint work[]; };  // contacts in the mask of a group
 
 // The distance to a triangle is convex, so nowhere below its tangent at the centre, w - xyz . x, here less what rounding
 // makes of that.
@@ -53,7 +54,7 @@ void main() {
     limit[i] = sqrt(min(squared_distance_to_triangle(p, first), squared_distance_to_triangle(p, second)));
   }
   uint end = min(cell.list_count, entry + kEntriesPerRound), last = cell.list_begin + end - 1u;
-  uint base = sample_mask_begin(cell, group), word = 0u;
+  uint base = sample_mask_begin(cell, group), word = 0u, count = entry == 0u ? 0u : work[index];
   for (;;) {
     uint next = cell.list_begin + entry;
     vec4 mine = tangent_of(centre, lists[min(next + group, last)]);
@@ -70,8 +71,10 @@ void main() {
     entry += kLanes;
     if ((entry & 31u) == 0u || entry >= end) {
       masks[base + (min(entry, end) - 1u) / 32u] = word;
+      count += bitCount(word);
       word = 0u;
     }
     if (entry >= end) break;
   }
+  work[index] = count;
 }

@@ -12,7 +12,7 @@
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 6
+#define TRIANGLE_TEXEL_BINDING 7
 #include "triangles.glsl"
 #include "clip_line.glsl"
 
@@ -21,6 +21,7 @@ layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
+layout(set = 0, binding = 6) writeonly buffer Work { uint work[]; };  // contacts that a line asks
 
 const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
 const uint kScoutLanes = 6, kSecondTieLane = 5, kTieLane = 6, kDeepLane = 7;
@@ -219,6 +220,7 @@ void main() {
     atomicAdd(counters[kQueries], 2u);
     points[2 * index] = vec4(direct.point, float(kDirectSeed));
     points[2 * index + 1] = vec4(direct.toward, 1.0);
+    work[index] = line_list_count(cell);
     return;
   }
   float from, to;
@@ -227,6 +229,7 @@ void main() {
     atomicAdd(counters[kQueries], 2u);
     COUNT_TESTS(2u * line_list_count(cell));
   }
+  work[index] = drop ? 0u : line_list_count(cell);
   points[2 * index] = vec4(centre + base + from * best.direction, drop ? -1.0 : 1.0);
   points[2 * index + 1] = vec4(centre + base + to * best.direction, 1.0);
 }

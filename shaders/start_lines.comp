@@ -4,7 +4,7 @@
 // in the last part, between the point and itself with the other direction.
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 8
+#define TRIANGLE_TEXEL_BINDING 9
 #include "triangles.glsl"
 
 layout(set = 0, binding = 1) buffer Counters { uint counters[]; };
@@ -14,6 +14,7 @@ layout(set = 0, binding = 4) readonly buffer States { uvec4 states[]; };
 layout(set = 0, binding = 5) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 6) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 7) writeonly buffer Lines { Line lines[]; };
+layout(set = 0, binding = 8) writeonly buffer Work { uint work[]; };  // contacts that a line asks
 
 void main() {
   uint index = invocation_index();
@@ -27,6 +28,7 @@ void main() {
   }
   uint cell = index / step.lines_per_cell;
   COUNT(kLineCount, 1u);
+  work[offsets[index].x] = states[index].w;
   lines[offsets[index].x] = Line(vec4(p, length(a)), vec4(q, length(b)), vec4(unit_or_zero(a), 0.0),
                                  vec4(unit_or_zero(b), 0.0), cell, cells[cell].voxel, 0u, index % step.lines_per_cell);
 }

@@ -110,7 +110,7 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   // Bytes per kept cell and per list entry, from the table below. A fifth of the budget is left for the mesh and the
   // flux samples.
-  constexpr std::uint64_t kBytesPerCell = 1640, kBytesPerEntry = 14;
+  constexpr std::uint64_t kBytesPerCell = 1672, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
   const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
@@ -120,7 +120,9 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, (1u << gpu::kRankShift) - 1);
   capacity_.list_entries = static_cast<uint>(entries);
-  capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u) / 64 * 64;  // whole workgroups
+  // No block that sort_by_work sorts has groups of two of these.
+  constexpr uint kSpheresPerSort = 64 * gpu::kSortedPerLane / (gpu::kFluxSamples / gpu::kFluxGroup);
+  capacity_.flux_block = std::clamp(capacity_.cells / 8, 1024u, 16384u) / kSpheresPerSort * kSpheresPerSort;
   const VkDeviceSize c = cells, lines = capacity_.lines, block = capacity_.flux_block;
   const VkDeviceSize words = entries / 32 + c;
   const VkDeviceSize scanned = 8 * c;
@@ -149,7 +151,8 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},
       {&aims_, gpu::kAimsPerCell * c * sizeof(gpu::Aim), "aims"},
       {&points_, 16 * c * 16, "line ends"},
-      {&line_order_, gpu::kLinesPerCell * c * 4, "order of lines"},
+      {&work_, gpu::kLinesPerCell * c * 4, "contacts that lines and samples ask"},
+      {&order_, gpu::kLinesPerCell * c * 4, "order of lines and samples"},
       {&lines_, lines * sizeof(gpu::Line), "lines"},
       {&winners_, c * 4, "winners"},
       {&given_up_, c * 4, "voxels given up"},
@@ -349,7 +352,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
              {"find_nearest",
               {mesh_->storage_of(mesh_->triangles), cells.range(), lists.range(), counters_.range(), points.range(),
                lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range(), winners_.range(),
-               line_order_.range()},
+               order_.range()},
               Reads::kTriangles,
               {static_cast<uint>(source), points_per_lane}},
              lanes, s);

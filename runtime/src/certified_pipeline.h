@@ -150,8 +150,8 @@ class CertifiedPipeline {
   // The pairs of carriers of cells from `first` on, before their search or after (step.second_task).
   void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,
                    std::uint32_t limit);
-  // Says in which order lines are asked, so that work is even.
-  void sort_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, Extent lines);
+  // What asks contacts, `asking`, and work_ says how many: invocations that walk together get about as many each.
+  void sort_by_work(Recorder& r, gpu::StepConstants step, Extent asking);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   // Counters change: who needs what is counted here, or may not go on where it does not fit, says so.
@@ -177,7 +177,7 @@ class CertifiedPipeline {
   Buffer counters_, counters_readback_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
   Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
-  Buffer aims_, points_, line_order_, lines_, winners_, given_up_, reasons_, voxel_points_, result_, undecided_;
+  Buffer aims_, points_, work_, order_, lines_, winners_, given_up_, reasons_, voxel_points_, result_, undecided_;
   Buffer opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
 };
 

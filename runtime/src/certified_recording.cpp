@@ -199,7 +199,7 @@ void CertifiedPipeline::record_first_search(Recorder& r, gpu::StepConstants step
   step.lines_per_cell = 1;
   run(r,
       {"propose_crossings",
-       {mesh_->storage_of(mesh_->triangles), level.cells->range(), counters_.range(), points_.range()},
+       {mesh_->storage_of(mesh_->triangles), level.cells->range(), counters_.range(), points_.range(), work_.range()},
        Reads::kTriangles},
       {gpu::kCells}, step);
   record_lines(r, step, level);
@@ -215,7 +215,7 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
   run(r,
       {"propose_lines",
        {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
-        aims_.range(), points_.range()},
+        aims_.range(), points_.range(), work_.range()},
        Reads::kTriangles,
        {},
        64,
@@ -226,13 +226,13 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
 
 void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent seeds{gpu::kCells, step.lines_per_cell};
-  sort_lines(r, step, level, seeds);
+  if (step.depth <= gpu::kSortedDepth) sort_by_work(r, step, seeds);
   // Their queries are counted where they are proposed: most seeds have none. The first round is for all: a cell's list
   // has its nearest triangle at least (Lemma A), so no level that has cells goes without.
   run_rounds(r,
              {"find_line_ends",
               {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
-               points_.range(), nearest_.range(), masks_.range(), states_.range(), line_order_.range()},
+               points_.range(), nearest_.range(), masks_.range(), states_.range(), order_.range()},
               Reads::kTriangles},
              {gpu::kCells, step.lines_per_cell, 1, 0, 0xffffffffu, gpu::kLongestCellList}, step);
   scan(r, {gpu::kCells, step.lines_per_cell, gpu::kLines, gpu::kIgnored, gpu::kIgnored, capacity_.lines, 0xffffffffu,
@@ -241,27 +241,22 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
   run(r,
       {"start_lines",
        {mesh_->storage_of(mesh_->triangles), counters_.range(), points_.range(), nearest_.range(), states_.range(),
-        offsets_.range(), level.cells->range(), lines_.range()},
+        offsets_.range(), level.cells->range(), lines_.range(), work_.range()},
        Reads::kTriangles},
       seeds, step);
   record_narrowing(r, step, level);
 }
 
-// Of proposed lines, or, with second_task, of those that are narrowed.
-void CertifiedPipeline::sort_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, Extent lines) {
-  if (step.depth > gpu::kSortedDepth) return;
-  lines.divisor = gpu::kSortedPerLane;
-  run(r,
-      {"sort_lines",
-       {counters_.range(), level.cells->range(), points_.range(), lines_.range(), masks_.range(), line_order_.range()}},
-      lines, step);
+void CertifiedPipeline::sort_by_work(Recorder& r, gpu::StepConstants step, Extent asking) {
+  step.items_counter = asking.counter;
+  step.items_multiplier = asking.multiplier;
+  asking.divisor = gpu::kSortedPerLane;
+  run(r, {"sort_by_work", {counters_.range(), work_.range(), order_.range()}}, asking, step);
 }
 
 void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent lines{gpu::kLines, 1, 1, 0, 0xffffffffu, gpu::kLongestCellList};
-  gpu::StepConstants sort = step;
-  sort.second_task = 1;
-  sort_lines(r, sort, level, {gpu::kLines});
+  if (step.depth <= gpu::kSortedDepth) sort_by_work(r, step, {gpu::kLines});
   for (uint i = 0; i < narrowing_steps_; ++i) {
     find_nearest(r, Source::kSections, lines, step, *level.cells, *level.lists, points_, nearest_);
     run(r,
@@ -334,7 +329,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   run_rounds(r,
              {"mark_samples",
               {mesh_->storage_of(mesh_->triangles), cells_[2].range(), lists_[2].range(), counters_.range(),
-               result_.range(), masks_.range()},
+               result_.range(), masks_.range(), work_.range()},
               Reads::kTriangles,
               {},
               64,
@@ -342,6 +337,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
              groups, step);
   gpu::StepConstants of_groups = step;
   of_groups.first_item = first * kGroups;
+  sort_by_work(r, of_groups, groups);
   // Samples are where they are: no buffer holds them.
   find_nearest(r, Source::kSamples, groups, of_groups, cells_[2], lists_[2], opposites_, sample_nearest_);
   clear_counters(r, {gpu::kAsked});

@@ -241,8 +241,8 @@ MEDIAL_VK_GPU_CONSTANT kFarthestBits = 0x7f7fffffu;
 // after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
 MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
 MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
-MEDIAL_VK_GPU_CONSTANT kSortedDepth = 1u;      // levels below the finest voxel whose lines are sorted; deeper they are few
-MEDIAL_VK_GPU_CONSTANT kSortedPerLane = 16u;   // lines that an invocation of sort_lines.comp sorts
+MEDIAL_VK_GPU_CONSTANT kSortedDepth = 1u;      // levels below the finest voxel whose lines are sorted
+MEDIAL_VK_GPU_CONSTANT kSortedPerLane = 16u;   // items of an invocation of sort_by_work.comp
 MEDIAL_VK_GPU_CONSTANT kDirectSeed = 2u;       // a seed that is no line: a point, and the direction to its second contact
 MEDIAL_VK_GPU_CONSTANT kSectionsPerLine = 8u;  // points inside a line per narrowing step
 MEDIAL_VK_GPU_CONSTANT kFluxSamples = 48u;     // spiral points of the flux that is stored with a point
