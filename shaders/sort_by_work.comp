@@ -27,8 +27,10 @@ void main() {
   uint items = min(left, kSortedPerLane * gl_WorkGroupSize.x);
   for (uint c = lane; c < kClasses; c += gl_WorkGroupSize.x) places[c] = 0u;
   barrier();
+  // Eight invocations go through a run of items: where they are one vector, those of a class stay in their order.
+  uint first = kSortedPerLane * (lane & ~7u) + (lane & 7u);
   uint place[kSortedPerLane];  // class and, above it, number in the class
-  for (uint k = 0u, i = lane; i < items; ++k, i += gl_WorkGroupSize.x) {
+  for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u) {
     uint c = class_of(work[block + i]);
     place[k] = c + kClasses * atomicAdd(places[c], 1u);
   }
@@ -42,6 +44,6 @@ void main() {
     }
   }
   barrier();
-  for (uint k = 0u, i = lane; i < items; ++k, i += gl_WorkGroupSize.x)
+  for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u)
     order[block + places[place[k] % kClasses] + place[k] / kClasses] = block + i;
 }
