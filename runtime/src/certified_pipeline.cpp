@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "context_impl.h"
 
@@ -77,7 +78,8 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
          kHalfDiagonal * p.cell_size(p.clustered_levels_) >= kCellPerCluster * mesh.cluster_radius) {
     ++p.clustered_levels_;
   }
-  if (Status s = p.allocate(parameters.memory_budget); !s.ok()) return s.error();
+  const std::uint64_t left = left_of(parameters.memory_budget, mesh.bytes() + bytes_on_the_way(context));
+  if (Status s = p.allocate(left); !s.ok()) return s.error();
   return p;
 }
 
@@ -108,15 +110,15 @@ double CertifiedPipeline::cell_size(std::uint32_t level) const {
 }
 
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
-  // Bytes per kept cell and per list entry, from the table below. A fifth of the budget is left for the mesh and the
-  // flux samples.
+  // Bytes per kept cell and per list entry, from the table below. A sixth of the budget is left for the flux samples,
+  // for points on their way to the host, and for blocks of memory that are not filled.
   constexpr std::uint64_t kBytesPerCell = 1672, kBytesPerEntry = 14;
   const std::uint64_t limit = context_->limits.maxStorageBufferRange;
   const std::uint64_t voxels = std::uint64_t{grid_[0]} * grid_[1] * grid_[2];
   const std::uint64_t cells = std::min({memory_budget * 45 / 100 / kBytesPerCell, limit / 256, std::uint64_t{1} << 19,
                                         std::max<std::uint64_t>(8 * voxels, 4096)});
   const std::uint64_t entries =
-      std::min({memory_budget * 35 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
+      std::min({memory_budget * 38 / 100 / kBytesPerEntry, limit / 4 - 64, std::uint64_t{1} << 27});
   capacity_.cells = static_cast<uint>(cells);
   capacity_.lines = std::min(2 * capacity_.cells, (1u << gpu::kRankShift) - 1);
   capacity_.list_entries = static_cast<uint>(entries);
@@ -131,7 +133,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
     VkDeviceSize bytes;
     const char* purpose;
   };
-  const Request requests[] = {
+  Request requests[] = {
       {&counters_, gpu::kCounterCount * 4, "counters"},
       {&cells_[0], c * sizeof(gpu::Cell), "cells"},
       {&cells_[1], c * sizeof(gpu::Cell), "cells"},
@@ -165,6 +167,11 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&flux_tallies_, block * 16, "sums of flux samples"},
       {&opposite_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of opposite flux samples"},
   };
+  // Small ones fill what large ones leave of a block.
+  std::ranges::stable_sort(requests, std::greater(), &Request::bytes);
+  VkDeviceSize all = 0;
+  for (const Request& request : requests) all += request.bytes;
+  arena_.expect(all);
   for (const Request& request : requests) {
     Result<Buffer> buffer = arena_.create_buffer(request.bytes, MemoryKind::kDevice, request.purpose);
     if (!buffer.ok()) return buffer.error();

@@ -25,6 +25,7 @@ Result<FluxSampler> FluxSampler::create(Context::Impl& context, const PacketQuer
     const char* purpose;
   };
   const VkDeviceSize count = capacity;
+  sampler.arena_.expect(count * kBytesPerSample);
   for (const Request& request : {Request{&sampler.samples_, 16, "flux samples"},
                                  Request{&sampler.nearest_, 16, "nearest points of flux samples"},
                                  Request{&sampler.hits_, 4, "triangles of flux samples"},

@@ -11,7 +11,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr VkDeviceSize kMinBlockBytes = 4ull << 20;
+constexpr VkDeviceSize kMinBlockBytes = 1ull << 20;
 constexpr VkDeviceSize kMaxBlockBytes = 64ull << 20;
 constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F, RGBA32UI
 
@@ -132,6 +132,12 @@ VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer
 
 }  // namespace
 
+VkDeviceSize bytes_on_the_way(const Context::Impl& context) {
+  const int type = find_memory_type(context, 0xffffffffu, MemoryKind::kDevice);
+  const VkMemoryPropertyFlags flags = type < 0 ? 0 : context.memory.memoryTypes[type].propertyFlags;
+  return (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0 ? 0 : 12ull << 20;
+}
+
 Arena::Arena(Arena&& other) noexcept
     : context_(other.context_),
       blocks_(std::move(other.blocks_)),
@@ -208,18 +214,20 @@ Result<void*> Arena::bind_memory(const Buffer& buffer, MemoryKind kind, const ch
   const int type = find_memory_type(*context_, needs.types, kind);
   if (type < 0) return memory_error(buffer.size, kind, purpose, "the device has no such memory");
 
+  const auto memory_type = static_cast<std::uint32_t>(type);
   const bool own_block = needs.dedicated || needs.size > kMaxBlockBytes / 4;
-  Block* block = own_block ? nullptr : find_room(static_cast<std::uint32_t>(type), needs.size, needs.alignment);
+  Block* block = own_block ? nullptr : find_room(memory_type, needs.size, needs.alignment);
   if (block == nullptr) {
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     if (!own_block) {
-      // Blocks grow with the arena, so that a small job does not take much. A full device may still have room for
-      // the buffer alone.
-      const VkDeviceSize grown = std::clamp(std::bit_ceil(bytes_), kMinBlockBytes, kMaxBlockBytes);
-      result = add_block(static_cast<std::uint32_t>(type), std::max(grown, needs.size), VK_NULL_HANDLE);
+      // Blocks grow with what the arena holds of a type, so that a small job does not take much, nor a large one of
+      // what it hardly needs. A full device may still have room for the buffer alone.
+      VkDeviceSize grown = std::clamp(std::bit_ceil(held(memory_type)), kMinBlockBytes, kMaxBlockBytes);
+      if (expected_ > 0) grown = std::min(grown, expected_);
+      result = add_block(memory_type, std::max(grown, needs.size), VK_NULL_HANDLE);
     }
     if (own_block || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
-      result = add_block(static_cast<std::uint32_t>(type), needs.size, own_block ? buffer.handle : VK_NULL_HANDLE);
+      result = add_block(memory_type, needs.size, own_block ? buffer.handle : VK_NULL_HANDLE);
     }
     if (result != VK_SUCCESS) {
       return memory_error(buffer.size, kind, purpose,
@@ -235,7 +243,14 @@ Result<void*> Arena::bind_memory(const Buffer& buffer, MemoryKind kind, const ch
     return memory_error(buffer.size, kind, purpose, vulkan_error("vkBindBufferMemory", result).message);
   }
   block->used = offset + needs.size;
+  expected_ -= std::min(expected_, needs.size);
   return block->mapped != nullptr ? static_cast<void*>(static_cast<std::byte*>(block->mapped) + offset) : nullptr;
+}
+
+VkDeviceSize Arena::held(std::uint32_t type) const {
+  VkDeviceSize bytes = 0;
+  for (const Block& block : blocks_) bytes += block.type == type ? block.size : 0;
+  return bytes;
 }
 
 Arena::Block* Arena::find_room(std::uint32_t type, VkDeviceSize size, VkDeviceSize alignment) {

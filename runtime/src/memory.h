@@ -3,6 +3,7 @@
 
 #include <volk.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -38,6 +39,13 @@ struct Buffer {
   BufferRange storage_range(bool read_as_texels) const { return {handle, 0, read_as_texels ? 16 : size}; }
 };
 
+/// Of memory through which a mesh goes to the device (uploads.h) and points come back: none where the host sees all.
+VkDeviceSize bytes_on_the_way(const Context::Impl& context);
+/// What is left of a budget of memory beside `held` bytes; a quarter of it at least, and then both are more than it.
+inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
+  return std::max(budget - std::min<std::uint64_t>(budget, held), budget / 4);
+}
+
 /// Owns buffers and their memory; all are freed together with the arena. Move-only.
 class Arena {
  public:
@@ -50,6 +58,8 @@ class Arena {
   Result<Buffer> create_buffer(VkDeviceSize bytes, MemoryKind kind, const char* purpose);
   /// A view of texels of 16 bytes over a whole buffer, vec4 or uvec4. Errors: kOutOfMemory.
   Result<VkBufferView> create_texel_view(const Buffer& buffer, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT);
+  /// So many bytes are about to be asked for: until then no block is larger than what is left of them.
+  void expect(VkDeviceSize bytes) { expected_ = bytes; }
   /// Bytes of device memory held.
   VkDeviceSize bytes() const { return bytes_; }
 
@@ -64,6 +74,7 @@ class Arena {
   };
   void release();
   Result<void*> bind_memory(const Buffer& buffer, MemoryKind kind, const char* purpose);
+  VkDeviceSize held(std::uint32_t type) const;
   Block* find_room(std::uint32_t type, VkDeviceSize size, VkDeviceSize alignment);
   VkResult add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedicated_to);
 
@@ -72,6 +83,7 @@ class Arena {
   std::vector<VkBuffer> buffers_;
   std::vector<VkBufferView> views_;
   VkDeviceSize bytes_ = 0;
+  VkDeviceSize expected_ = 0;
 };
 
 }  // namespace medial_vk

@@ -138,6 +138,7 @@ Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& 
   for (std::size_t i = 0; i < positions.size(); ++i) positions[device.order[i]] = static_cast<std::uint32_t>(i);
   PacketTree tree(context);
   const auto position_bytes = std::as_bytes(std::span(positions));
+  tree.arena_.expect(position_bytes.size() + sizeof(Texel) * (node_data.size() + frame_data.size()));
   Result<Buffer> table = tree.arena_.create_buffer(position_bytes.size(), MemoryKind::kDevice, "leaf positions");
   if (!table.ok()) return table.error();
   tree.positions = table.value();

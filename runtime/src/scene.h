@@ -72,6 +72,9 @@ struct DeviceMesh {
   /// Of the Bvh whose leaf order `order` is.
   const std::vector<BvhNode>& tree_nodes() const { return bvh_->nodes(); }
 
+  /// Of device memory that it holds.
+  VkDeviceSize bytes() const { return arena_.bytes(); }
+
   UnitTransform transform() const { return {lower, longest}; }
   Point to_unit(const Point& p) const { return transform()(p); }
   Point to_input(const std::array<float, 3>& p) const { return transform().inverse(p); }

@@ -74,8 +74,10 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   const bool is_cpu = context_->description.type == "cpu";
   queries_per_slice_ = is_cpu ? kQueriesPerSliceOfCpu : kQueriesPerSlice;
   const std::uint64_t largest = is_cpu ? kLargestChunkOfCpu : kLargestChunk;
+  // The wide tree of the packets takes about as much as the mesh.
+  const std::uint64_t left = left_of(parameters_.memory_budget, 2 * mesh_->bytes() + bytes_on_the_way(*context_));
   const std::uint64_t fitting =
-      std::min({parameters_.memory_budget * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
+      std::min({left * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
     return Error{ErrorCode::kOutOfMemory, "the thesis mode needs " + std::to_string(bytes_per_top * 10 / 9) +
@@ -113,6 +115,9 @@ Status ThesisPipeline::allocate(const MeshView& view) {
       {&points_, cells * sizeof(gpu::FoundPoint), "points of voxels"},
       {&found_, cells * sizeof(gpu::FoundPoint), "result"},
   };
+  VkDeviceSize all = 0;
+  for (const Request& request : requests) all += request.bytes;
+  arena_.expect(all);
   for (const Request& request : requests) {
     Result<Buffer> buffer = arena_.create_buffer(request.bytes, MemoryKind::kDevice, request.purpose);
     if (!buffer.ok()) return buffer.error();

@@ -20,6 +20,7 @@ constexpr std::uint32_t kResolveGroup = 256;
 Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
                                         std::optional<BufferRange> stop) {
   TreeQueries queries(context, mesh);
+  queries.arena_.expect((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4);
   Result<Buffer> list = queries.arena_.create_buffer((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4,
                                                      MemoryKind::kDevice, "a list of unresolved queries");
   if (!list.ok()) return list.error();

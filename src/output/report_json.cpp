@@ -92,6 +92,23 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
   return json;
 }
 
+// What a medial point costs, by all levels together.
+Json per_point_json(const ExtractionCounters& counters) {
+  if (counters.found == 0) return nullptr;
+  double triangle_tests = 0, cluster_tests = 0, lines = 0;
+  for (const ExtractionCounters::Level& level : counters.levels) {
+    triangle_tests += static_cast<double>(level.triangle_tests);
+    cluster_tests += static_cast<double>(level.cluster_tests);
+    lines += static_cast<double>(level.lines);
+  }
+  const auto points = static_cast<double>(counters.found);
+  return {{"queries", static_cast<double>(counters.queries) / points},
+          {"triangle_tests", triangle_tests / points},
+          {"cluster_tests", cluster_tests / points},
+          {"lines", lines / points},
+          {"narrowing_steps", lines * counters.narrowing_steps / points}};
+}
+
 Json times_json(const std::vector<StageTime>& times) {
   Json json = Json::array();
   for (const StageTime& time : times) json.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
@@ -244,6 +261,7 @@ std::string report_json(const RunRecord& record) {
       {"levels", levels_json(record.counters.levels)},
       {"queries", record.counters.queries},
       {"narrowing_steps", record.counters.narrowing_steps},
+      {"per_point", per_point_json(record.counters)},
       {"retries", record.counters.retries},
       {"points",
        {{"written", record.points},

@@ -43,7 +43,7 @@ inline ExtractionParameters small_job(Mode mode) {
   parameters.resolution = mode == Mode::kThesis ? 16 : 8;
   parameters.extra_levels = 1;
   parameters.samples = {60, 50, 40, 10};  // one round of retractions
-  parameters.memory_budget = 32u << 20;
+  parameters.memory_budget = 48u << 20;
   return parameters;
 }
 

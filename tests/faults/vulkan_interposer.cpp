@@ -73,6 +73,10 @@ struct Hook<Tag, VkResult (*)(Args...)> {
       self.work.destroyed(as_handle(*std::get<sizeof...(Args) - 1>(std::make_tuple(args...))));  // what had it before
     }
     follow(self.work, Tag(), args...);
+    if constexpr (std::is_same_v<Tag, vkAllocateMemoryTag>) {
+      const auto all = std::make_tuple(args...);
+      self.allocated(*std::get<3>(all), std::get<1>(all)->allocationSize);
+    }
     if constexpr (std::is_same_v<Tag, vkCreateBufferTag>) {
       const std::lock_guard lock(self.buffers_mutex);
       const auto all = std::make_tuple(args...);
@@ -95,6 +99,7 @@ struct Hook<Tag, void (*)(Args...)> {
       if (self.work.uses(handle)) self.violation(std::string(Tag::kName) + " of what the device is using");
       self.work.destroyed(handle);
     }
+    if constexpr (std::is_same_v<Tag, vkFreeMemoryTag>) self.freed(std::get<1>(all));
     if constexpr (std::is_same_v<Tag, vkDestroySemaphoreTag>) self.two_queues.forget(std::get<1>(all));
     call_real<Tag>(args...);
   }
@@ -225,6 +230,19 @@ void VulkanInterposer::created(const char* type) {
 void VulkanInterposer::destroyed(const char* type) {
   const std::lock_guard lock(mutex_);
   ++destroyed_[type];
+}
+
+void VulkanInterposer::allocated(VkDeviceMemory memory, VkDeviceSize bytes) {
+  const std::lock_guard lock(mutex_);
+  memory_[memory] = bytes;
+  VkDeviceSize alive = 0;
+  for (const auto& [handle, size] : memory_) alive += size;
+  usage_.memory_bytes = std::max<std::uint64_t>(usage_.memory_bytes, alive);
+}
+
+void VulkanInterposer::freed(VkDeviceMemory memory) {
+  const std::lock_guard lock(mutex_);
+  memory_.erase(memory);
 }
 
 std::map<std::string, std::int64_t> VulkanInterposer::handles() const {

@@ -53,7 +53,8 @@ struct Usage {
   std::uint32_t workgroup_size = 0;
   std::uint32_t shared_bytes = 0;
   std::uint32_t sets = 0;
-  std::uint64_t allocations = 0;  // of device memory, at one time
+  std::uint64_t allocations = 0;   // of device memory, at one time
+  std::uint64_t memory_bytes = 0;  // the same
 };
 
 /// One per process; in use from the first call of get() on.
@@ -87,6 +88,8 @@ class VulkanInterposer {
   VkResult next_result(const char* call, unsigned faults);
   void created(const char* type);
   void destroyed(const char* type);
+  void allocated(VkDeviceMemory memory, VkDeviceSize bytes);
+  void freed(VkDeviceMemory memory);
   void use(const std::function<void(Usage&)>& change);
   void violation(std::string what);
   WorkUnderWay work;
@@ -104,6 +107,7 @@ class VulkanInterposer {
   Fault fault_ = Fault::kNone;
   std::string failed_;
   std::map<std::string, std::int64_t> created_, destroyed_;
+  std::map<VkDeviceMemory, VkDeviceSize> memory_;
   DeviceProfile profile_;
   Usage usage_;
   std::vector<std::string> violations_;

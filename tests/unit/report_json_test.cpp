@@ -40,9 +40,9 @@ RunRecord some_record() {
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
   for (const char* key :
-       {"format", "program", "version",  "input",       "output",          "parameters", "mesh",
-        "grid",   "voxels",  "levels",   "queries",     "narrowing_steps", "retries",    "points",
-        "sheets", "orders",  "grouping", "medial_mesh", "seconds",         "device",     "certificate"}) {
+       {"format", "program",  "version",     "input",           "output",  "parameters", "mesh",      "grid",
+        "voxels", "levels",   "queries",     "narrowing_steps", "retries", "points",     "per_point", "sheets",
+        "orders", "grouping", "medial_mesh", "seconds",         "device",  "certificate"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
@@ -85,6 +85,25 @@ TEST(ReportJson, HoldsEveryDocumentedKey) {
   EXPECT_EQ(report["seconds"]["device"][0]["seconds"], 1.5);
   EXPECT_EQ(report["device"]["name"], "Some GPU");
   EXPECT_TRUE(report["certificate"].is_null());
+}
+
+TEST(ReportJson, SaysWhatAPointCosts) {
+  RunRecord record = some_record();
+  EXPECT_EQ(json::parse(report_json(record))["per_point"]["lines"], 0);
+  record.counters.levels[0].cluster_tests = 500;
+  record.counters.levels[0].triangle_tests = 1000;
+  record.counters.levels[1].triangle_tests = 24000;
+  record.counters.levels[1].lines = 750;
+  record.counters.narrowing_steps = 4;
+  record.counters.queries = 125;
+  const json cost = json::parse(report_json(record))["per_point"];
+  EXPECT_EQ(cost["queries"], 0.5);
+  EXPECT_EQ(cost["triangle_tests"], 100);
+  EXPECT_EQ(cost["cluster_tests"], 2);
+  EXPECT_EQ(cost["lines"], 3);
+  EXPECT_EQ(cost["narrowing_steps"], 12);
+  record.counters.found = 0;
+  EXPECT_TRUE(json::parse(report_json(record))["per_point"].is_null());
 }
 
 TEST(ReportJson, SheetsAndMedialMesh) {
