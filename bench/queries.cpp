@@ -19,6 +19,7 @@
 #include "embree_peer.h"
 #include "medial_vk/queries.h"
 #include "mesh/load_mesh.h"
+#include "output/version.h"
 #include "query_table.h"
 #include "query_workload.h"
 #include "support/solids.h"
@@ -28,6 +29,11 @@ namespace {
 
 constexpr std::array<std::size_t, 4> kFew = {256, 1024, 4096, 16384};
 constexpr std::size_t kFewInAll = 65536;  // queries of a pass
+#ifdef NDEBUG
+constexpr const char* kBuild = "optimised";
+#else
+constexpr const char* kBuild = "with assertions: no figure of this run counts";
+#endif
 
 /// Everything that the benchmarks of one mesh use.
 struct Subject {
@@ -162,8 +168,8 @@ int run(int argc, char** argv) {
   const unsigned threads = driver_threads();
   const std::string peer = EmbreePeer::version().empty() ? "not built in (libembree-dev)" : EmbreePeer::version();
   const std::string about = context.device().name + "; " + context.device().driver + "; " + std::to_string(threads) +
-                            " threads; Embree: " + peer + "; compiler " + __VERSION__ + "; at least " +
-                            std::to_string(queries) + " queries a mesh";
+                            " threads; Embree: " + peer + "; medial_vk " + version() + ", " + kBuild + ", compiler " +
+                            __VERSION__ + "; at least " + std::to_string(queries) + " queries a mesh";
   benchmark::AddCustomContext("device", about);
   std::vector<std::unique_ptr<Subject>> subjects;
   std::istringstream names(meshes);

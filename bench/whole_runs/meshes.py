@@ -5,6 +5,8 @@ import os
 import subprocess
 from pathlib import Path
 
+ROOT = Path(__file__).resolve().parent.parent.parent
+
 # Cells along the turtle's longest side, by about how many triangles that gives: an animal-like smooth union of
 # ellipsoids (examples/make_model.cpp), the same solid each time.
 TURTLES = {"turtle-6k": 52, "turtle-24k": 104, "turtle-96k": 208, "turtle-1m": 672}
@@ -46,8 +48,8 @@ def make(name, folder, make_model):
 
 
 def found_models():
-    """The mesh files in the folder that MEDIAL_VK_MODELS names, if it does."""
-    folder = os.environ.get("MEDIAL_VK_MODELS")
-    if not folder:
+    """The mesh files in the folder that MEDIAL_VK_MODELS names, or in shared/models beside the source tree, if any."""
+    folder = Path(os.environ.get("MEDIAL_VK_MODELS") or ROOT.parent / "shared" / "models")
+    if not folder.is_dir():
         return []
-    return sorted(path for path in Path(folder).iterdir() if path.suffix.lower() in EXTENSIONS)
+    return sorted(path for path in folder.iterdir() if path.suffix.lower() in EXTENSIONS)

@@ -36,7 +36,8 @@ struct ExtractionParameters {
   std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
   bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
   std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
-  /// Bytes of device memory to stay below; what results come down through, where it is not shared, is not counted.
+  /// Bytes of device memory to stay below, the mesh and what copies pass through included, but not what moved vertices
+  /// go up through (ExtractionJob). A mesh that takes more than three quarters of it comes on top.
   std::uint64_t memory_budget = 1ull << 30;
   /// Certified: Extraction::device_times by kernel and level ("mark_contacts@2"; a number after a slash tells variants
   /// of a kernel apart, "/second" the tasks of one that has two) instead of by stage. Every dispatch then ends with a
