@@ -12,6 +12,8 @@ namespace medial_vk {
 namespace {
 
 constexpr VkDeviceSize kMinBlockBytes = 1ull << 20;
+// Two pieces of a mesh under way, of 4 MiB each, and 4 for points, counters and the word that stops a job.
+constexpr VkDeviceSize kBytesOnTheWay = 12ull << 20;
 constexpr VkDeviceSize kMaxBlockBytes = 64ull << 20;
 constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F, RGBA32UI
 
@@ -135,7 +137,7 @@ VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer
 VkDeviceSize bytes_on_the_way(const Context::Impl& context) {
   const int type = find_memory_type(context, 0xffffffffu, MemoryKind::kDevice);
   const VkMemoryPropertyFlags flags = type < 0 ? 0 : context.memory.memoryTypes[type].propertyFlags;
-  return (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0 ? 0 : 12ull << 20;
+  return (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0 ? 0 : kBytesOnTheWay;
 }
 
 Arena::Arena(Arena&& other) noexcept
