@@ -51,14 +51,14 @@ void declare(CLI::App& app, Options& o) {
 struct Subject {
   std::string name;
   PreparedMesh mesh;
-  double share_of_samples = 1;
+  bool salient_at_a_point = false;
 };
 
-Result<Subject> prepare_subject(const std::string& name, Result<Mesh> mesh, double share_of_samples = 1) {
+Result<Subject> prepare_subject(const std::string& name, Result<Mesh> mesh, bool salient_at_a_point = false) {
   if (!mesh.ok()) return mesh.error();
   Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value());
   if (!prepared.ok()) return prepared.error();
-  return Subject{name, std::move(prepared).value(), share_of_samples};
+  return Subject{name, std::move(prepared).value(), salient_at_a_point};
 }
 
 Result<std::vector<Subject>> load(const Options& options) {
@@ -67,7 +67,7 @@ Result<std::vector<Subject>> load(const Options& options) {
     const std::size_t before = loaded.size();
     for (const test::NamedSolid& solid : test::analytic_solids()) {
       if (wanted != "all" && wanted != solid.name) continue;
-      loaded.push_back(prepare_subject(solid.name, solid.make(), solid.share_of_samples));
+      loaded.push_back(prepare_subject(solid.name, solid.make(), solid.salient_at_a_point));
     }
     if (loaded.size() == before) return Error{ErrorCode::kUsage, "there is no solid called " + wanted};
   }
@@ -93,8 +93,8 @@ std::vector<MedialSample> draw_samples(const Subject& subject, const Options& op
   test::SampleRequest request;
   request.angles = {options.angles.front() + bench::kAngleSlack};
   for (const double angle : options.angles) request.angles.push_back(angle + bench::kClearAngle);
-  const double wanted = subject.share_of_samples * static_cast<double>(options.samples);
-  request.wanted = static_cast<std::size_t>(1.03 * wanted / (axis * axis * axis)) + 50;
+  request.wanted = static_cast<std::size_t>(1.03 * static_cast<double>(options.samples) / (axis * axis * axis)) + 50;
+  request.past_corners = subject.salient_at_a_point;
   request.seed = options.seed;
   request.threads = options.threads;
   const reference::Tree tree(to_reference(subject.mesh));

@@ -238,6 +238,29 @@ TEST(MedialSampler, SamplesOfABoxTieBetweenTwoFaces) {
   }
 }
 
+// The faces of a geodesic sphere that are nearest to its centre lie opposite one another: the centre is the highest point
+// of the medial surface, and its object angle is pi/2. Samples stop at any corner on their way there. Balls lower by t at
+// most are within t / 0.79 of it: 0.79 is the least, over all directions, of the largest product with one of those normals.
+TEST(MedialSampler, SamplesOfASphereClimbPastCornersToItsCentre) {
+  const PreparedMesh sphere = test::prepare(test::make_sphere(1, 320));
+  const reference::Tree tree(to_reference(sphere));
+  test::SampleRequest request = {.angles = {0.3, 0.6, 0.9}, .wanted = 100, .past_corners = true};
+  const std::vector<MedialSample> samples = test::draw_medial_samples(tree, request);
+  const double highest = tree.closest({0, 0, 0}).distance, tolerance = 128 * tree.rounding();
+  std::size_t at_centre = 0, below = 0;
+  for (const MedialSample& s : samples) {
+    EXPECT_NEAR(tree.closest(s.centre).distance, s.radius, tolerance);
+    EXPECT_LE(s.radius, highest + tolerance);
+    const bool there = s.radius > highest - tolerance;
+    (there ? at_centre : below) += 1;
+    if (!there) continue;
+    EXPECT_LT(s.centre.norm(), 2 * tolerance);
+    EXPECT_NEAR(s.object_angle, std::numbers::pi / 2, 2 * std::sqrt(tolerance / s.radius));
+  }
+  EXPECT_GE(at_centre, 100u);
+  EXPECT_GT(below, 0u);
+}
+
 // And nothing of a sample depends on the number of threads.
 TEST(MedialSampler, SamplesDoNotDependOnThreads) {
   const PreparedMesh torus = test::prepare(test::make_torus(1, 0.35, 16, 32));

@@ -19,7 +19,8 @@ namespace {
 constexpr int kMostShrinks = 100;
 constexpr int kMostTies = 20;
 constexpr int kMostNewtonSteps = 20;
-constexpr std::size_t kMostSpokes = 64;
+constexpr int kMostClimbs = 1000;
+constexpr std::size_t kMostContacts = 64;
 
 /// SplitMix64 (Steele, Lea and Flood 2014): any seed will do, so that every sample can have a generator of its own.
 class Random {
@@ -52,6 +53,11 @@ bool surely_outside(const Tree& tree, const Vector3d& p, const Closest& nearest)
 
 }  // namespace
 
+struct MedialSampler::Contact {
+  int triangle;
+  Vector3d spoke;  ///< Of length 1, from the centre.
+};
+
 /// Touches `count` triangles, whose spokes are known.
 struct MedialSampler::Ball {
   Vector3d centre;
@@ -61,8 +67,12 @@ struct MedialSampler::Ball {
   int count = 0;
 };
 
-MedialSampler::MedialSampler(const Tree& tree, double least_angle, std::uint64_t seed)
-    : tree_(tree), least_angle_(least_angle), tolerance_(64 * tree.rounding()), seed_(seed) {}
+MedialSampler::MedialSampler(const Tree& tree, double least_angle, std::uint64_t seed, bool past_corners)
+    : tree_(tree),
+      least_angle_(least_angle),
+      tolerance_(64 * tree.rounding()),
+      seed_(seed),
+      past_corners_(past_corners) {}
 
 std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   Random random(seed_, index);
@@ -70,11 +80,12 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   const Closest nearest = tree_.closest(p);
   // Close to the boundary the direction away from it is not worth much.
   if (nearest.distance < 1e-6 * tree_.longest_side() || surely_outside(tree_, p, nearest)) return std::nullopt;
+  std::optional<Ball> ball = largest_at(nearest, (p - nearest.point) / nearest.distance);
+  if (past_corners_) return on_the_way_up(ball, random.next());
   // One of four climbs although it is salient: seams and corners of the medial surface are to be seen as well.
   std::uint64_t climbs = random.next() % 8;
   climbs = climbs < 2 ? climbs + 1 : 0;
-  for (std::optional<Ball> ball = largest_at(nearest, (p - nearest.point) / nearest.distance); ball;
-       ball = climb(*ball)) {
+  for (; ball; ball = climb(*ball)) {
     const double angle = object_angle(*ball);
     if (climbs > 0 && ball->count < 4) {
       --climbs;
@@ -84,6 +95,19 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
     }
   }
   return std::nullopt;
+}
+
+// Any of the salient balls that are met as far as the way leads.
+std::optional<MedialSample> MedialSampler::on_the_way_up(std::optional<Ball> ball, std::uint64_t which) const {
+  std::vector<MedialSample> salient;
+  for (int climbs = 0; ball && climbs < kMostClimbs; ++climbs) {
+    const double angle = object_angle(*ball);
+    if (angle >= least_angle_) salient.push_back({ball->centre, ball->radius, angle});
+    ball = ball->count < 4 ? climb(*ball) : climb_from_corner(*ball);
+  }
+  if (salient.empty()) return std::nullopt;
+  const MedialSample& sample = salient[which % salient.size()];
+  return reference::is_inside(tree_, sample.centre) ? std::optional(sample) : std::nullopt;
 }
 
 std::optional<MedialSampler::Ball> MedialSampler::largest_at(const Closest& contact, const Vector3d& away) const {
@@ -136,6 +160,32 @@ std::optional<MedialSampler::Ball> MedialSampler::climb(const Ball& from) const 
   return std::nullopt;
 }
 
+// Of all threes of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest: along
+// the steepest of these seams. None is left where the distance has a maximum.
+std::optional<MedialSampler::Ball> MedialSampler::climb_from_corner(const Ball& corner) const {
+  const std::vector<Contact> ties = contacts(corner);
+  Ball seam = corner;
+  seam.count = 3;
+  double steepest = 1e-6;
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const Vector3d& spoke = ties[i].spoke;
+        Vector3d up = (ties[j].spoke - spoke).cross(ties[k].spoke - spoke);
+        if (up.norm() < 1e-6) continue;
+        up *= (up.dot(spoke) > 0 ? -1 : 1) / up.norm();
+        const double rise = -up.dot(spoke);
+        const auto recedes = [&](const Contact& c) { return -up.dot(c.spoke) > rise - 1e-9; };
+        if (rise <= steepest || !std::all_of(ties.begin(), ties.end(), recedes)) continue;
+        steepest = rise;
+        seam.triangles = {ties[i].triangle, ties[j].triangle, ties[k].triangle, -1};
+        seam.spokes = {ties[i].spoke, ties[j].spoke, ties[k].spoke, Vector3d::Zero()};
+      }
+    }
+  }
+  return steepest > 1e-6 ? climb(seam) : std::nullopt;
+}
+
 // Unknown: centre x and radius r. One equation dist(x, t) = r for each contact, whose gradient in x is minus the spoke;
 // a sheet's contacts and a third triangle leave one freedom, across both of its spokes: there x stays where it is.
 std::optional<MedialSampler::Ball> MedialSampler::tie_with(const Ball& from, const Vector3d& up, int triangle) const {
@@ -168,18 +218,24 @@ std::optional<MedialSampler::Ball> MedialSampler::tie_with(const Ball& from, con
   return std::nullopt;
 }
 
+std::vector<MedialSampler::Contact> MedialSampler::contacts(const Ball& ball) const {
+  std::vector<Contact> contacts;
+  for (const int t : tree_.gather(ball.centre, ball.radius + tolerance_)) {
+    if (contacts.size() == kMostContacts) break;
+    contacts.push_back({t, (tree_.closest_on(t, ball.centre).point - ball.centre).normalized()});
+  }
+  return contacts;
+}
+
 // A triangle beside a contact ties within the tolerance with a point up to sqrt(2 tolerance / radius) away, as an
 // angle, from the contact: as much is taken off.
 double MedialSampler::object_angle(const Ball& ball) const {
-  std::vector<Vector3d> spokes;
-  for (const int t : tree_.gather(ball.centre, ball.radius + tolerance_)) {
-    if (spokes.size() < kMostSpokes) {
-      spokes.push_back((tree_.closest_on(t, ball.centre).point - ball.centre).normalized());
-    }
-  }
+  const std::vector<Contact> ties = contacts(ball);
   double largest = 0;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) largest = std::max(largest, reference::half_angle(spokes[i], spokes[j]));
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      largest = std::max(largest, reference::half_angle(ties[i].spoke, ties[j].spoke));
+    }
   }
   return largest - std::sqrt(2 * tolerance_ / ball.radius);
 }
@@ -234,7 +290,7 @@ void draw_block(const MedialSampler& sampler, std::uint64_t first, unsigned thre
 std::vector<MedialSample> draw_medial_samples(const Tree& tree, const SampleRequest& request) {
   std::vector<MedialSample> samples;
   if (request.angles.empty()) return samples;
-  const MedialSampler sampler(tree, request.angles.front(), request.seed);
+  const MedialSampler sampler(tree, request.angles.front(), request.seed, request.past_corners);
   const unsigned threads = request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
   Quota quota(request.angles, request.wanted);
   std::vector<std::optional<MedialSample>> block(4096);

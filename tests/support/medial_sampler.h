@@ -10,7 +10,8 @@
 // On facets that stand for a smooth surface these balls mostly touch neighbouring facets, under a small object angle,
 // and the salient medial surface of a tube is a curve that no random ray meets. So a sample may climb: along the sheet
 // that its contacts share, until a third triangle ties; along that seam, until a fourth does. Ties are solved for by
-// Newton's method.
+// Newton's method. Where all that is salient is next to one point, as in a sphere, it goes on along the steepest seam from
+// corner to corner.
 //
 // Whatever the way there, a sample is kept only after its ball has been looked at as a whole: its interior is empty but
 // for the tolerance, and its object angle is the largest between two triangles that tie within the tolerance.
@@ -37,7 +38,7 @@ struct MedialSample {
 class MedialSampler {
  public:
   /// Samples below `least_angle` are of no interest: they climb on, and are dropped in the end. Keeps a reference.
-  MedialSampler(const reference::Tree& tree, double least_angle, std::uint64_t seed);
+  MedialSampler(const reference::Tree& tree, double least_angle, std::uint64_t seed, bool past_corners = false);
 
   /// Nothing where the random point is outside, or the sample is not salient.
   std::optional<MedialSample> sample(std::uint64_t index) const;
@@ -47,15 +48,20 @@ class MedialSampler {
   double tolerance() const { return tolerance_; }
 
  private:
+  struct Contact;
   struct Ball;
+  std::optional<MedialSample> on_the_way_up(std::optional<Ball> ball, std::uint64_t which) const;
   std::optional<Ball> largest_at(const reference::Closest& contact, const Eigen::Vector3d& away) const;
   std::optional<Ball> climb(const Ball& from) const;
+  std::optional<Ball> climb_from_corner(const Ball& corner) const;
   std::optional<Ball> tie_with(const Ball& from, const Eigen::Vector3d& up, int triangle) const;
+  std::vector<Contact> contacts(const Ball& ball) const;
   double object_angle(const Ball& ball) const;
 
   const reference::Tree& tree_;
   double least_angle_, tolerance_;
   std::uint64_t seed_;
+  bool past_corners_;
 };
 
 struct SampleRequest {
@@ -64,6 +70,7 @@ struct SampleRequest {
   std::size_t most_tries = 100;  ///< Random points, as a multiple of `wanted`.
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0: all. The samples do not depend on it.
+  bool past_corners = false;  ///< Climb on where four contacts tie.
 };
 
 /// In the order of the sampler's sequence.

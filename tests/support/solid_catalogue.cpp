@@ -23,7 +23,7 @@ const std::vector<NamedSolid>& analytic_solids() {
       {"l-shape", [] { return turned(make_l_shape(1, 0.35, 0.4)); }},
       {"plate-with-hole", [] { return turned(make_plate_with_hole(1, 0.15, 0.4)); }},
       {"cup", [] { return turned(make_cup(1, 0.25, 1.2, 32)); }},
-      {"sphere", [] { return turned(make_sphere(1, 2000)); }, 0.01},
+      {"sphere", [] { return turned(make_sphere(1, 2000)); }, true},
       {"capsule", [] { return turned(make_capsule(0.4, 1.5, 48)); }},
       {"oblate",
        [] {

@@ -11,9 +11,8 @@ namespace medial_vk::test {
 struct NamedSolid {
   std::string name;
   Mesh (*make)();  ///< Turned, so that no face of it is parallel to a face of a voxel.
-  /// Samples to ask for, as a share of those of other solids: the salient medial points of a faceted sphere crowd in
-  /// one voxel at its centre, where every query meets all facets.
-  double share_of_samples = 1;
+  /// All that is salient is next to one point, as in a sphere: samples climb past corners to get there.
+  bool salient_at_a_point = false;
 };
 
 const std::vector<NamedSolid>& analytic_solids();
