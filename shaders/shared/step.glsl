@@ -62,12 +62,17 @@ vec4 corners_along(vec3 h) {
   return vec4(xy + h.z, xy - h.z);
 }
 
+float greater(float a, float b) {
+  precise float result = a > b ? a : b;
+  return result;
+}
+
 // The most of what the eight corners have, and of how far they lie along a direction: both added up.
 float most_at_corners(float corners[8], vec4 along) {
   vec4 forth = vec4(corners[7], corners[5], corners[3], corners[1]) + along;
   vec4 back = vec4(corners[0], corners[2], corners[4], corners[6]) - along;
-  vec4 most = max(forth, back);
-  return max(max(most.x, most.y), max(most.z, most.w));
+  vec4 most = vec4(greater(forth.x, back.x), greater(forth.y, back.y), greater(forth.z, back.z), greater(forth.w, back.w));
+  return greater(greater(most.x, most.y), greater(most.z, most.w));
 }
 
 // Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g is wrong by up
