@@ -12,7 +12,7 @@
 #include "tree.glsl"
 #include "winding.glsl"
 
-layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
 layout(set = 0, binding = 5) buffer Winners { uint winners[]; };
@@ -43,4 +43,6 @@ void main() {
   vec3 point = lines[index].accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
   float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
   if (is_inside(point)) elect(index, lines[index].voxel, turn);
+  COUNT_LONG(kNodeTestCount, tested_nodes);
+  COUNT_TESTS(tested_triangles);
 }

@@ -16,7 +16,7 @@ layout(set = 0, binding = 7) readonly buffer OpenEdges { OpenEdge open_edges[]; 
 #include "closure.glsl"
 #include "cell_side.glsl"
 
-layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) buffer States { uvec4 states[]; };
@@ -40,4 +40,6 @@ void main() {
   uint side = side_of_cell(centre, clearance - step.slack);
   if (side == kSideInside) states[item].w |= kCellInside;
   if (side == kSideOutside) states[item] = uvec4(0);
+  COUNT_LONG(kNodeTestCount, tested_nodes);
+  COUNT_TESTS(tested_triangles);
 }

@@ -17,4 +17,5 @@ void main() {
     write_hit(query, q.xyz, hit.triangle);
   else
     leave_unresolved(query);
+  count_tests();
 }

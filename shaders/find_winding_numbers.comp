@@ -18,4 +18,5 @@ void main() {
     numbers[query] = vec2(winding.number, winding.bound);
   else
     leave_unresolved(query);
+  count_tests();
 }

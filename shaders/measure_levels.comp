@@ -12,7 +12,7 @@
 #include "tree.glsl"
 #include "winding.glsl"
 
-layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 4) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "closure.glsl"
@@ -32,6 +32,8 @@ void main() {
   float change = step.circumradius * min(closure.slope, bent);
   if (!(change < kMostChange)) return;
   Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
+  COUNT_LONG(kNodeTestCount, tested_nodes);
+  COUNT_TESTS(tested_triangles);
   if (!w.complete || w.bound > 0.1) return;
   // Rounded up: halves are right to 2^-11 of themselves.
   float most = w.number + w.bound;

@@ -21,8 +21,11 @@ void main() {
   barrier();
   if (stopped) return;
   bool inside = false;
-  for (uint t = gl_LocalInvocationID.x; t < push.triangle_count; t += gl_WorkGroupSize.x)
+  for (uint t = gl_LocalInvocationID.x; t < push.triangle_count; t += gl_WorkGroupSize.x) {
     inside = inside || squared_distance_to_triangle(q.xyz, load_triangle(t)) < q.w;
+    ++tested_triangles;
+  }
+  count_tests();
   if (inside) atomicOr(found, 1u);
   barrier();
   if (gl_LocalInvocationID.x == 0u) empty[query] = 1u - found;

@@ -29,7 +29,9 @@ void main() {
     bool nearer = is_nearer(d, t, best, triangle);
     best = nearer ? d : best;
     triangle = nearer ? t : triangle;
+    ++tested_triangles;
   }
+  count_tests();
   best_distance[lane] = best;
   best_triangle[lane] = triangle;
   for (uint half_count = gl_WorkGroupSize.x / 2u; half_count > 0u; half_count /= 2u) {

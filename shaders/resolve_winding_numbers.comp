@@ -20,8 +20,11 @@ void main() {
   if (stopped) return;
   vec3 p = queries[query].xyz;
   float sum = 0.0;
-  for (uint t = lane; t < push.triangle_count; t += gl_WorkGroupSize.x)
+  for (uint t = lane; t < push.triangle_count; t += gl_WorkGroupSize.x) {
     sum += winding_of_triangle(p, load_triangle(t));
+    ++tested_triangles;
+  }
+  count_tests();
   sums[lane] = sum;
   for (uint half_count = gl_WorkGroupSize.x / 2u; half_count > 0u; half_count /= 2u) {
     barrier();

@@ -18,4 +18,5 @@ void main() {
     empty[query] = uint(hit.triangle == 0xffffffffu);
   else
     leave_unresolved(query);
+  count_tests();
 }

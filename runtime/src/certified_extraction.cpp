@@ -24,7 +24,9 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
     sum.levels[level].found += s[gpu::kFoundCount];
     sum.levels[level].lines += s[gpu::kLineCount];
     sum.levels[level].cluster_tests += s[gpu::kClusterTestCount];
-    sum.levels[level].triangle_tests += s[gpu::kTestCount] + (std::uint64_t{s[gpu::kTestCount + 1]} << 32);
+    const auto in_two_words = [s](std::uint32_t low) { return s[low] + (std::uint64_t{s[low + 1]} << 32); };
+    sum.levels[level].triangle_tests += in_two_words(gpu::kTestCount);
+    sum.levels[level].node_tests += in_two_words(gpu::kNodeTestCount);
   }
   sum.found += c[gpu::kFound];
   sum.undecided += c[gpu::kUndecided];

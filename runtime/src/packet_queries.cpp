@@ -71,11 +71,11 @@ PacketShape PacketShape::best_for(const Context::Impl& context) {
 }
 
 Result<PacketQueries> PacketQueries::create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                            std::uint32_t capacity, const PacketShape& shape) {
-  PacketQueries queries(device, shape);
+                                            std::uint32_t capacity, const PacketShape& shape, bool counts) {
+  PacketQueries queries(device, shape, counts);
   Result<PacketTree> tree = PacketTree::create(context, device, mesh, shape.arity());
   if (!tree.ok()) return tree.error();
-  Result<TreeQueries> resolver = TreeQueries::create(context, device, capacity);
+  Result<TreeQueries> resolver = TreeQueries::create(context, device, capacity, {}, counts);
   if (!resolver.ok()) return resolver.error();
   queries.tree_ = std::make_unique<PacketTree>(std::move(tree).value());
   queries.resolver_ = std::make_unique<TreeQueries>(std::move(resolver).value());
@@ -108,7 +108,7 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
                        static_cast<std::uint32_t>(texels.size()),
                        sizeof(constants),
                        shape_.width,
-                       {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity()}};
+                       {static_cast<std::uint32_t>(ties), shape_.per_lane, shape_.arity(), counts_}};
   if (counted) {
     record_slices(r, count.slices, [&](std::uint32_t first_group, VkDeviceSize offset) {
       constants.first_group = first_group;

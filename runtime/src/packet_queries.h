@@ -47,23 +47,29 @@ std::vector<std::uint32_t> make_slots(const PacketShape& shape, std::uint32_t gr
 class PacketQueries {
  public:
   /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is as it was given to
-  /// DeviceMesh::create(). Errors: kOutOfMemory, kInternal.
+  /// DeviceMesh::create(). With `counts`, what walks test is counted. Errors: kOutOfMemory, kInternal.
   static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                      std::uint32_t capacity, const PacketShape& shape);
+                                      std::uint32_t capacity, const PacketShape& shape, bool counts = false);
 
   /// TreeQueries::closest() for groups: same queries and results. `slots`: of make_slots(). Ends with a barrier.
   void closest(Recorder& r, const GroupCount& count, BufferRange slots, BufferRange queries, BufferRange nearest,
                BufferRange hits, TreeQueries::Ties ties = TreeQueries::Ties::kLeafPosition) const;
+
+  /// As of TreeQueries.
+  void clear_tests(Recorder& r) const { resolver_->clear_tests(r); }
+  void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const { resolver_->copy_tests(r, to, offset); }
 
   const PacketShape& shape() const { return shape_; }
   /// Queries answered by looking at all triangles since creation. Blocks.
   Result<std::uint32_t> read_unresolved_total() { return resolver_->read_unresolved_total(); }
 
  private:
-  PacketQueries(const DeviceMesh& device, const PacketShape& shape) : device_(&device), shape_(shape) {}
+  PacketQueries(const DeviceMesh& device, const PacketShape& shape, bool counts)
+      : device_(&device), shape_(shape), counts_(counts) {}
 
   const DeviceMesh* device_;
   PacketShape shape_;
+  std::uint32_t counts_;  // a specialization constant: 0 or 1
   std::unique_ptr<PacketTree> tree_;
   std::unique_ptr<TreeQueries> resolver_;  // its list of queries that gave up
 };

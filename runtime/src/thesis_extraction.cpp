@@ -7,13 +7,31 @@
 namespace medial_vk {
 namespace {
 
+struct Tests {
+  std::uint64_t nodes = 0, triangles = 0;
+};
+
+/// Of walks for one query and of packets together.
+Tests tests_at(const std::uint32_t* words) {
+  const auto sum = [&](int i) {
+    const auto number = [&](int low) { return words[low] + (std::uint64_t{words[low + 1]} << 32); };
+    return number(i) + number(i + 4);
+  };
+  return {sum(0), sum(2)};
+}
+
 void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const ThesisPipeline& pipeline,
                   ExtractionCounters& sum) {
+  Tests before;  // up to the end of the level before
   for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {
     const std::uint32_t* counts = &c[gpu::kThesisLevels + gpu::kThesisCountsPerLevel * level];
     sum.levels[level].visited += counts[0];
     sum.levels[level].kept += counts[1];
     sum.queries += std::uint64_t{counts[2]} * pipeline.samples(level);
+    const Tests tests = tests_at(counts + gpu::kThesisTests);
+    sum.levels[level].node_tests += tests.nodes - before.nodes;
+    sum.levels[level].triangle_tests += tests.triangles - before.triangles;
+    before = tests;
   }
   sum.levels.back().found += c[gpu::kThesisFound];
   sum.found += c[gpu::kThesisFound];

@@ -127,12 +127,13 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   if (!readback.ok()) return readback.error();
   counters_readback_ = readback.value();
 
-  Result<TreeQueries> queries =
-      TreeQueries::create(*context_, *mesh_, std::max(capacity, static_cast<std::uint32_t>(lines)), stop_->range());
+  constexpr bool kCounts = true;
+  Result<TreeQueries> queries = TreeQueries::create(
+      *context_, *mesh_, std::max(capacity, static_cast<std::uint32_t>(lines)), stop_->range(), kCounts);
   if (!queries.ok()) return queries.error();
   queries_ = std::make_unique<TreeQueries>(std::move(queries).value());
   Result<PacketQueries> packets =
-      PacketQueries::create(*context_, *mesh_, view, capacity, PacketShape::best_for(*context_));
+      PacketQueries::create(*context_, *mesh_, view, capacity, PacketShape::best_for(*context_), kCounts);
   if (!packets.ok()) return packets.error();
   packets_ = std::make_unique<PacketQueries>(std::move(packets).value());
   Result<FluxSampler> flux = FluxSampler::create(*context_, *packets_, capacity);

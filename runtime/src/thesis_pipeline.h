@@ -66,6 +66,8 @@ class ThesisPipeline {
   void record_narrowing(Recorder& r, const gpu::ThesisConstants& step);
   void record_judgement(Recorder& r, const gpu::ThesisConstants& step);
   void record_result(Recorder& r);
+  /// What walks have tested up to the end of a level.
+  void copy_tests(Recorder& r, std::uint32_t level);
 
   /// One kernel over the items, then a barrier. The counters are put before `buffers`.
   void run(Recorder& r, const char* shader, Items items, gpu::ThesisConstants step, std::vector<BufferRange> buffers,

@@ -18,6 +18,8 @@ Status ThesisPipeline::record_part(Recorder& r, std::uint32_t part, std::uint32_
     r.barrier();
     r.fill(counters_, kThesisParents * 4, 4, count);
     r.barrier();
+    queries_->clear_tests(r);
+    packets_->clear_tests(r);
   }
   if (part < levels_) {
     record_level(r, part, first);
@@ -54,6 +56,13 @@ void ThesisPipeline::record_level(Recorder& r, std::uint32_t level, std::uint32_
   const std::uint32_t statistics = kThesisLevels + kThesisCountsPerLevel * level;
   copy_counter(r, kThesisKept, statistics + 1);
   copy_counter(r, kThesisSpheres, statistics + 2);
+  if (level + 1 < levels_) copy_tests(r, level);
+}
+
+void ThesisPipeline::copy_tests(Recorder& r, std::uint32_t level) {
+  const VkDeviceSize first = kThesisLevels + kThesisCountsPerLevel * level + kThesisTests;
+  queries_->copy_tests(r, counters_, first * 4);
+  packets_->copy_tests(r, counters_, (first + 4) * 4);
 }
 
 void ThesisPipeline::record_flux(Recorder& r, std::uint32_t level) {
@@ -125,6 +134,7 @@ void ThesisPipeline::record_result(Recorder& r) {
   const Items voxels{kThesisKept};
   run(r, "mark_found", voxels, step, {points_.range(), states_.range()});
   scan(r, voxels, kThesisFound);
+  copy_tests(r, levels_ - 1);  // the finest level and the retractions in its voxels
   run(r, "keep_found", voxels, step, {points_.range(), states_.range(), offsets_.range(), found_.range()});
   r.copy(counters_, 0, counters_readback_, 0, kCounterCount * 4);
   r.barrier_to_host();

@@ -14,12 +14,14 @@ namespace {
 using gpu::kNoCounter;
 
 constexpr std::uint32_t kResolveGroup = 256;
+constexpr VkDeviceSize kTestBytes = 16;
+static_assert(gpu::kTriangleTests == gpu::kNodeTests + 2 && gpu::kUnresolvedFirst >= gpu::kTriangleTests + 2);
 
 }  // namespace
 
 Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
-                                        std::optional<BufferRange> stop) {
-  TreeQueries queries(context, mesh);
+                                        std::optional<BufferRange> stop, bool counts) {
+  TreeQueries queries(context, mesh, counts);
   queries.arena_.expect((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4);
   Result<Buffer> list = queries.arena_.create_buffer((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4,
                                                      MemoryKind::kDevice, "a list of unresolved queries");
@@ -102,26 +104,36 @@ void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange 
                        2,
                        sizeof(constants),
                        kResolveGroup,
-                       {static_cast<std::uint32_t>(ties)}};
+                       {static_cast<std::uint32_t>(ties), counts_}};
   resolve(r, key, buffers, bytes_of(constants));
 }
 
 void TreeQueries::closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest,
                           BufferRange hits, Ties ties) const {
   const std::array<BufferRange, 3> own = {mesh_->triangle_info.range(), nearest, hits};
-  record(r, {"find_closest_points", "resolve_closest_points", {static_cast<std::uint32_t>(ties)}}, count, own, queries,
-         0);
+  record(r, {"find_closest_points", "resolve_closest_points", {static_cast<std::uint32_t>(ties), counts_}}, count, own,
+         queries, 0);
 }
 
 void TreeQueries::empty(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange empty) const {
   const std::array<BufferRange, 3> own = {mesh_->triangle_info.range(), empty, stop_};
-  record(r, {"test_balls", "resolve_balls", {}}, count, own, queries, 0);
+  record(r, {"test_balls", "resolve_balls", {0, counts_}}, count, own, queries, 0);
 }
 
 void TreeQueries::winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers,
                           float tolerance) const {
   const std::array<BufferRange, 2> own = {numbers, stop_};
-  record(r, {"find_winding_numbers", "resolve_winding_numbers", {}}, count, own, queries, tolerance);
+  record(r, {"find_winding_numbers", "resolve_winding_numbers", {0, counts_}}, count, own, queries, tolerance);
+}
+
+void TreeQueries::clear_tests(Recorder& r) const {
+  r.fill(unresolved_, gpu::kNodeTests * 4, kTestBytes, 0);
+  r.barrier();
+}
+
+void TreeQueries::copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const {
+  r.copy(unresolved_, gpu::kNodeTests * 4, to, offset, kTestBytes);
+  r.barrier();
 }
 
 Result<std::uint32_t> TreeQueries::read_unresolved_total() {

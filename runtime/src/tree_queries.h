@@ -49,9 +49,9 @@ class TreeQueries {
   /// For dispatches of at most `capacity` queries. The mesh must outlive the object. Once the word at `stop` is not 0,
   /// workgroups of empty() and winding() that begin return at once: what they should have written is then left as it
   /// was. (Looking at all triangles takes milliseconds for each query; a dispatch of thousands took ten seconds.)
-  /// Errors: kOutOfMemory, kInternal.
+  /// With `counts`, boxes and triangles that walks test are counted. Errors: kOutOfMemory, kInternal.
   static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
-                                    std::optional<BufferRange> stop = {});
+                                    std::optional<BufferRange> stop = {}, bool counts = false);
 
   /// Queries are vec4 in the unit box: xyz, and in w the squared distance within which a point is of interest; negative
   /// to pass the query over (its results are left as they are). Each call is followed by a barrier.
@@ -70,6 +70,10 @@ class TreeQueries {
   BufferRange unresolved() const { return unresolved_.range(); }
   void resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits, Ties ties) const;
 
+  /// The counts are four words, kNodeTests and kTriangleTests of tree_types.h. Each call is followed by a barrier.
+  void clear_tests(Recorder& r) const;
+  void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const;
+
   /// Queries answered by looking at all triangles since creation. Blocks.
   Result<std::uint32_t> read_unresolved_total();
 
@@ -77,9 +81,10 @@ class TreeQueries {
   struct Kernel {
     const char* walk;
     const char* resolve;
-    std::vector<std::uint32_t> constants;  // specialization constants from 2 on
+    std::vector<std::uint32_t> constants;  // specialization constants from 1 on
   };
-  TreeQueries(Context::Impl& context, const DeviceMesh& mesh) : context_(&context), mesh_(&mesh), arena_(context) {}
+  TreeQueries(Context::Impl& context, const DeviceMesh& mesh, bool counts)
+      : context_(&context), mesh_(&mesh), arena_(context), counts_(counts) {}
   void record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
               BufferRange queries, float tolerance) const;
   void resolve(Recorder& r, ProgramKey key, std::span<const BufferRange> buffers,
@@ -88,7 +93,8 @@ class TreeQueries {
   Context::Impl* context_;
   const DeviceMesh* mesh_;
   Arena arena_;
-  Buffer unresolved_;  // shaders/shared/tree_query.glsl
+  std::uint32_t counts_;  // a specialization constant: 0 or 1
+  Buffer unresolved_;     // shaders/shared/tree_query.glsl
   BufferRange stop_;
   Buffer total_;
 };

@@ -226,13 +226,14 @@ MEDIAL_VK_GPU_CONSTANT kUtilisation = 16u;      // the fullest any limited total
 MEDIAL_VK_GPU_CONSTANT kAsked = 17u;            // cells, or lines, whose side is not known; opposites of flux samples
 MEDIAL_VK_GPU_CONSTANT kOpen = 18u;             // children that the first test of dismissal leaves open
 MEDIAL_VK_GPU_CONSTANT kStatistics = 20u;       // per level: kVisited and so on
-MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 8u;
+MEDIAL_VK_GPU_CONSTANT kStatisticsPerLevel = 10u;
 MEDIAL_VK_GPU_CONSTANT kVisitedCount = 0u, kKeptCount = 1u, kContactCount = 2u, kFoundCount = 3u;
 MEDIAL_VK_GPU_CONSTANT kLineCount = 4u;         // lines narrowed
 MEDIAL_VK_GPU_CONSTANT kTestCount = 5u;         // distances from points to triangles: low word, high word
 MEDIAL_VK_GPU_CONSTANT kClusterTestCount = 7u;  // distances from points to clusters
+MEDIAL_VK_GPU_CONSTANT kNodeTestCount = 8u;     // nodes of the tree that walks have tested: low word, high word
 MEDIAL_VK_GPU_CONSTANT kMaxLevels = 24u;
-MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 8u * 24u;
+MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 12u * 24u;  // enough for those of thesis_types.h, too
 
 // The largest float, as bits: devices need not have infinities.
 MEDIAL_VK_GPU_CONSTANT kFarthestBits = 0x7f7fffffu;

@@ -13,11 +13,13 @@ uint invocation_index() {
 
 // Statistics of this level, for kernels that declare `counters`.
 #define COUNT(which, number) atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + (which)], number)
-#define COUNT_TESTS(number)                                                     \
-  {                                                                             \
-    uint more = number, before = COUNT(kTestCount, more);                       \
-    if (before + more < before) COUNT(kTestCount + 1u, 1u);                     \
+// The same in two words.
+#define COUNT_LONG(which, number)                               \
+  {                                                             \
+    uint more = number, before = COUNT(which, more);            \
+    if (before + more < before) COUNT((which) + 1u, 1u);        \
   }
+#define COUNT_TESTS(number) COUNT_LONG(kTestCount, number)
 
 // Between the directions at the ends of a line that is worth asking: twice the object angle, or,
 // where one of them is deep, what is asked there, if that is less.

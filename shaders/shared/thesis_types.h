@@ -65,8 +65,10 @@ MEDIAL_VK_GPU_CONSTANT kThesisStillActive = 24u;
 MEDIAL_VK_GPU_CONSTANT kThesisRetractions = 25u;
 MEDIAL_VK_GPU_CONSTANT kThesisFound = 26u;
 MEDIAL_VK_GPU_CONSTANT kThesisQueries = 27u;      // asked one by one; those of the flux follow from the spheres
-MEDIAL_VK_GPU_CONSTANT kThesisLevels = 28u;       // per level: visited, kept, spheres
-MEDIAL_VK_GPU_CONSTANT kThesisCountsPerLevel = 3u;
+MEDIAL_VK_GPU_CONSTANT kThesisLevels = 28u;       // per level: visited, kept, spheres, and kThesisTests
+MEDIAL_VK_GPU_CONSTANT kThesisCountsPerLevel = 11u;
+// Up to the end of the level: kNodeTests and kTriangleTests (tree_types.h) of walks for one query, then those of packets.
+MEDIAL_VK_GPU_CONSTANT kThesisTests = 3u;
 
 #ifdef __cplusplus
 }  // namespace medial_vk::gpu

@@ -28,6 +28,9 @@ float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
   return dot(outside, outside);
 }
 
+// What the walks of an invocation have tested: boxes or moments of the tree's nodes, and triangles.
+uint tested_nodes = 0u, tested_triangles = 0u;
+
 // Every walk goes in rounds: down at most kDescents nodes, through one leaf, back over at most kPops entries of the
 // stack. lavapipe ends all loops of an invocation silently after 65,535 iterations, and it counts for eight invocations
 // together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum, whatever

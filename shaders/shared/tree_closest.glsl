@@ -43,6 +43,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
       size += uint(inner && far <= hit.squared_distance);
       uint next = near <= hit.squared_distance ? (swapped ? place_1 : place_0) : kSkipped;
       place = inner ? next : place;
+      tested_nodes += inner ? 2u : 0u;
       if (place >= kLeaf || ++descents == kDescents) break;
     }
     bool leaf = is_leaf(place), down = place < kLeaf;
@@ -59,6 +60,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
       best_index = nearer ? index : best_index;
       if (++i >= count) break;
     }
+    tested_triangles += count;
     bool stop = any && hit.triangle != 0xffffffffu;
     uint pops = 0u;
     for (;;) {

@@ -28,6 +28,8 @@ float radius;
 float bound;  // squared: nothing further from the centre is of interest to any point
 uint stack_size;
 uint iterations;
+// Tested against the ball around the packet, and against every point.
+uint triangles_for_packet = 0u, triangles_for_points = 0u;
 
 // Of the ball around the packet with which it meets everything that a point may be nearest to. 1e-6: the bound and the
 // distances compared with it are rounded some ten times.
@@ -67,6 +69,7 @@ uint pop_place() {
     vec4 lower = tree_texel(2u * entry.x), upper = tree_texel(2u * entry.x + 1u);
     bool near = box_is_near(lower.xyz, upper.xyz);
     place = finished ? kFinished : tree_place(lower, upper);
+    tested_nodes += finished ? 0u : 1u;
     ++iterations;
     if (finished || team_any(near)) break;
   }
@@ -89,6 +92,7 @@ void push_children(uint node) {
   if (hit) stack[stack_size + rank] = uvec2(child, floatBitsToUint(d));
   team_barrier();
   stack_size += count;
+  tested_nodes += kArity;
   iterations += 1u;
 }
 
@@ -109,9 +113,11 @@ void test_leaf(uint place) {
     TriangleFrame own = load_frame(first + start + min(lane % kArity, last));
     float d = squared_distance_to_frame(centre, own, 1.0);
     uint waiting = team_ballot(lane <= last && lane < kArity && d <= bound);
+    triangles_for_packet += last + 1u;
     for (;;) {
       uint i = min(uint(findLSB(waiting)), last);  // none: one test for nothing
       waiting &= waiting - 1u;
+      ++triangles_for_points;
       TriangleFrame frame =
           TriangleFrame(team_read(own.a, i), team_read(own.t, i), team_read(own.s, i), team_read(own.n, i),
                         team_read(own.edges, i));

@@ -1,5 +1,6 @@
 // The kernel of find_closest_in_packets*.comp.
 #define QUERY_STORAGE_BUFFERS 11
+#define COUNTS_CONSTANT 4
 #include "tree_query.glsl"
 #include "closest_result.glsl"
 #define FRAME_STORAGE_BINDING 8
@@ -37,6 +38,12 @@ void main() {
   enclose_packet();
   update_bound();
   bool complete = team_is_whole() && walk_packet();
+  // One lane speaks for all about nodes and balls around packets, each about its own points.
+  uint points_asked = 0u;
+  FOR_EACH_POINT points_asked += uint(asked[k] != 0u);
+  tested_triangles = points_asked * triangles_for_points + (team_lane() == 0u ? triangles_for_packet : 0u);
+  tested_nodes = team_lane() == 0u ? tested_nodes : 0u;
+  count_tests();
   FOR_EACH_POINT {
     if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found_position(found[k]));
     if (asked[k] != 0u && !complete) leave_unresolved(asked[k] - 1u);

@@ -26,7 +26,9 @@ MEDIAL_VK_GPU_CONSTANT kUnresolvedWaiting = 0u;  // how many, while the list gro
 MEDIAL_VK_GPU_CONSTANT kUnresolvedGroups = 1u;   // three group counts, one workgroup for each
 MEDIAL_VK_GPU_CONSTANT kUnresolvedCount = 4u;    // how many, once it has been prepared
 MEDIAL_VK_GPU_CONSTANT kUnresolvedTotal = 5u;    // since creation
-MEDIAL_VK_GPU_CONSTANT kUnresolvedFirst = 8u;
+MEDIAL_VK_GPU_CONSTANT kNodeTests = 6u;          // since creation, where tests are counted: low word, high word
+MEDIAL_VK_GPU_CONSTANT kTriangleTests = 8u;      // likewise
+MEDIAL_VK_GPU_CONSTANT kUnresolvedFirst = 10u;
 
 // Push constants of the kernels around the flux through spheres.
 struct SampleConstants {

@@ -84,6 +84,7 @@ Winding winding_number(vec3 p, float tolerance) {
       size += uint(inner && both);
       uint next = both ? next_0 : min(next_0, next_1);  // kSkipped is the largest
       place = inner ? next : place;
+      tested_nodes += inner ? 2u : 0u;
       if (place >= kLeaf || ++descents == kDescents) break;
     }
     bool leaf = is_leaf(place), down = place < kLeaf;
@@ -94,6 +95,7 @@ Winding winding_number(vec3 p, float tolerance) {
       winding.number += i < count ? part : 0.0;
       if (++i >= count) break;
     }
+    tested_triangles += count;
     bool pop = !down && size > 0u;
     size -= uint(pop);
     place = down ? place : (pop ? places[min(size, kStackSize - 1u)] : kFinished);

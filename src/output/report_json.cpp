@@ -87,7 +87,8 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
                     {"found", level.found},
                     {"lines", level.lines},
                     {"triangle_tests", level.triangle_tests},
-                    {"cluster_tests", level.cluster_tests}});
+                    {"cluster_tests", level.cluster_tests},
+                    {"node_tests", level.node_tests}});
   }
   return json;
 }
@@ -95,16 +96,18 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
 // What a medial point costs, by all levels together.
 Json per_point_json(const ExtractionCounters& counters) {
   if (counters.found == 0) return nullptr;
-  double triangle_tests = 0, cluster_tests = 0, lines = 0;
+  double triangle_tests = 0, cluster_tests = 0, node_tests = 0, lines = 0;
   for (const ExtractionCounters::Level& level : counters.levels) {
     triangle_tests += static_cast<double>(level.triangle_tests);
     cluster_tests += static_cast<double>(level.cluster_tests);
+    node_tests += static_cast<double>(level.node_tests);
     lines += static_cast<double>(level.lines);
   }
   const auto points = static_cast<double>(counters.found);
   return {{"queries", static_cast<double>(counters.queries) / points},
           {"triangle_tests", triangle_tests / points},
           {"cluster_tests", cluster_tests / points},
+          {"node_tests", node_tests / points},
           {"lines", lines / points},
           {"narrowing_steps", lines * counters.narrowing_steps / points}};
 }

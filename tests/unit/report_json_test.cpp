@@ -91,6 +91,7 @@ TEST(ReportJson, SaysWhatAPointCosts) {
   RunRecord record = some_record();
   EXPECT_EQ(json::parse(report_json(record))["per_point"]["lines"], 0);
   record.counters.levels[0].cluster_tests = 500;
+  record.counters.levels[1].node_tests = 750;
   record.counters.levels[0].triangle_tests = 1000;
   record.counters.levels[1].triangle_tests = 24000;
   record.counters.levels[1].lines = 750;
@@ -100,6 +101,7 @@ TEST(ReportJson, SaysWhatAPointCosts) {
   EXPECT_EQ(cost["queries"], 0.5);
   EXPECT_EQ(cost["triangle_tests"], 100);
   EXPECT_EQ(cost["cluster_tests"], 2);
+  EXPECT_EQ(cost["node_tests"], 3);
   EXPECT_EQ(cost["lines"], 3);
   EXPECT_EQ(cost["narrowing_steps"], 12);
   record.counters.found = 0;

@@ -101,11 +101,15 @@ struct ExtractionCounters {
     std::uint64_t contacts = 0;  ///< Sum of the lengths of the kept cells' contact lists.
     std::uint64_t found = 0;     ///< Voxels that got their point at this level (finest level and below).
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
-    /// The same: distances between points and triangles of contact lists, for dismissal and lines.
+    /// On a device: distances between points and triangles, of contact lists for dismissal and lines, of leaves where a
+    /// walk of the tree gets there (there winding numbers ask solid angles).
     std::uint64_t triangle_tests = 0;
-    /// The same: distances between points and clusters of triangles, where cells are large; `contacts` counts clusters
-    /// there.
+    /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts` counts
+    /// clusters there.
     std::uint64_t cluster_tests = 0;
+    /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box once for all
+    /// its points.
+    std::uint64_t node_tests = 0;
   };
   std::vector<Level> levels;
   std::uint64_t found = 0;            ///< Finest voxels with a point.
