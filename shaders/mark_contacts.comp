@@ -163,11 +163,11 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
   }
 }
 
-void store(uint item, Marks marks) {
-  counts[item] = marks.count;
+void store(uint item, Marks marks, bool is_last) {
+  counts[item] = uvec4(marks.count.xy, is_last ? marks.partner : marks.count.z, marks.count.w);
   axes[item] = marks.axis;
   nearest[item] = marks.first;
-  states[item].x = marks.partner;  // until settle()
+  if (!is_last) states[item].x = marks.partner;  // until settle()
 }
 
 Marks stored(uint item) { return Marks(counts[item], axes[item], nearest[item], states[item].x); }
@@ -188,11 +188,11 @@ bool is_behind(Witness w) {
 }
 
 // What becomes of a child, once all contacts have been seen.
-void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, float nearest_distance, uvec4 count,
-            float least_cosine) {
+void settle(uint item, vec3 centre, uint parent_flags, Marks marks) {
   COUNT(kVisitedCount, 1u);
-  float theta = dismissal_angle(nearest_distance);
-  bool is_empty = least_cosine > cosine(theta) + kAxisSlack;
+  uvec4 count = marks.count;
+  float nearest_distance = uintBitsToFloat(marks.first.x), theta = dismissal_angle(nearest_distance);
+  bool is_empty = marks.axis.w > cosine(theta) + kAxisSlack;
   uint flags = parent_flags & kCellInside;
   if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
   bool asks = must_ask_side(flags, nearest_distance);
@@ -203,7 +203,7 @@ void settle(uint item, vec3 centre, uint parent_flags, uint nearest_triangle, fl
     asks = !inside;
   }
   states[item] = is_empty ? uvec4(0u) : uvec4(1u, count.x, (count.x + 31u) / 32u, flags);
-  bool is_kept = !is_empty && incompatible(obedience_of(nearest_triangle, centre, theta),
+  bool is_kept = !is_empty && incompatible(obedience_of(marks.first.y, centre, theta),
                                            obedience_of(count.z, centre, theta));
   // Their order does not matter: every answer goes to its own state.
   if (!is_empty && !is_kept) open[atomicAdd(counters[kOpen], 1u)] = item;
@@ -232,25 +232,22 @@ void main() {
   float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
   Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
-  Marks marks;
-  uint walks = 0u;
-  for (;;) {
-    marks = mark(parent, child, centre, front, back, prism, begin, end, before);
-    store(item, marks);
-    ++walks;
+  uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
+  for (uint walks = 1u;; ++walks) {
+    Marks marks = mark(parent, child, centre, front, back, prism, begin, end, before);
     bool is_inside = in_parent || (marks.count.w & kSeenInFront) == 0u;
     bool is_wrong = prism.is_asked && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
     prism.is_asked = prism.is_asked && !is_wrong;
-    if (!is_so_of_any(is_wrong)) break;
+    if (is_so_of_any(is_wrong)) continue;
+    // In the loop, as the walks of others that share its vector may change what a lane has when it leaves
+    // (docs/reliability.md).
+    store(item, marks, is_last);
+    if (!is_last) break;
+    if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
+    if (is_in_grid(coordinates))
+      settle(item, centre, parent.flags, marks);
+    else
+      states[item] = uvec4(0u);
+    break;
   }
-  // The walks of others that share its vector may have changed what a lane had when it left (docs/reliability.md).
-  marks = stored(item);
-  if (!is_last) return;
-  counts[item].z = marks.partner;
-  uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
-  if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
-  if (is_in_grid(coordinates))
-    settle(item, centre, parent.flags, marks.first.y, uintBitsToFloat(marks.first.x), marks.count, marks.axis.w);
-  else
-    states[item] = uvec4(0u);
 }
