@@ -22,9 +22,8 @@ layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };  // kept 
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most
 const uint kDirectionSweeps = 3;  // with directions too; two more for every level below the finest voxel
 // lavapipe ends the loops of an invocation after 65,535 iterations in all, counted for up to 16 neighbours together. A
-// sweep of one takes at most an iteration per entry of its list and, as each neighbour may skip empty words at another
-// time, sixteen per word; a neighbour may make s sweeps of kLoopBudget / s each. For up to 29 sweeps that is less than
-// kLoopBudget (1 + 1/2 + ... + 1/29), or 63,400. Cells with lists too long for a sweep are kept unproved.
+// sweep takes at most an iteration per entry of the list and one per word of its mask; a neighbour may make s sweeps of
+// kLoopBudget / s each. For up to 29 sweeps that is less than kLoopBudget (1 + 1/2 + ... + 1/29), or 63,400. Cells with lists too long for a sweep are kept unproved.
 const uint kLoopBudget = 16000;
 
 float theta, cos_theta;
@@ -51,32 +50,38 @@ float violation(uint t, vec3 axis, out vec3 help) {
   return min(by_normal, by_direction);
 }
 
-// One sweep over the contacts: the worst violation, the contact that makes it, and the vector that would help it.
+// One sweep over the contacts, an iteration for each and for each word without any: the worst violation, the contact
+// that makes it, and the vector that would help it.
 float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, bool directions, out vec3 towards,
                       out uint offender) {
   float worst = -2.0;
   towards = axis;
   offender = 0u;
-  uint w = 0, word = masks[word_base];
+  uint w = 0u, word = masks[word_base];
   for (;;) {
-    while (word == 0u && ++w < word_count) word = masks[word_base + w];
-    if (word == 0u) return worst;
-    uint t = lists[parent.list_begin + 32u * w + uint(findLSB(word))];
-    word &= word - 1u;
+    bool counts = word != 0u;
+    uint bit = counts ? uint(findLSB(word)) : 0u;
+    uint t = lists[parent.list_begin + 32u * w + bit];
     vec3 help;
     float v;
     if (directions)
       v = violation(t, axis, help);
     else
       v = normal_violation(t, axis, help);
-    towards = v > worst ? help : towards;
-    offender = v > worst ? t : offender;
-    worst = max(worst, v);
+    bool is_worse = counts && v > worst;
+    towards = is_worse ? help : towards;
+    offender = is_worse ? t : offender;
+    worst = is_worse ? v : worst;
+    word &= word - 1u;
+    bool next = word == 0u;
+    w += next ? 1u : 0u;
+    word = next && w < word_count ? masks[word_base + w] : word;
+    if (w >= word_count) return worst;
   }
 }
 
 bool provably_empty(Cell parent, uint item, uint word_base, uint word_count) {
-  uint sweeps = kLoopBudget / (parent.list_count + 16u * word_count + 16u);
+  uint sweeps = kLoopBudget / (parent.list_count + word_count);
   vec3 axis = unit_or_zero(axes[item].xyz), towards;
   uint sweep = 0, offender;
   Obedience last = obedience_of(nearest[item].y, centre, theta);
