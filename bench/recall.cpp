@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,6 +89,17 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Samples that climb may end at the same corner of the medial surface. Those are told apart that are in different
+/// cubes of this side.
+std::size_t count_apart(const std::vector<MedialSample>& samples, double side) {
+  std::set<std::array<long long, 3>> places;
+  for (const MedialSample& s : samples) {
+    places.insert(
+        {std::llround(s.centre.x() / side), std::llround(s.centre.y() / side), std::llround(s.centre.z() / side)});
+  }
+  return places.size();
+}
+
 /// As many as are wanted of those that are also clear of their voxel's faces: a share of 0.9 along each axis.
 std::vector<MedialSample> draw_samples(const Subject& subject, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -100,8 +114,8 @@ std::vector<MedialSample> draw_samples(const Subject& subject, const Options& op
   const reference::Tree tree(to_reference(subject.mesh));
   std::vector<MedialSample> samples = draw_medial_samples(tree, request);
   const double seconds = seconds_since(start);
-  fmt::print(stderr, "{}: {} samples in {:.1f} s, {:.0f} a second\n", subject.name, samples.size(), seconds,
-             static_cast<double>(samples.size()) / seconds);
+  fmt::print(stderr, "{}: {} samples, {} of them apart, in {:.1f} s, {:.0f} a second\n", subject.name, samples.size(),
+             count_apart(samples, 1e-9 * tree.longest_side()), seconds, static_cast<double>(samples.size()) / seconds);
   return samples;
 }
 
@@ -122,11 +136,22 @@ void log(const RecallRow& row, double seconds) {
   if (row.mode == Mode::kCertified && row.undecided_listed) name_all("lost", row.first_lost);
 }
 
+/// Where all that is salient is next to the centre of the box, that is a corner of voxels if their number is even.
+std::vector<std::uint32_t> resolutions_for(const Subject& subject, const std::vector<std::uint32_t>& wanted) {
+  std::vector<std::uint32_t> resolutions;
+  for (const std::uint32_t resolution : wanted) {
+    resolutions.push_back(resolution);
+    if (subject.salient_at_a_point && resolution % 2 == 0) resolutions.push_back(resolution + 1);
+  }
+  return resolutions;
+}
+
 Status measure(const Subject& subject, const Options& options, Context* context, std::vector<RecallRow>& rows) {
   const std::vector<MedialSample> samples = draw_samples(subject, options);
   for (const std::string& mode : options.modes) {
     const bool thesis = mode == "thesis";
-    for (const std::uint32_t resolution : thesis ? options.thesis_resolutions : options.resolutions) {
+    for (const std::uint32_t resolution :
+         resolutions_for(subject, thesis ? options.thesis_resolutions : options.resolutions)) {
       for (const double angle : options.angles) {
         const auto start = std::chrono::steady_clock::now();
         ExtractionParameters parameters;

@@ -5,7 +5,7 @@
 // smallest enclosing balls).
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 10
+#define TRIANGLE_TEXEL_BINDING 11
 #include "triangles.glsl"
 #include "axis_test.glsl"
 
@@ -18,13 +18,16 @@ layout(set = 0, binding = 6) readonly buffer Open { uint open[]; };
 layout(set = 0, binding = 7) readonly buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 8) buffer States { uvec4 states[]; };     // kept, list entries, mask words, flags
 layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };  // kept children that do not know their side
+layout(set = 0, binding = 10) readonly buffer Counts { uvec4 counts[]; };  // y: contacts that touch
 
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most
 const uint kDirectionSweeps = 3;  // with directions too; two more for every level below the finest voxel
 // lavapipe ends the loops of an invocation after 65,535 iterations in all, counted for up to 16 neighbours together. A
-// sweep takes at most an iteration per entry of the list and one per word of its mask; a neighbour may make s sweeps of
-// kLoopBudget / s each. For up to 29 sweeps that is less than kLoopBudget (1 + 1/2 + ... + 1/29), or 63,400. Cells with lists too long for a sweep are kept unproved.
-const uint kLoopBudget = 16000;
+// sweep takes an iteration per entry of the list at most (one for a word without any, which stands for some), so one that
+// may make s sweeps takes kLoopBudget / s for each. Of the up to 6 sweeps by normals the k-th is made by those with s >= k
+// only, and all meet before the sweeps by directions, of which that is true as well, up to 23 (10 levels below the
+// finest voxel): less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 + 1/2 + ... + 1/23), or 64,400, with the sweeps themselves. Cells with lists too long for a sweep are kept unproved.
+const uint kLoopBudget = 10400;
 
 float theta, cos_theta;
 vec3 centre, to_nearest;
@@ -80,10 +83,11 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
   }
 }
 
-bool provably_empty(Cell parent, uint item, uint word_base, uint word_count) {
-  uint sweeps = kLoopBudget / (parent.list_count + word_count);
+// `tests`: distances asked.
+bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, inout uint tests) {
+  uint sweeps = kLoopBudget / parent.list_count;
   vec3 axis = unit_or_zero(axes[item].xyz), towards;
-  uint sweep = 0, offender;
+  uint sweep = 0, offender, touching = counts[item].y;
   Obedience last = obedience_of(nearest[item].y, centre, theta);
   for (; sweep < min(kNormalSweeps, sweeps); ++sweep) {
     float worst = worst_violation(parent, word_base, word_count, axis, false, towards, offender);
@@ -98,6 +102,7 @@ bool provably_empty(Cell parent, uint item, uint word_base, uint word_count) {
   if (dot(to_nearest, to_nearest) > step.circumradius * step.circumradius) axis = unit_or_zero(to_nearest);
   for (uint extra = 0; extra < min(kDirectionSweeps + 2u * step.depth, sweeps - min(sweep, sweeps)); ++extra) {
     float worst = worst_violation(parent, word_base, word_count, axis, true, towards, offender);
+    tests += touching;
     if (worst < 0.0) return true;
     if (worst > 3.0) return false;  // a contact without any usable direction
     Obedience next = obedience_of(offender, centre, theta);
@@ -119,7 +124,10 @@ void main() {
   theta = dismissal_angle(nearest_distance);
   cos_theta = cosine(theta) + kAxisSlack;
   uint word_count = (parent.list_count + 31u) / 32u;
-  if (provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count))
+  uint tests = 0u;
+  bool is_empty = provably_empty(parent, item, 8u * parent.word_begin + (item % 8) * word_count, word_count, tests);
+  COUNT_TESTS(tests);
+  if (is_empty)
     states[item] = uvec4(0);
   else if (must_ask_side(states[item].w, nearest_distance))
     asked[atomicAdd(counters[kAsked], 1u)] = item;  // in any order: every answer goes to its own state

@@ -119,6 +119,7 @@ void main() {
     ask_masked(cell, sample_mask_begin(cell, item % kGroupsPerSphere), entry, end);
   } else {
     ask_all(cell, entry, end);
+    COUNT_TESTS(kPointsPerLane * (end - entry));
   }
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k)
     nearest[result_of(item, k)] = uvec2(floatBitsToUint(best[k]), triangle[k]);

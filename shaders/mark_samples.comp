@@ -13,7 +13,7 @@
 
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
-layout(set = 0, binding = 3) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) buffer Work { uint work[]; };  // contacts in the mask of a group
@@ -77,4 +77,5 @@ void main() {
     if (entry >= end) break;
   }
   work[index] = count;
+  if (group == 0u) COUNT_TESTS(end - step.first_entry);
 }

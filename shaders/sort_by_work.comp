@@ -2,10 +2,11 @@
 #extension GL_GOOGLE_include_directive : enable
 // Invocations that walk together wait for the one that has most to ask. So lines and groups of flux samples are asked
 // in another order: in blocks of 1024, those that ask most contacts first, those that ask none last. Every answer goes
-// to a place of its own, so that the order changes nothing else, and equals may come in any.
+// to a place of its own, so that the order changes nothing else, and equals may come in any. Of flux samples (its second
+// task) it counts the distances, for all groups together; who asks for lines counts them there.
 #include "step.glsl"
 
-layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
+layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) readonly buffer Work { uint work[]; };  // contacts that an item asks
 layout(set = 0, binding = 2) writeonly buffer Order { uint order[]; };
 
@@ -30,10 +31,13 @@ void main() {
   // Eight invocations go through a run of items: where they are one vector, those of a class stay in their order.
   uint first = kSortedPerLane * (lane & ~7u) + (lane & 7u);
   uint place[kSortedPerLane];  // class and, above it, number in the class
+  uint contacts = 0u;
   for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u) {
+    contacts += work[block + i];
     uint c = class_of(work[block + i]);
     place[k] = c + kClasses * atomicAdd(places[c], 1u);
   }
+  if (step.second_task != 0u) COUNT_TESTS(kFluxGroup * contacts);
   barrier();
   if (lane == 0u) {
     uint sum = 0u;

@@ -13,6 +13,8 @@ namespace {
 
 using gpu::uint;
 
+static_assert(gpu::kStatistics + gpu::kStatisticsPerLevel * gpu::kMaxLevels <= gpu::kCounterCount);
+
 constexpr uint kTopCellsAlongSide = 8;
 // Contact lists hold clusters as long as a cell's ball is this much larger than half of them.
 constexpr double kCellPerCluster = 1.0;

@@ -121,7 +121,8 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   run(r,
       {"dismiss_cells",
        {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range()},
+        nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range(),
+        counts_.range()},
        Reads::kTriangles},
       {gpu::kOpen}, step);
   decide_sides_and_make_room(r, step, level);
@@ -337,7 +338,9 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
              groups, step);
   gpu::StepConstants of_groups = step;
   of_groups.first_item = first * kGroups;
-  sort_by_work(r, of_groups, groups);
+  gpu::StepConstants counted = of_groups;
+  counted.second_task = 1;
+  sort_by_work(r, counted, groups);
   // Samples are where they are: no buffer holds them.
   find_nearest(r, Source::kSamples, groups, of_groups, cells_[2], lists_[2], opposites_, sample_nearest_);
   clear_counters(r, {gpu::kAsked});

@@ -15,6 +15,8 @@ namespace {
 
 using gpu::uint;
 
+static_assert(gpu::kThesisLevels + gpu::kThesisCountsPerLevel * 4 <= gpu::kCounterCount);
+
 constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
 
 // Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).

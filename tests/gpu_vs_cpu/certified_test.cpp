@@ -99,6 +99,12 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
     const std::uint64_t most = 8 * (c.levels[level - 1].kept - c.levels[level - 1].found);
     EXPECT_LE(c.levels[level].visited, most) << "level " << level;
   }
+  // Some top cells of a solid are clear of its boundary: their sides are asked of the tree. Flux asks the list: every
+  // sample of every point has a nearest triangle.
+  if (closed) {
+    EXPECT_GT(c.levels[0].node_tests, 0u);
+  }
+  EXPECT_GE(c.levels[finest].triangle_tests, 48 * c.found);
   EXPECT_EQ(found, c.found + result.certify.rejected);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_EQ(result.certify.passed, result.extraction.spheres.size());

@@ -158,6 +158,15 @@ TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
   ASSERT_EQ(whole.spheres.size(), parts.spheres.size());
   for (std::size_t i = 0; i < whole.spheres.size(); ++i) EXPECT_EQ(whole.spheres[i].centre, parts.spheres[i].centre);
   EXPECT_EQ(whole.counters.queries, parts.counters.queries);
+  ASSERT_EQ(whole.counters.levels.size(), parts.counters.levels.size());
+  for (std::size_t level = 0; level < whole.counters.levels.size(); ++level) {
+    const ExtractionCounters::Level &one = whole.counters.levels[level], &many = parts.counters.levels[level];
+    EXPECT_EQ(one.node_tests, many.node_tests) << "level " << level;
+    EXPECT_EQ(one.triangle_tests, many.triangle_tests) << "level " << level;
+    // Every cell that is visited asks for its nearest triangle, with a walk of its own.
+    EXPECT_GE(one.node_tests, 2 * one.visited) << "level " << level;
+    EXPECT_GE(one.triangle_tests, one.visited) << "level " << level;
+  }
   parameters.memory_budget = 1u << 10;
   EXPECT_EQ(extract_medial_spheres(*context_, solid.view(), parameters).error().code, ErrorCode::kOutOfMemory);
 }

@@ -122,6 +122,18 @@ TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
   }
 }
 
+TEST_F(TreeCounts, TheHighWordTakesWhatTheLowOneCannot) {
+  const TreeQueries queries = TreeQueries::create(context_->impl(), *device_, kQueries, {}, true).value();
+  const BufferRange list = queries.unresolved();
+  const Buffer words{list.buffer, list.size};
+  const Tests tests = tests_of(queries, {2, 2, 2, 0}, [&](Recorder& r) {
+    r.fill(words, gpu::kNodeTests * 4, 4, 0xffffffffu);
+    r.barrier();
+    queries.closest(r, QueryCount::of(kQueries), at_.range(), out_.range(), hits_.range());
+  });
+  EXPECT_EQ(tests.nodes, 0xffffffffull + 2 * kQueries);
+}
+
 TEST_F(TreeCounts, WhoIsNotAskedToCountDoesNot) {
   const TreeQueries queries = TreeQueries::create(context_->impl(), *device_, kQueries).value();
   const Tests tests = tests_of(queries, {0.5f, 0.5f, 0.02f, kFar}, [&](Recorder& r) {
