@@ -3,8 +3,8 @@
 // Without meshes: a flattened torus of 16,000 triangles, whose points are many and easy, and a torus with bumps of
 // 100,000, whose contact lists are long. An iteration of all benchmarks of a mesh is one extraction, so their times add
 // up, and what disturbs one disturbs all. The time of a kernel is the sum over its dispatches on all levels. Counters:
-// `share` of all kernels; of the sum of all, the distances between points and triangles a second (`triangle_tests` of the
-// report).
+// `share` of all kernels; of the sum of all, the distances between points and triangles a second (`triangle_tests` of
+// the report).
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

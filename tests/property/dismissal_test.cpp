@@ -238,9 +238,10 @@ TEST(MedialSampler, SamplesOfABoxTieBetweenTwoFaces) {
   }
 }
 
-// The faces of a geodesic sphere that are nearest to its centre lie opposite one another: the centre is the highest point
-// of the medial surface, and its object angle is pi/2. Samples stop at any corner on their way there. Balls lower by t at
-// most are within t / 0.79 of it: 0.79 is the least, over all directions, of the largest product with one of those normals.
+// The faces of a geodesic sphere that are nearest to its centre lie opposite one another: the centre is the highest
+// point of the medial surface, and its object angle is pi/2. Samples stop at any corner on their way there. Balls lower
+// by t at most are within t / 0.79 of it: 0.79 is the least, over all directions, of the largest product with one of
+// those normals.
 TEST(MedialSampler, SamplesOfASphereClimbPastCornersToItsCentre) {
   const PreparedMesh sphere = test::prepare(test::make_sphere(1, 320));
   const reference::Tree tree(to_reference(sphere));

@@ -160,8 +160,8 @@ std::optional<MedialSampler::Ball> MedialSampler::climb(const Ball& from) const 
   return std::nullopt;
 }
 
-// Of all threes of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest: along
-// the steepest of these seams. None is left where the distance has a maximum.
+// Of all threes of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest:
+// along the steepest of these seams. None is left where the distance has a maximum.
 std::optional<MedialSampler::Ball> MedialSampler::climb_from_corner(const Ball& corner) const {
   const std::vector<Contact> ties = contacts(corner);
   Ball seam = corner;

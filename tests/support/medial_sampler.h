@@ -10,8 +10,8 @@
 // On facets that stand for a smooth surface these balls mostly touch neighbouring facets, under a small object angle,
 // and the salient medial surface of a tube is a curve that no random ray meets. So a sample may climb: along the sheet
 // that its contacts share, until a third triangle ties; along that seam, until a fourth does. Ties are solved for by
-// Newton's method. Where all that is salient is next to one point, as in a sphere, it goes on along the steepest seam from
-// corner to corner.
+// Newton's method. Where all that is salient is next to one point, as in a sphere, it goes on along the steepest seam
+// from corner to corner.
 //
 // Whatever the way there, a sample is kept only after its ball has been looked at as a whole: its interior is empty but
 // for the tolerance, and its object angle is the largest between two triangles that tie within the tolerance.
@@ -69,7 +69,7 @@ struct SampleRequest {
   std::size_t wanted = 0;        ///< By angle; and no more than that between two of them.
   std::size_t most_tries = 100;  ///< Random points, as a multiple of `wanted`.
   std::uint64_t seed = 1;
-  unsigned threads = 0;  ///< 0: all. The samples do not depend on it.
+  unsigned threads = 0;       ///< 0: all. The samples do not depend on it.
   bool past_corners = false;  ///< Climb on where four contacts tie.
 };
 

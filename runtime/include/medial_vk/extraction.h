@@ -101,12 +101,12 @@ struct ExtractionCounters {
     std::uint64_t contacts = 0;  ///< Sum of the lengths of the kept cells' contact lists.
     std::uint64_t found = 0;     ///< Voxels that got their point at this level (finest level and below).
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
-    /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not those
-    /// of the features of pairs; and triangles in leaves that walks of the tree get to (of which winding numbers ask solid
-    /// angles).
+    /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not
+    /// those of the features of pairs; and triangles in leaves that walks of the tree get to (of which winding numbers
+    /// ask solid angles).
     std::uint64_t triangle_tests = 0;
-    /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts` counts
-    /// clusters there.
+    /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts`
+    /// counts clusters there.
     std::uint64_t cluster_tests = 0;
     /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box against the
     /// ball around its points and, if it gets there, once more for all of them; empty places of wide nodes count, too.
