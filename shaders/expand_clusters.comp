@@ -68,7 +68,7 @@ Witness witness_of(vec3 centre, uint triangle) {
 }
 
 void main() {
-  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint item = workgroup_index();
   uint lane = gl_LocalInvocationID.x;
   if (item >= 8u * counters[kParents] || counters[kOverflow] != 0u) return;
   uvec4 state = states[item];

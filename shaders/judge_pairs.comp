@@ -144,7 +144,7 @@ void classify(uint index, Cell cell, float d0, bool has_inner, Remains narrower,
 }
 
 void main() {
-  uint index = step.first_item + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint index = step.first_item + workgroup_index();
   bool exists = index < counters[kCells], classifies = step.second_task != 0u;
   Cell cell = cells[exists ? index : 0u];
   bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);

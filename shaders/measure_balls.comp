@@ -3,6 +3,7 @@
 // The share of each ball in a union of balls: its volume and surface in its power cell, in units of its radius. One
 // invocation per ball, in the order of the tree: neighbours run together.
 #include "ball_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { BallConstants push; };
@@ -13,8 +14,6 @@ layout(set = 0, binding = 3) writeonly buffer Results { MeasuredBall results[]; 
 #include "ball_walk.glsl"
 #include "ball_in_cell.glsl"
 
-uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
 // All that the last cut left lay beyond the plane: nothing is there, or a sliver of the cell's displacement.
 MeasuredBall empty_cell() {
   float moves = 2.0 * displacement();
@@ -23,7 +22,7 @@ MeasuredBall empty_cell() {
 }
 
 void main() {
-  own = push.first_ball + group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  own = push.first_ball + workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
   if (own >= push.end_ball) return;
   own_high = balls[own].high;
   own_middle = balls[own].middle;

@@ -6,13 +6,11 @@
 layout(local_size_x_id = 0) in;  // 1
 layout(set = 0, binding = 0) buffer Unresolved { uint unresolved[]; };
 
-const uint kRow = 32768u;  // groups along x; every device allows 65,535
-
 void main() {
   uint count = unresolved[kUnresolvedWaiting];
   unresolved[kUnresolvedWaiting] = 0u;
-  unresolved[kUnresolvedGroups] = min(count, kRow);
-  unresolved[kUnresolvedGroups + 1u] = max((count + kRow - 1u) / kRow, 1u);
+  unresolved[kUnresolvedGroups] = min(count, kGroupsInRow);
+  unresolved[kUnresolvedGroups + 1u] = max((count + kGroupsInRow - 1u) / kGroupsInRow, 1u);
   unresolved[kUnresolvedGroups + 2u] = 1u;
   unresolved[kUnresolvedCount] = count;
   unresolved[kUnresolvedTotal] += count;

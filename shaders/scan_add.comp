@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : enable
 // Prefix sums of uvec4, step 3 of 3: the exclusive sum of every element.
 #include "gpu_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;  // 64
 layout(push_constant) uniform Push { ScanConstants scan; };
@@ -13,7 +14,7 @@ layout(set = 0, binding = 3) writeonly buffer Sums { uvec4 sums[]; };
 shared uvec4 lane_sums[64];
 
 void main() {
-  uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint block = workgroup_index();
   uint lane = gl_LocalInvocationID.x;
   uint count = counters[scan.items_counter] * scan.items_multiplier;
   uint begin = 1024u * block + 16u * lane;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : enable
 // Prefix sums of uvec4, step 1 of 3: the sum of each block of 1024 elements (Blelloch 1990).
 #include "scan.glsl"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;  // 64
 layout(push_constant) uniform Push { ScanConstants scan; };
@@ -12,7 +13,7 @@ layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 shared uvec4 lane_sums[64];
 
 void main() {
-  uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  uint block = workgroup_index();
   uint count = counters[scan.items_counter] * scan.items_multiplier;
   uint begin = 1024u * block + 16u * gl_LocalInvocationID.x;
   uvec4 sum = uvec4(0);

@@ -233,7 +233,8 @@ void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
   if (!parameters_.kernel_times) r.begin_stage(stage);
 }
 
-VkDeviceSize CertifiedPipeline::prepare(Recorder& r, const gpu::DispatchConstants& constants) {
+VkDeviceSize CertifiedPipeline::prepare(Recorder& r, gpu::DispatchConstants constants) {
+  constants.threads = context_->dispatch_threads;
   // Kernels add to these while others read them.
   if (constants.items_counter == gpu::kAsked || constants.items_counter == gpu::kOpen) arguments_.counters_change();
   return arguments_.offset_of(r, constants);

@@ -157,7 +157,7 @@ class CertifiedPipeline {
   // Counters change: who needs what is counted here, or may not go on where it does not fit, says so.
   void scan(Recorder& r, const gpu::ScanConstants& constants);
   // Where in arguments_ the group counts are.
-  VkDeviceSize prepare(Recorder& r, const gpu::DispatchConstants& constants);
+  VkDeviceSize prepare(Recorder& r, gpu::DispatchConstants constants);
 
   Context::Impl* context_;
   const DeviceMesh* mesh_;

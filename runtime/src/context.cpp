@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <thread>
 #include <utility>
 
 #include "context_impl.h"
@@ -76,7 +77,9 @@ void Context::Impl::query_properties() {
   subgroup.pNext = nullptr;  // the chain was on this stack frame
 
   limits = query.properties.limits;
-  has_lockstep_lanes = driver_properties.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && subgroup.subgroupSize % 8 == 0 &&
+  const bool is_llvmpipe = driver_properties.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+  dispatch_threads = is_llvmpipe ? std::max(1u, std::thread::hardware_concurrency()) : 1;
+  has_lockstep_lanes = is_llvmpipe && subgroup.subgroupSize % 8 == 0 &&
                        (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
   max_allocation_bytes = maintenance.maxMemoryAllocationSize;
   vkGetPhysicalDeviceMemoryProperties(physical_device, &memory);

@@ -46,6 +46,9 @@ class Context::Impl {
   // True on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it. Tests
   // clear it.
   bool has_lockstep_lanes = false;
+  // Into so many stretches of neighbouring workgroups a dispatch is cut, one for each thread of a processor that runs
+  // shaders (llvmpipe); 1: it is not. If it is wrong, threads are worked unevenly. Tests change it.
+  std::uint32_t dispatch_threads = 1;
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;
   // Written by the validation layer from any thread (through atomic_ref); this object must not move.

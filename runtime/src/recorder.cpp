@@ -5,12 +5,11 @@
 #include <utility>
 
 #include "context_impl.h"
+#include "gpu_types.h"
 
 namespace medial_vk {
 namespace {
 
-/// Groups in a row before a dispatch goes to a second row. Vulkan promises 65,535 per dimension.
-constexpr std::uint32_t kMaxGroupsPerRow = 32768;
 constexpr std::uint32_t kFirstPoolSets = 32;
 constexpr std::uint32_t kMaxPoolSets = 1024;
 
@@ -173,7 +172,7 @@ void Recorder::dispatch(const ProgramKey& key, std::span<const BufferRange> buff
   if (!status_.ok() || rehearses()) return;
   const std::uint64_t groups = items / key.workgroup_size + (items % key.workgroup_size != 0 ? 1 : 0);
   const std::uint64_t per_row =
-      std::min<std::uint64_t>({groups, kMaxGroupsPerRow, context_->limits.maxComputeWorkGroupCount[0]});
+      std::min<std::uint64_t>({groups, gpu::kGroupsInRow, context_->limits.maxComputeWorkGroupCount[0]});
   const std::uint64_t rows = groups / per_row + (groups % per_row != 0 ? 1 : 0);
   if (rows > context_->limits.maxComputeWorkGroupCount[1]) {
     return fail(recording_error(key.shader, std::to_string(items) + " items are more than one dispatch can run"));

@@ -206,6 +206,7 @@ VkDeviceSize ThesisPipeline::prepare(Recorder& r, Items items, std::uint32_t div
   constants.first_item = first;
   constants.item_limit = count;
   constants.list_counter = gpu::kNoCounter;
+  constants.threads = context_->dispatch_threads;
   constants.argument = next_argument_++ % kMostArguments;
   const std::array<BufferRange, 3> buffers = {counters_.range(), arguments_.range(), stop_->range()};
   r.dispatch({"prepare_dispatch", 3, 0, sizeof(constants), 1, {}}, buffers, {}, bytes_of(constants), 1);

@@ -189,8 +189,11 @@ struct DispatchConstants {
   uint list_counter;   // counter with the longest list, or kNoCounter
   uint first_entry;    // nothing to do if no list is longer than this
   uint entry_limit;    // the rounds that are recorded read no list beyond this
+  uint threads;        // of the device, each of which takes one stretch of a dispatch; 1: no such device
   uint argument;       // index of the three words to write
 };
+MEDIAL_VK_GPU_CONSTANT kGroupsInRow = 32768u;  // at most; every device allows 65,535
+MEDIAL_VK_GPU_CONSTANT kGroupsInRun = 16u;     // of which a row holds a whole number, if there are several rows
 
 // Arguments of prepare_dispatches: which rows of the table of DispatchConstants, and what it does before.
 struct PrepareConstants {

@@ -3,8 +3,6 @@
 #ifndef MEDIAL_VK_PREPARE_GLSL
 #define MEDIAL_VK_PREPARE_GLSL
 
-const uint kRow = 32768u;  // groups along x; every device allows 65,535
-
 uint longest_list(DispatchConstants d) {
   return d.list_counter == kNoCounter ? 0xffffffffu : counters[d.list_counter];
 }
@@ -14,18 +12,31 @@ void check_rounds(DispatchConstants d) {
   if (d.list_counter != kNoCounter && longest_list(d) > d.entry_limit) atomicOr(counters[kOverflow], kTooFewRounds);
 }
 
+// Into how many rows groups are put (workgroup_index.glsl). If they do not divide evenly, some are added, which find
+// nothing to do: not where they would find what comes after a limit.
+uint rows_of(uint groups, uint threads, bool is_limited) {
+  uint rows = (groups + kGroupsInRow - 1u) / kGroupsInRow, deal = threads * kGroupsInRun;
+  bool deals = groups >= 2u * deal && (groups % deal == 0u || !is_limited);
+  return max(deals ? max(rows, threads) : rows, 1u);
+}
+
+uint columns_of(uint groups, uint rows) {
+  uint deal = rows * kGroupsInRun;
+  return rows == 1u ? groups : (groups + deal - 1u) / deal * kGroupsInRun;
+}
+
 void write_arguments(DispatchConstants d) {
   uint all = counters[d.items_counter] * d.items_multiplier;
-  uint items = min(all - min(all, d.first_item), d.item_limit);
+  uint left = all - min(all, d.first_item), items = min(left, d.item_limit);
   bool needed = counters[kOverflow] == 0u && stop == 0u && all >= d.least_items && longest_list(d) > d.first_entry;
   uint lanes = (items + d.items_divisor - 1u) / d.items_divisor;
   uint groups = needed ? (lanes + d.group_size - 1u) / d.group_size : 0u;
   // Further rounds go on with the same queries.
   if (needed && d.first_entry == 0u && d.queries_per_item > 0u)
     atomicAdd(counters[kQueries], items * d.queries_per_item);
-  uint rows = (groups + kRow - 1u) / kRow;
-  arguments[3u * d.argument] = min(groups, kRow);
-  arguments[3u * d.argument + 1u] = max(rows, 1u);
+  uint rows = rows_of(groups, d.threads, items < left);
+  arguments[3u * d.argument] = columns_of(groups, rows);
+  arguments[3u * d.argument + 1u] = rows;
   arguments[3u * d.argument + 2u] = 1u;
 }
 

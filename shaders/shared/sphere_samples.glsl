@@ -2,6 +2,7 @@
 #ifndef MEDIAL_VK_SPHERE_SAMPLES_GLSL
 #define MEDIAL_VK_SPHERE_SAMPLES_GLSL
 #include "tree_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { SampleConstants push; };
@@ -12,9 +13,7 @@ layout(set = 0, binding = 1) readonly buffer Spheres { vec4 spheres[]; };  // ce
 const float kAnyDistance = 3.4e38;  // squared
 const float kPassOver = -1.0;
 
-uint invocation_index() {
-  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
+uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 uint sphere_count() { return push.items_counter == kNoCounter ? push.items : counters[push.items_counter]; }
 

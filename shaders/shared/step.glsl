@@ -2,14 +2,12 @@
 #ifndef MEDIAL_VK_STEP_GLSL
 #define MEDIAL_VK_STEP_GLSL
 #include "gpu_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { StepConstants step; };
 
-// Groups beyond the limit of the first dimension go to the second.
-uint invocation_index() {
-  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
+uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 // Statistics of this level, for kernels that declare `counters`.
 #define COUNT(which, number) atomicAdd(counters[kStatistics + kStatisticsPerLevel * step.level + (which)], number)

@@ -2,6 +2,7 @@
 #ifndef MEDIAL_VK_THESIS_GLSL
 #define MEDIAL_VK_THESIS_GLSL
 #include "thesis_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { ThesisConstants step; };
@@ -10,10 +11,7 @@ layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
 const float kAnyDistance = 3.4e38;  // squared
 const float kPassOver = -1.0;
 
-// Groups beyond the limit of the first dimension go to the second.
-uint invocation_index() {
-  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
+uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 uint item_count() { return counters[step.items_counter] * step.items_multiplier; }
 
 vec3 unit_or_zero(vec3 v) {

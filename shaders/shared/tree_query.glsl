@@ -3,6 +3,7 @@
 #ifndef MEDIAL_VK_TREE_QUERY_GLSL
 #define MEDIAL_VK_TREE_QUERY_GLSL
 #include "tree_types.h"
+#include "workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { QueryConstants push; };
@@ -22,8 +23,7 @@ layout(set = 0, binding = 2) readonly buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) buffer Unresolved { uint unresolved[]; };
 layout(set = 0, binding = 4) readonly buffer Queries { vec4 queries[]; };
 
-// Groups beyond the limit of the first dimension go to the second.
-uint group_index() { return push.first_group + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+uint group_index() { return push.first_group + workgroup_index(); }
 uint invocation_index() { return group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
 uint query_count() {
