@@ -3,12 +3,14 @@
 #extension GL_EXT_control_flow_attributes : enable
 // Writes the kept children of parents whose lists are of clusters, with lists of triangles: those of the contacts'
 // triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One workgroup
-// of eight lanes per child.
+// of eight lanes per child. Triangles dismiss more than clusters do (axis_test.glsl): a child that is empty, as is seen
+// only now, keeps its place, with an empty list.
 #include "lanes.glsl"
 #include "step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 12
 #include "triangles.glsl"
+#include "dismissal.glsl"
 #include "witness.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Clusters { Cluster clusters[]; };
@@ -22,7 +24,7 @@ layout(set = 0, binding = 7) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 9) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 10) buffer Lists { uint lists[]; };
-// x: between rounds, entries so far; z: cluster of the second witness
+// x: between rounds, entries so far; z: cluster of the second witness; w: mean axis of the clusters, packed
 layout(set = 0, binding = 11) buffer Counts { uvec4 counts[]; };
 
 // The triangle of a cluster that is nearest to p, the same in all lanes.
@@ -64,7 +66,32 @@ Run run_of_lane(Run mine, uint list_entry, uint k) {
 }
 
 Witness witness_of(vec3 centre, uint triangle) {
-  return witness_at(triangle, vector_to_triangle(centre, load_triangle(triangle)));
+  TriangleTexels texels = load_triangle(triangle);
+  Witness w = witness_at(triangle, vector_to_triangle(centre, texels));
+  [[unroll]] for (uint k = 0; k < 8u; ++k)
+    w.to_corner[k] = sqrt(squared_distance_to_triangle(centre + step.touch_half_side * corner_sign(k), texels));
+  return w;
+}
+
+// Which axis do all triangles obey that touch the cube? Two are asked: the normal of the nearest, and the mean of the
+// clusters' axes.
+struct Axes {
+  vec3 front, mean;
+  vec2 least;  // of either, the cosine to the normal that is farthest from it
+};
+
+Axes axes_of(Witness front, uint packed_mean) {
+  return Axes(triangle_texel(4u * front.name + 3u).xyz, unit_or_zero(unpackSnorm4x8(packed_mean).xyz), vec2(2.0));
+}
+
+vec2 cosines(Axes axes, vec4 normal) {
+  vec2 found = vec2(dot(normal.xyz, axes.front), dot(normal.xyz, axes.mean));
+  return normal.w > 0.5 ? found : vec2(-2.0);  // not trusted
+}
+
+// All eight lanes call it.
+bool is_obeyed(Axes axes, float theta) {
+  return max(least_of_lanes(axes.least.x), least_of_lanes(axes.least.y)) > cosine(theta) + kAxisSlack;
 }
 
 void main() {
@@ -86,6 +113,7 @@ void main() {
   uint base = 8u * parent.word_begin + (item % 8) * word_count;
   uint begin = step.first_entry == 0u ? 0u : counts[item].x;
   uint position = begin, tests = 0u;
+  Axes axes = axes_of(front, counts[item].w);
   uint end = min(word_count, (step.first_entry + step.clusters_per_round) / 32u);
   for (uint w = step.first_entry / 32u; w < end; ++w) {
     // Eight clusters at a time: each lane looks one of them up.
@@ -103,6 +131,11 @@ void main() {
           bool near_front = is_contact(front, d, g), near_back = is_contact(back, d, g);
           bool near_prism = is_contact(prism, v, texels.normal), is_entry = k + lane < run.count;
           bool contact = near_front && near_back && near_prism && is_entry;
+          vec4 along = corners_along(step.touch_half_side * g);
+          bool cube_by_front = touches_cube(front, d, along), cube_by_back = touches_cube(back, d, along);
+          bool cube_by_prism = touches_cube(prism, v, texels.normal);
+          bool touches = contact && cube_by_front && cube_by_back && cube_by_prism;
+          axes.least = touches ? min(axes.least, cosines(axes, texels.normal)) : axes.least;
           uvec2 place = count_lanes(contact ? 1u : 0u);
           if (contact) lists[offset.y + position + place.x] = t;
           position += place.y;
@@ -112,13 +145,16 @@ void main() {
       }
     }
   }
+  bool is_all = step.first_entry == 0u && end == word_count, obeys = is_obeyed(axes, dismissal_angle(front.distance));
+  bool is_empty = is_all && obeys;
   if (lane != 0u) return;
+  if (is_empty) position = begin;
   counts[item].x = position;
   // All that there is so far: the last round completes it.
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
                          state.w, front.name, 0u, kNoTriangle, 0u);
   atomicMax(counters[kLongestCellList], position);
-  if (step.first_entry == 0u) COUNT(kKeptCount, 1u);
+  if (step.first_entry == 0u && !is_empty) COUNT(kKeptCount, 1u);
   COUNT(kContactCount, position - begin);
   COUNT_TESTS(tests);
 }

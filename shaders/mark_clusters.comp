@@ -18,7 +18,7 @@ layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) writeonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 4) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 5) buffer TouchMasks { uint touch_masks[]; };
-// Contacts, twice; the cluster of the second witness.
+// Contacts, twice; the cluster of the second witness; the sum of the axes of those that touch, as a packed direction.
 layout(set = 0, binding = 6) writeonly buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 8) writeonly buffer Asked { uint asked[]; };
@@ -165,7 +165,7 @@ void main() {
   Witness back = witness_of(centre, witness_near(parent, centre - step.circumradius * front.direction));
   uint base = 8u * parent.word_begin + child * ((parent.list_count + 31u) / 32u);
   Tally tally = mark(parent, child, centre, front, back, base);
-  counts[item] = uvec4(tally.contacts, tally.contacts, back.name, 0u);
+  counts[item] = uvec4(tally.contacts, tally.contacts, back.name, packSnorm4x8(vec4(unit_or_zero(tally.axis), 0.0)));
   nearest[item] = uvec2(floatBitsToUint(tally.clearance), front.name);
 
   bool exists = is_in_grid(coordinates), is_empty = !exists;
