@@ -82,7 +82,8 @@ class VulkanFaults : public FaultTest {
 
 TEST_F(VulkanFaults, OfOpeningADevice) {
   // Two small programs: what makes them is the same for all.
-  const std::set<ProgramKey> keys = {{"prepare_dispatch", 3, 0, sizeof(gpu::DispatchConstants), 1, {}}, {"prepare_resolve", 1, 0, 0, 1, {}}};
+  const std::set<ProgramKey> keys = {{"prepare_dispatch", 3, 0, sizeof(gpu::DispatchConstants), 1, {}},
+                                     {"prepare_resolve", 1, 0, 0, 1, {}}};
   const auto job = [&]() -> Answer {
     Result<Context> context = open();
     if (!context.ok()) return context.error();
