@@ -10,7 +10,7 @@
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 12
 #include "triangles.glsl"
-#include "dismissal.glsl"
+#include "two_axes.glsl"
 #include "witness.glsl"
 
 layout(set = 0, binding = 1) readonly buffer Clusters { Cluster clusters[]; };
@@ -73,27 +73,6 @@ Witness witness_of(vec3 centre, uint triangle) {
   return w;
 }
 
-// Which axis do all triangles obey that touch the cube? Two are asked: the normal of the nearest, and the mean of the
-// clusters' axes.
-struct Axes {
-  vec3 front, mean;
-  vec2 least;  // of either, the cosine to the normal that is farthest from it
-};
-
-Axes axes_of(Witness front, uint packed_mean) {
-  return Axes(triangle_texel(4u * front.name + 3u).xyz, unit_or_zero(unpackSnorm4x8(packed_mean).xyz), vec2(2.0));
-}
-
-vec2 cosines(Axes axes, vec4 normal) {
-  vec2 found = vec2(dot(normal.xyz, axes.front), dot(normal.xyz, axes.mean));
-  return normal.w > 0.5 ? found : vec2(-2.0);  // not trusted
-}
-
-// All eight lanes call it.
-bool is_obeyed(Axes axes, float theta) {
-  return max(least_of_lanes(axes.least.x), least_of_lanes(axes.least.y)) > cosine(theta) + kAxisSlack;
-}
-
 void main() {
   uint item = workgroup_index();
   uint lane = gl_LocalInvocationID.x;
@@ -113,7 +92,7 @@ void main() {
   uint base = 8u * parent.word_begin + (item % 8) * word_count;
   uint begin = step.first_entry == 0u ? 0u : counts[item].x;
   uint position = begin, tests = 0u;
-  Axes axes = axes_of(front, counts[item].w);
+  Axes axes = axes_of(front.name, counts[item].w);
   uint end = min(word_count, (step.first_entry + step.clusters_per_round) / 32u);
   for (uint w = step.first_entry / 32u; w < end; ++w) {
     // Eight clusters at a time: each lane looks one of them up.
@@ -153,7 +132,8 @@ void main() {
   // All that there is so far: the last round completes it.
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
                          state.w, front.name, 0u, kNoTriangle, 0u);
-  atomicMax(counters[kLongestCellList], position);
+  // No level that has cells goes without the kernel that walks their lists, not even if all of these are empty.
+  atomicMax(counters[kLongestCellList], max(position, 1u));
   if (step.first_entry == 0u && !is_empty) COUNT(kKeptCount, 1u);
   COUNT(kContactCount, position - begin);
   COUNT_TESTS(tests);

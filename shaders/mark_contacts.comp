@@ -215,7 +215,10 @@ void main() {
   if (item >= 8u * counters[kParents]) return;
   Cell parent = parents[item / 8];
   uint child = item % 8, begin = step.first_entry;
-  if (parent.list_count == 0u) states[item] = uvec4(0u);  // empty, as was seen when its list was to be written
+  if (parent.list_count == 0u) {  // empty, as was seen when its list was to be written: it has no children, which ask nothing
+    states[item] = uvec4(0u);
+    atomicAdd(counters[kQueries], 0xffffffffu);
+  }
   if (begin >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);

@@ -28,8 +28,8 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();
 
-  /// Runs `shader` over `items` invocations, rounded up to whole workgroups; groups beyond the device's limit per
-  /// dimension go to a second dimension (kernels compute their index from gl_WorkGroupID.y too).
+  /// Runs `shader` over `items` invocations, rounded up to whole workgroups; those beyond the device's limit per
+  /// dimension go to further rows (kernels: workgroup_index.glsl).
   void dispatch(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
                 std::span<const std::byte> push_constants, std::uint64_t items);
   /// The same with three group counts read from `arguments` at `offset`.

@@ -13,11 +13,12 @@ void check_rounds(DispatchConstants d) {
 }
 
 // Into how many rows groups are put (workgroup_index.glsl). If they do not divide evenly, some are added, which find
-// nothing to do: not where they would find what comes after a limit.
+// nothing to do: not where they would find what comes after a limit. (Limits are of no more groups than one row holds, or
+// of powers of two.)
 uint rows_of(uint groups, uint threads, bool is_limited) {
-  uint rows = (groups + kGroupsInRow - 1u) / kGroupsInRow, deal = threads * kGroupsInRun;
-  bool deals = groups >= 2u * deal && (groups % deal == 0u || !is_limited);
-  return max(deals ? max(rows, threads) : rows, 1u);
+  uint least = max((groups + kGroupsInRow - 1u) / kGroupsInRow, 1u), rows = max(least, threads);
+  bool divides = groups % (rows * kGroupsInRun) == 0u, deals = groups >= 2u * threads * kGroupsInRun;
+  return deals && (divides || !is_limited) ? rows : least;
 }
 
 uint columns_of(uint groups, uint rows) {

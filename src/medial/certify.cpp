@@ -222,6 +222,13 @@ class NeighbourGroups {
 /// What a thread takes: enough that threads do not meet, little enough that none waits long for another at the end.
 constexpr std::size_t kGroupsAtOnce = 8;
 
+/// 1 for each that is the first of its voxel. They are in voxel order.
+std::vector<std::uint8_t> first_of_voxels(const std::vector<MedialSphere>& spheres) {
+  std::vector<std::uint8_t> is_first(spheres.size(), 1);
+  for (std::size_t i = 1; i < spheres.size(); ++i) is_first[i] = spheres[i].voxel != spheres[i - 1].voxel ? 1 : 0;
+  return is_first;
+}
+
 /// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
 /// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.
 void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extraction) {
@@ -243,7 +250,7 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
                               Extraction& extraction, unsigned threads) {
   std::vector<MedialSphere>& spheres = extraction.spheres;
   const Certifier certifier(bvh, parameters, longest_side, extraction.grid);
-  std::vector<std::uint8_t> passed(spheres.size());
+  std::vector<std::uint8_t> passed = first_of_voxels(spheres);
   const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   const NeighbourGroups groups(spheres);
   std::atomic<std::size_t> next = 0;
@@ -253,7 +260,8 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
          first = next.fetch_add(kGroupsAtOnce)) {
       for (std::size_t g = first; g < std::min(first + kGroupsAtOnce, groups.size()); ++g) {
         certifier.surround(spheres, groups[g], around);
-        for (const std::uint32_t i : groups[g]) passed[i] = certifier.certify_or_mend(spheres[i], around) ? 1 : 0;
+        for (const std::uint32_t i : groups[g])
+          passed[i] = passed[i] != 0 && certifier.certify_or_mend(spheres[i], around) ? 1 : 0;
       }
     }
   });

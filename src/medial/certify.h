@@ -15,7 +15,9 @@ struct CertifyReport {
 };
 
 /// Recomputes radius and spoke a exactly at each centre as it will be written, rounds the radius down by a derived
-/// bound, tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds and voxel. Threads: 0 for all.
+/// bound, tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and has
+/// no other sphere (of several the first stays). Precondition: spheres in voxel order, as extraction gives them.
+/// Threads: 0 for all.
 CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
                               Extraction& extraction, unsigned threads = 0);
 

@@ -84,6 +84,21 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
   EXPECT_EQ(roomy.extraction.counters.retries, 0u);
 }
 
+// Pieces of few top cells, among them such as hold none but cells that are found empty when their lists are written.
+TEST(Determinism, SmallPiecesGiveTheSame) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Mesh solid = test::make_torus(1.0, 0.4, 80, 160, 0.5);
+  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(std::move(solid));
+  Context context = test::make_context();
+  ExtractionParameters parameters;
+  parameters.resolution = 100;
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, parameters);
+  parameters.memory_budget = 6ull << 20;
+  const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters);
+  expect_same_bytes(roomy.extraction, tight.extraction);
+}
+
 TEST_P(BothModes, NoValidationMessages) {
   MEDIAL_VK_SKIP_WITHOUT_VALIDATION();
   Mesh box = test::make_box({1, 0.7, 0.5});

@@ -18,6 +18,15 @@ T value_or_throw(Result<T> result) {
   return std::move(result).value();
 }
 
+// What holds of every extraction.
+void check(const Extraction& extraction) {
+  for (const ExtractionCounters::Level& level : extraction.counters.levels)
+    if (level.kept > level.visited) throw std::runtime_error("more cells are kept than were visited");
+  const auto share_a_voxel = [](const MedialSphere& a, const MedialSphere& b) { return a.voxel == b.voxel; };
+  if (std::ranges::adjacent_find(extraction.spheres, share_a_voxel) != extraction.spheres.end())
+    throw std::runtime_error("two points share a voxel");
+}
+
 }  // namespace
 
 PreparedMesh prepare(Mesh mesh) { return value_or_throw(prepare_mesh(std::move(mesh))); }
@@ -28,7 +37,9 @@ Context make_context(bool validation) {
 
 CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
                                       const ExtractionParameters& parameters) {
-  return value_or_throw(extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1));
+  CertifiedExtraction result = value_or_throw(extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1));
+  check(result.extraction);
+  return result;
 }
 
 reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionParameters& parameters) {

@@ -21,7 +21,8 @@ PreparedMesh prepare(Mesh mesh);
 /// A context that leaves the user's pipeline cache alone; throws without a device: ask no_device_reason() first.
 Context make_context(bool validation = false);
 
-/// extract_and_certify() on the device, on one host thread; throws with the error's message.
+/// extract_and_certify() on the device, on one host thread; throws with the error's message, or if two points share a
+/// voxel or counts contradict each other.
 CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
                                       const ExtractionParameters& parameters);
 

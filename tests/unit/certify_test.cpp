@@ -69,6 +69,15 @@ TEST_P(CertifyTest, MakesNumbersExact) {
   EXPECT_FLOAT_EQ(s.object_angle, static_cast<float>(std::numbers::pi / 2));
 }
 
+TEST_P(CertifyTest, LetsOneSphereOfAVoxelPass) {
+  add(sphere_at(2.03, 1.97, 0.5 - 0.1 * epsilon()));
+  add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));
+  ASSERT_EQ(extraction_.spheres[0].voxel, extraction_.spheres[1].voxel);
+  const CertifyReport report = certify();
+  EXPECT_EQ(report.passed, 1u);
+  EXPECT_EQ(report.rejected, 1u);
+}
+
 // The device takes the upper face for the nearest; the lower one is, by a hair.
 TEST_P(CertifyTest, SwapsTheSpokesOfATie) {
   MedialSphere s = sphere_at(2.03, 1.97, 0.5 - 1e-4 * epsilon());

@@ -115,13 +115,34 @@ TEST_F(DispatchRowsTest, EachGroupRunsOnce) {
 
 TEST_F(DispatchRowsTest, NoGroupRunsBeyondALimit) {
   for (const std::uint32_t threads : {1u, 2u, 3u})
-    for (const std::uint32_t limit : {64u, 96u, 100u, 127u, 16384u}) {
+    for (const std::uint32_t limit : {64u, 96u, 100u, 127u, 16384u, 32768u, 65536u}) {
       SCOPED_TRACE(testing::Message() << threads << " threads, at most " << limit << " groups");
-      const Dispatched dispatched = dispatch(20000 * kGroupSize, threads, 8 * kGroupSize, limit * kGroupSize);
+      const Dispatched dispatched = dispatch(70000 * kGroupSize, threads, 8 * kGroupSize, limit * kGroupSize);
       expect_each_once(dispatched, limit);
       EXPECT_EQ(dispatched.runs[limit], 0u);
       EXPECT_EQ(dispatched.command.x * dispatched.command.y, limit);
     }
+}
+
+TEST_F(DispatchRowsTest, WhatTheHostSizesGoesToRowsToo) {
+  constexpr std::uint32_t kGroups = 3 * gpu::kGroupsInRow + 5;
+  Context::Impl& impl = context_->impl();
+  Arena arena(impl);
+  const Buffer runs = arena.create_buffer(VkDeviceSize{kGroups + 1} * 4, MemoryKind::kDevice, "a test").value();
+  const Buffer back = arena.create_buffer(runs.size, MemoryKind::kReadback, "a test").value();
+  const auto ran = run_commands(impl, [&](Recorder& r) {
+    r.fill(runs, 0, runs.size, 0);
+    r.barrier();
+    const BufferRange counted[] = {runs.range()};
+    r.dispatch({"count_workgroups", 1, 0, 0, 1, {}}, counted, {}, {}, kGroups);
+    r.barrier();
+    r.copy(runs, 0, back, 0, runs.size);
+    r.barrier_to_host();
+    return r.status();
+  });
+  ASSERT_TRUE(ran.ok()) << ran.error().message;
+  const auto* words = static_cast<const std::uint32_t*>(back.mapped);
+  for (std::uint32_t group = 0; group < kGroups; ++group) ASSERT_EQ(words[group], 1u) << "group " << group;
 }
 
 // The device goes along rows: a thread of two takes one row.
