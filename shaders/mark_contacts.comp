@@ -215,7 +215,8 @@ void main() {
   if (item >= 8u * counters[kParents]) return;
   Cell parent = parents[item / 8];
   uint child = item % 8, begin = step.first_entry;
-  if (parent.list_count == 0u) {  // empty, as was seen when its list was to be written: it has no children, which ask nothing
+  // Empty, as was seen when its list was to be written: it has no children, and none of the queries that were counted.
+  if (parent.list_count == 0u && begin == 0u) {
     states[item] = uvec4(0u);
     atomicAdd(counters[kQueries], 0xffffffffu);
   }
