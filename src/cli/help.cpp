@@ -78,12 +78,12 @@ How points are grouped into sheets:
       --sheet-angle A   neighbours whose normals differ by at most A degrees
                         are of one sheet, 0 to 90 (default 5.7)
       --sheet-crease A  so are neighbours whose spokes turn by no more than A
-                        degrees, as between facets of a round shape, and pieces
-                        if half of their border turns by no more than A + 25,
-                        0 to 180 (default 30; 0: only the angle decides, as
-                        published)
+                        degrees, as between facets of a round shape, 0 to 180
+                        (default 10; 0: only the angle decides, as published)
+      --sheet-border A  so are pieces if half of their border turns by no more
+                        than A degrees, 0 to 180 (default 73)
       --sheet-width W   pieces narrower than W times the diameter of their
-                        balls, 0 to 1, join a neighbour (default 0.3; 0: none)
+                        balls, 0 to 1, go to those around (default 0.3; 0: none)
       --absorb-fragments N  so do pieces of fewer than N points (default 0)
       --keep-volume V   keep only the most significant sheets, with at least V
                         of the volume of the union of balls, between 0 and 1

@@ -55,6 +55,7 @@ void declare(CLI::App& app, Options& options) {
 
   add.real("--sheet-angle", {0, 90}, " degrees", options.sheets.angle);
   add.real("--sheet-crease", {0, 180}, " degrees", options.sheets.crease);
+  add.real("--sheet-border", {0, 180}, " degrees", options.sheets.border);
   add.real("--sheet-width", {0, 1}, " of the balls' diameter", options.sheets.width);
   add.whole("--absorb-fragments", 0, UINT32_MAX, " points", options.sheets.absorb_fragments);
   add.real("--keep-volume", {0, 1, false}, " of the volume", options.keep_volume);

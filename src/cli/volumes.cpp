@@ -67,6 +67,7 @@ class VolumeStep {
     if (!progress_("volume", 0)) return Error{ErrorCode::kInterrupted, "interrupted"};
     const VoxelGraph graph(spheres_);
     sheets_.graph = &graph;
+    sheets_.voxel_size = record_.grid.voxel_size;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
     sheets_.graph = nullptr;
     if (!measured) return measured.error();

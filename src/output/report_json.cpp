@@ -189,6 +189,7 @@ Json orders_json(const RunRecord& record) {
 Json grouping_json(const SheetParameters& parameters, const Sheets& sheets) {
   return {{"sheet_angle", parameters.angle},
           {"sheet_crease", parameters.crease},
+          {"sheet_border", parameters.border},
           {"sheet_width", parameters.width},
           {"absorb_fragments", parameters.absorb_fragments},
           {"pieces", sheets.pieces},

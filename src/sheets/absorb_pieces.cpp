@@ -1,25 +1,17 @@
 #include "sheets/absorb_pieces.h"
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <limits>
-#include <map>
-#include <queue>
-#include <utility>
+#include <span>
 
+#include "mesh/parallel_for.h"
 #include "mesh/point_ops.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-
-struct Piece {
-  std::vector<std::uint32_t> places;
-  double radii = 0;                                ///< Sum.
-  std::map<std::uint32_t, std::uint64_t> borders;  ///< Pairs of voxels that touch, by the other piece.
-  double width = 0;                                ///< Over the mean diameter of its balls.
-};
 
 class Absorption {
  public:
@@ -30,67 +22,66 @@ class Absorption {
         parameters_(parameters),
         piece_of_(piece_of),
         nearest_(graph.size(), kNone) {
-    for (std::uint32_t place = 0; place < graph.size(); ++place) enter(place);
-    into_.resize(pieces_.size());
-    for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;
+    for (std::uint32_t place = 0; place < graph.size(); ++place) {
+      if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
+      places_[piece_of[place]].push_back(place);
+    }
   }
 
   Absorbed run() {
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) measure_and_ask(i);
-    while (!queue_.empty()) {
-      const auto [width, i] = queue_.top();
-      queue_.pop();
-      // What was asked before the piece changed has been asked again since.
-      if (into_[i] == i && pieces_[i].width == width && is_small(pieces_[i])) absorb(i);
+    const std::vector<std::uint32_t> before = piece_of_;
+    set_small_pieces_free();
+    hand_out(front_of_free_places());
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      if (piece_of_[place] == kNone) unite(place, before[place]);
     }
-    for (std::uint32_t& piece : piece_of_) piece = absorber(piece);
-    return absorbed_;
+    return count(before);
   }
 
  private:
-  using Turn = std::pair<double, std::uint32_t>;
-
-  std::uint32_t absorber(std::uint32_t piece) {
-    while (into_[piece] != piece) piece = into_[piece] = into_[into_[piece]];
-    return piece;
-  }
-
-  void enter(std::uint32_t place) {
-    const std::uint32_t own = piece_of_[place];
-    if (own >= pieces_.size()) pieces_.resize(own + std::size_t{1});
-    Piece& piece = pieces_[own];
-    piece.places.push_back(place);
-    piece.radii += graph_.sphere(place).radius;
-    for (const std::uint32_t other : graph_.neighbours(place)) {
-      if (piece_of_[other] != own) ++piece.borders[piece_of_[other]];
+  void set_small_pieces_free() {
+    std::vector<std::uint8_t> small(places_.size());
+    parallel_for(places_.size(), 16, [&](std::size_t piece) { small[piece] = is_small(places_[piece]) ? 1 : 0; });
+    for (std::size_t piece = 0; piece < small.size(); ++piece) {
+      if (!small[piece]) continue;
+      for (const std::uint32_t place : places_[piece]) piece_of_[place] = kNone;
     }
   }
 
-  bool is_small(const Piece& piece) const {
-    return !piece.borders.empty() &&
-           (piece.width < parameters_.width || piece.places.size() < parameters_.absorb_fragments);
+  bool is_small(std::span<const std::uint32_t> piece) {
+    const std::vector<std::uint32_t> border = border_of(piece);
+    if (border.empty()) return false;
+    if (piece.size() < parameters_.absorb_fragments) return true;
+    if (!(parameters_.width > 0)) return false;
+    double radii = 0;
+    for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
+    const double diameter = 2 * radii / static_cast<double>(piece.size());
+    // As wide as the widest strip that fits, from one voxel of the border to that on the other side.
+    return 2 * greatest_depth(piece, border) + voxel_size_ < parameters_.width * diameter;
   }
 
-  bool is_at_border(std::uint32_t place, std::uint32_t own) {
-    return std::ranges::any_of(graph_.neighbours(place),
-                               [&](std::uint32_t other) { return absorber(piece_of_[other]) != own; });
+  /// What lies beside a rim is not at a border.
+  std::vector<std::uint32_t> border_of(std::span<const std::uint32_t> piece) const {
+    std::vector<std::uint32_t> border;
+    std::ranges::copy_if(piece, std::back_inserter(border), [&](std::uint32_t place) {
+      return std::ranges::any_of(graph_.neighbours(place),
+                                 [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
+    });
+    return border;
   }
 
-  /// Voxel by voxel from its borders inwards, with the nearest point of the border that a point heard of from those
-  /// before it: the distance of the farthest. What lies beside a rim is not at a border.
-  double greatest_depth(std::uint32_t own) {
-    std::vector<std::uint32_t> front, reached;
-    for (const std::uint32_t place : pieces_[own].places) {
-      if (!is_at_border(place, own)) continue;
-      nearest_[place] = place;
-      front.push_back(place);
-    }
+  /// Voxel by voxel from its border inwards, with the nearest point of the border that a point heard of from those
+  /// before it: the distance of the farthest.
+  double greatest_depth(std::span<const std::uint32_t> piece, std::vector<std::uint32_t> front) {
+    const std::uint32_t own = piece_of_[piece.front()];
+    for (const std::uint32_t place : front) nearest_[place] = place;
+    std::vector<std::uint32_t> reached;
     double depth = 0;
     while (!front.empty()) {
       reached.clear();
       for (const std::uint32_t place : front) {
         for (const std::uint32_t other : graph_.neighbours(place)) {
-          if (absorber(piece_of_[other]) != own) continue;
+          if (piece_of_[other] != own) continue;
           if (nearest_[other] == kNone) reached.push_back(other);
           if (nearest_[other] == kNone || distance(other, nearest_[place]) < distance(other, nearest_[other])) {
             nearest_[other] = nearest_[place];
@@ -100,7 +91,6 @@ class Absorption {
       for (const std::uint32_t place : front) depth = std::max(depth, distance(place, nearest_[place]));
       front.swap(reached);
     }
-    for (const std::uint32_t place : pieces_[own].places) nearest_[place] = kNone;
     return depth;
   }
 
@@ -108,62 +98,88 @@ class Absorption {
     return length(graph_.sphere(a).centre - graph_.sphere(b).centre);
   }
 
-  void measure_and_ask(std::uint32_t i) {
-    Piece& piece = pieces_[i];
-    if (piece.borders.empty()) return;
-    // As wide as the widest strip that fits, from one voxel of the border to that on the other side.
-    const double width = 2 * greatest_depth(i) + voxel_size_;
-    const double diameter = 2 * piece.radii / static_cast<double>(piece.places.size());
-    piece.width = diameter > 0 ? width / diameter : std::numeric_limits<double>::max();
-    if (is_small(piece)) queue_.push({piece.width, i});
-  }
+  bool is_free(std::uint32_t place) const { return piece_of_[place] == kNone; }
 
-  void absorb(std::uint32_t weak) {
-    std::uint32_t other = weak;
-    std::uint64_t most = 0;
-    for (const auto& [piece, pairs] : pieces_[weak].borders) {
-      if (pairs > most) {
-        most = pairs;
-        other = piece;
+  std::vector<std::uint32_t> front_of_free_places() const {
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      const auto around = graph_.neighbours(place);
+      if (is_free(place) && !std::ranges::all_of(around, [&](std::uint32_t other) { return is_free(other); })) {
+        front.push_back(place);
       }
     }
-    ++absorbed_.pieces;
-    absorbed_.points += pieces_[weak].places.size();
-    // Nothing gets narrower by growing: only what was small is asked again.
-    const bool ask_again = is_small(pieces_[other]);
-    // The one with fewer voxels moves, so that all that is moved is n log n.
-    const bool stays = pieces_[weak].places.size() > pieces_[other].places.size();
-    const std::uint32_t from = stays ? other : weak, to = stays ? weak : other;
-    const double width = pieces_[other].width;
-    merge(from, to);
-    pieces_[to].width = width;
-    if (ask_again) measure_and_ask(to);
+    return front;
   }
 
-  void merge(std::uint32_t from, std::uint32_t to) {
-    Piece &gone = pieces_[from], &kept = pieces_[to];
-    kept.places.insert(kept.places.end(), gone.places.begin(), gone.places.end());
-    kept.radii += gone.radii;
-    gone.borders.erase(to);
-    kept.borders.erase(from);
-    for (const auto& [piece, pairs] : gone.borders) {
-      kept.borders[piece] += pairs;
-      pieces_[piece].borders.erase(from);
-      pieces_[piece].borders[to] += pairs;
+  /// Layer by layer: those of one layer do not see each other's pieces.
+  void hand_out(std::vector<std::uint32_t> front) {
+    std::vector<std::uint32_t> pieces, next;
+    while (!front.empty()) {
+      pieces.clear();
+      for (const std::uint32_t place : front) pieces.push_back(piece_around(place));
+      for (std::size_t i = 0; i < front.size(); ++i) piece_of_[front[i]] = pieces[i];
+      next.clear();
+      for (const std::uint32_t place : front) {
+        std::ranges::copy_if(graph_.neighbours(place), std::back_inserter(next),
+                             [&](std::uint32_t other) { return is_free(other); });
+      }
+      std::ranges::sort(next);
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      front.swap(next);
     }
-    gone = {};
-    into_[from] = to;
+  }
+
+  /// Of most of the voxels around; of equals, the first. Precondition: not all of these are free.
+  std::uint32_t piece_around(std::uint32_t place) const {
+    std::array<std::uint32_t, 26> pieces;
+    std::size_t count = 0;
+    for (const std::uint32_t other : graph_.neighbours(place)) {
+      if (!is_free(other)) pieces[count++] = piece_of_[other];
+    }
+    std::sort(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(count));
+    std::size_t most = 0;
+    std::uint32_t best = kNone;
+    for (std::size_t first = 0, i = 0; i < count; ++i) {
+      if (pieces[i] != pieces[first]) first = i;
+      if (i + 1 - first <= most) continue;
+      most = i + 1 - first;
+      best = pieces[i];
+    }
+    return best;
+  }
+
+  /// All free places that hang together with this one.
+  void unite(std::uint32_t place, std::uint32_t piece) {
+    std::vector<std::uint32_t> open = {place};
+    piece_of_[place] = piece;
+    while (!open.empty()) {
+      const std::uint32_t at = open.back();
+      open.pop_back();
+      for (const std::uint32_t other : graph_.neighbours(at)) {
+        if (!is_free(other)) continue;
+        piece_of_[other] = piece;
+        open.push_back(other);
+      }
+    }
+  }
+
+  Absorbed count(const std::vector<std::uint32_t>& before) const {
+    Absorbed absorbed;
+    std::vector<bool> is_left(places_.size());
+    for (std::size_t place = 0; place < before.size(); ++place) {
+      if (piece_of_[place] != before[place]) ++absorbed.points;
+      is_left[piece_of_[place]] = true;
+    }
+    absorbed.pieces = static_cast<std::uint64_t>(std::ranges::count(is_left, false));
+    return absorbed;
   }
 
   const VoxelGraph& graph_;
   double voxel_size_;
   const SheetParameters& parameters_;
-  std::vector<std::uint32_t>& piece_of_;
-  std::vector<Piece> pieces_;
-  std::vector<std::uint32_t> into_;     // by piece: itself, or the one that it went to
-  std::vector<std::uint32_t> nearest_;  // by place: a place of the border; kNone except while its piece is measured
-  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
-  Absorbed absorbed_;
+  std::vector<std::uint32_t>& piece_of_;             // by place: its piece, or none while it is free
+  std::vector<std::vector<std::uint32_t>> places_;   // by piece, as they were at first
+  std::vector<std::uint32_t> nearest_;               // by place: a place of the border of its piece, once measured
 };
 
 }  // namespace

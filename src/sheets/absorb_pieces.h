@@ -1,4 +1,4 @@
-// Pieces that are too small for sheets of their own join a neighbour.
+// Pieces that are too small for sheets of their own go to those around.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 namespace medial_vk {
 
 struct Absorbed {
-  std::uint64_t pieces = 0;
-  std::uint64_t points = 0;
+  std::uint64_t pieces = 0;  ///< By how many there are fewer.
+  std::uint64_t points = 0;  ///< Whose piece is another now.
 };
 
-/// Rewrites `piece_of` (by place, numbers from 0 without gaps) so that no piece is left that has a neighbour and is
-/// narrower than parameters.width or has fewer points than parameters.absorb_fragments. The one that is narrowest
-/// against its balls goes first, each to the neighbour that it touches in most pairs of voxels. Numbers are those of
-/// pieces that there were, with gaps.
+/// Rewrites `piece_of` (by place, numbers from 0 without gaps): pieces that have a neighbour and are narrower than
+/// parameters.width or have fewer points than parameters.absorb_fragments, all at once, go to the pieces around, voxel
+/// by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small pieces
+/// that hang together and touch no other become one. Numbers are those of pieces that there were, with gaps.
 Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
                        std::vector<std::uint32_t>& piece_of);
 

@@ -10,9 +10,9 @@
 
 namespace medial_vk {
 
-LinkTest::LinkTest(double object_angle, const SheetParameters& parameters, double more)
+LinkTest::LinkTest(double object_angle, const SheetParameters& parameters)
     : normals_(std::cos(parameters.angle * std::numbers::pi / 180)),
-      crease_(parameters.crease > 0 ? std::cos(std::min(parameters.crease + more, 180.0) * std::numbers::pi / 180) : 2),
+      crease_(parameters.crease > 0 ? std::cos(parameters.crease * std::numbers::pi / 180) : 2),
       salient_(parameters.crease > 0 ? std::cos(2 * object_angle) : -2) {}
 
 bool LinkTest::operator()(const MedialSphere& p, const MedialSphere& q) const {

@@ -13,8 +13,7 @@ namespace medial_vk {
 /// between the two points: then it does not help that their normals agree (docs/theory.md, "Sheets").
 class LinkTest {
  public:
-  /// `more`: degrees by which spokes may turn beyond parameters.crease.
-  LinkTest(double object_angle, const SheetParameters& parameters, double more = 0);
+  LinkTest(double object_angle, const SheetParameters& parameters);
   bool operator()(const MedialSphere& p, const MedialSphere& q) const;
 
  private:

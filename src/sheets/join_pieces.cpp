@@ -1,88 +1,128 @@
 #include "sheets/join_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
+#include <numbers>
+#include <queue>
 #include <tuple>
 #include <utility>
 
-#include "sheets/grow_pieces.h"
+#include "sheets/spoke_turns.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Pairs of voxels that touch across the border of two pieces.
-struct Border {
-  std::uint64_t pairs = 0, linked = 0;
+/// Around a compact piece of n points there are 2 sqrt(pi n), so a border around all of it has twice as many, counted
+/// on either side. No border counts as less than about two fifths of that.
+constexpr double kLeastBorder = 3;
 
-  double share() const { return static_cast<double>(linked) / static_cast<double>(pairs); }
-  bool is_open() const { return 2 * linked >= pairs; }
-  void add(const Border& more) {
-    pairs += more.pairs;
-    linked += more.linked;
-  }
-};
+/// By point of either of two pieces with a point of the other beside it: the cosine of its least turn to these.
+using Border = std::vector<float>;
 
 class Joining {
  public:
-  Joining(const VoxelGraph& graph, const LinkTest& linked, std::vector<std::uint32_t>& piece_of) : piece_of_(piece_of) {
-    for (const std::uint32_t piece : piece_of)
-      into_.resize(std::max<std::size_t>(into_.size(), piece + std::size_t{1}));
-    for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;
-    borders_.resize(into_.size());
-    for (std::uint32_t place = 0; place < graph.size(); ++place) {
-      for (const std::uint32_t other : graph.neighbours(place)) {
-        const std::uint32_t a = piece_of[place], b = piece_of[other];
-        if (a == b) continue;  // every pair across is met from both sides, once for the border of either
-        Border& border = borders_[a][b];
-        ++border.pairs;
-        if (linked(graph.sphere(place), graph.sphere(other))) ++border.linked;
-      }
+  Joining(const VoxelGraph& graph, double least_cosine, std::vector<std::uint32_t>& piece_of)
+      : piece_of_(piece_of), least_cosine_(least_cosine) {
+    for (const std::uint32_t piece : piece_of) {
+      if (piece >= points_.size()) points_.resize(piece + std::size_t{1}, 0);
+      ++points_[piece];
     }
-    for (std::uint32_t a = 0; a < borders_.size(); ++a) queue_borders(a);
+    into_.resize(points_.size());
+    for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;
+    borders_.resize(points_.size());
+    for (std::uint32_t place = 0; place < graph.size(); ++place) enter(graph, place);
+    for (std::uint32_t a = 0; a < borders_.size(); ++a) {
+      for (const auto& [b, border] : borders_[a]) queue(a, b);
+    }
   }
 
   void run() {
     while (!queue_.empty()) {
-      const auto [share, a, b] = *queue_.begin();
-      queue_.erase(queue_.begin());
-      join(a, b);
+      const auto [cosine, a, b] = queue_.top();
+      queue_.pop();
+      const Border* border = find(a, b);
+      if (border == nullptr) continue;  // one of the two is part of another now
+      // A border that has changed was queued anew. Others only count for less as pieces grow.
+      const double now = -cosine_of_border(a, b, *border);
+      if (now == cosine) join(a, b);
+      if (now > cosine) queue(a, b);
     }
     number_anew();
   }
 
  private:
-  using Turn = std::tuple<double, std::uint32_t, std::uint32_t>;  // the share, negative: the largest comes first
+  using Turn = std::tuple<double, std::uint32_t, std::uint32_t>;  // the cosine, negative, and two pieces, ascending
 
-  static Turn turn(std::uint32_t a, std::uint32_t b, const Border& border) {
-    return {-border.share(), std::min(a, b), std::max(a, b)};
-  }
-
-  void queue_borders(std::uint32_t a) {
-    for (const auto& [b, border] : borders_[a]) {
-      if (border.is_open()) queue_.insert(turn(a, b, border));
+  /// Borders stand with the piece of the smaller number.
+  void enter(const VoxelGraph& graph, std::uint32_t place) {
+    const std::uint32_t own = piece_of_[place];
+    std::map<std::uint32_t, float> greatest;
+    for (const std::uint32_t other : graph.neighbours(place)) {
+      const std::uint32_t piece = piece_of_[other];
+      if (piece == own) continue;
+      const auto cosine = static_cast<float>(cosine_of_turn(graph.sphere(place), graph.sphere(other)));
+      const auto [at, is_new] = greatest.try_emplace(piece, cosine);
+      if (!is_new) at->second = std::max(at->second, cosine);
+    }
+    for (const auto& [piece, cosine] : greatest) {
+      borders_[std::min(own, piece)][std::max(own, piece)].push_back(cosine);
+      if (piece < own) borders_[own].try_emplace(piece);  // empty: only says that there is one
     }
   }
 
-  void leave_queue(std::uint32_t a) {
-    for (const auto& [b, border] : borders_[a]) queue_.erase(turn(a, b, border));
+  const Border* find(std::uint32_t a, std::uint32_t b) const {
+    const auto found = borders_[a].find(b);
+    return found == borders_[a].end() ? nullptr : &found->second;
+  }
+
+  /// -1 if most of the border is missing.
+  double cosine_of_border(std::uint32_t a, std::uint32_t b, Border border) const {
+    const auto fewer = static_cast<double>(std::min(points_[a], points_[b]));
+    const double points = std::max(static_cast<double>(border.size()), kLeastBorder * std::sqrt(fewer));
+    const auto middle = static_cast<std::size_t>(std::ceil(points / 2));
+    if (middle > border.size()) return -1;
+    const auto at = border.begin() + static_cast<std::ptrdiff_t>(middle - 1);
+    std::nth_element(border.begin(), at, border.end(), std::greater<>());
+    return double{*at};
+  }
+
+  void queue(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const double cosine = cosine_of_border(a, b, borders_[a].at(b));
+    if (cosine >= least_cosine_) queue_.push({-cosine, a, b});
+  }
+
+  /// Takes the border of two pieces out.
+  Border take(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    Border border = std::move(borders_[a].at(b));
+    borders_[a].erase(b);
+    borders_[b].erase(a);
+    return border;
+  }
+
+  void add(std::uint32_t a, std::uint32_t b, Border more) {
+    if (a > b) std::swap(a, b);
+    borders_[b].try_emplace(a);
+    Border& border = borders_[a][b];
+    if (border.size() < more.size()) border.swap(more);
+    border.insert(border.end(), more.begin(), more.end());
   }
 
   /// The one with fewer borders goes into the other, so that all that is moved is n log n.
   void join(std::uint32_t a, std::uint32_t b) {
     if (borders_[a].size() < borders_[b].size()) std::swap(a, b);
-    leave_queue(a);
-    leave_queue(b);
+    take(a, b);
     into_[b] = a;
-    for (const auto& [other, border] : std::exchange(borders_[b], {})) {
-      borders_[other].erase(b);
-      if (other == a) continue;
-      borders_[a][other].add(border);
-      borders_[other][a].add(border);
+    points_[a] += points_[b];
+    while (!borders_[b].empty()) {
+      const std::uint32_t other = borders_[b].begin()->first;
+      add(a, other, take(b, other));
+      queue(a, other);
     }
-    queue_borders(a);
   }
 
   std::uint32_t root(std::uint32_t piece) {
@@ -101,17 +141,18 @@ class Joining {
   }
 
   std::vector<std::uint32_t>& piece_of_;
+  double least_cosine_;
+  std::vector<std::uint64_t> points_;                     // by piece
   std::vector<std::uint32_t> into_;                       // by piece: itself, or the one that it went to
-  std::vector<std::map<std::uint32_t, Border>> borders_;  // by piece, by the other; the same from both sides
-  std::set<Turn> queue_;
+  std::vector<std::map<std::uint32_t, Border>> borders_;  // by piece, by the other
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
 };
 
 }  // namespace
 
-void join_pieces(const VoxelGraph& graph, double object_angle, const SheetParameters& parameters,
-                 std::vector<std::uint32_t>& piece_of) {
+void join_pieces(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of) {
   if (parameters.crease == 0) return;
-  Joining(graph, LinkTest(object_angle, parameters, kBorderTurn), piece_of).run();
+  Joining(graph, std::cos(parameters.border * std::numbers::pi / 180), piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -121,7 +121,7 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
                    const SheetParameters& parameters, SheetAreas areas) {
   const VoxelGraph graph(spheres);
   std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
-  join_pieces(graph, extraction.object_angle, parameters, piece_of);
+  join_pieces(graph, parameters, piece_of);
   Sheets out;
   for (const std::uint32_t piece : piece_of) out.pieces = std::max(out.pieces, std::uint64_t{piece} + 1);
   const Absorbed absorbed = absorb_pieces(graph, grid.voxel_size, parameters, piece_of);

@@ -13,20 +13,18 @@ namespace medial_vk {
 struct SheetParameters {
   /// tau of Section 2.5, degrees: neighbours whose normals differ by no more are of one sheet.
   double angle = 5.7;
-  /// Degrees: so are neighbours both of whose spokes turn by no more, as they do from facet to facet of a round shape;
-  /// and all of two pieces if half of the pairs of neighbours across their border turn by no more than kBorderTurn
-  /// more. 0: only the published test.
-  double crease = 30;
-  /// Pieces narrower than this fraction of the mean diameter of their balls join a neighbour; 0: none.
+  /// Degrees: so are neighbours both of whose spokes turn by no more, as they do from facet to facet of a round shape.
+  /// 0: only the published test, of neighbours and of pieces.
+  double crease = 10;
+  /// Degrees: two pieces are one if spokes turn by no more at half of their border.
+  double border = 73;
+  /// Pieces narrower than this fraction of the mean diameter of their balls go to those around, point by point; 0: none.
   double width = 0.3;
-  /// Pieces of fewer points join a neighbour; 0: none.
+  /// So do pieces of fewer points; 0: none.
   std::uint64_t absorb_fragments = 0;
 
   bool operator==(const SheetParameters&) const = default;
 };
-
-/// Degrees.
-inline constexpr double kBorderTurn = 25;
 
 /// Sheets of fewer points are counted as fragments.
 inline constexpr std::uint64_t kFragmentPoints = 10;

@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "mesh/parallel_for.h"
+#include "sheets/sheets_around.h"
+
 namespace medial_vk {
 namespace {
 
@@ -137,20 +140,25 @@ class Removing {
 
 std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
   std::vector<double> of_sheet(sheets.sheets);
-  const auto add = [&](std::uint32_t ball, double share) {
-    of_sheet[static_cast<std::size_t>(sheets.sheet_of[ball])] += share;
-  };
   if (!sheets.graph) {
-    for (std::uint32_t ball = 0; ball < of_ball.size(); ++ball) add(ball, of_ball[ball]);
+    for (std::size_t i = 0; i < of_ball.size(); ++i) of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += of_ball[i];
     return of_sheet;
   }
-  const VoxelGraph& graph = *sheets.graph;
   // In voxel order, so that the sums do not depend on that of the balls.
-  for (std::uint32_t place = 0; place < graph.size(); ++place) {
-    const auto around = graph.neighbours(place);
-    const double share = of_ball[graph.index(place)] / static_cast<double>(around.size() + 1);
-    add(graph.index(place), share);
-    for (const std::uint32_t other : around) add(graph.index(other), share);
+  std::vector<std::uint32_t> order(of_ball.size());
+  for (std::uint32_t place = 0; place < order.size(); ++place) order[place] = sheets.graph->index(place);
+  const SheetsAround around(sheets.balls, sheets.sheet_of, order);
+  std::vector<SheetsAround::Weights> weights(order.size());
+  parallel_for(order.size(), 256, [&](std::size_t place) {
+    const Ball& ball = sheets.balls[order[place]];
+    weights[place] = around.weights(ball.centre, std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size));
+  });
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    double sum = 0;
+    for (const auto& [sheet, weight] : weights[place]) sum += weight;
+    for (const auto& [sheet, weight] : weights[place]) {
+      of_sheet[static_cast<std::size_t>(sheet)] += of_ball[order[place]] * weight / sum;
+    }
   }
   return of_sheet;
 }

@@ -18,17 +18,21 @@ struct SheetBalls {
   std::span<const Ball> balls;
   std::span<const std::int32_t> sheet_of;
   std::size_t sheets = 0;
-  /// The same balls by the voxels they lie in, or nothing: then no ball is at a seam.
+  /// The same balls by the voxels they lie in, or nothing: then every ball is of its own sheet only.
   const VoxelGraph* graph = nullptr;
+  double voxel_size = 0;  ///< Of these voxels; above 0 if there is a graph.
 };
+
+/// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
+inline constexpr double kSeamReach = 0.4;
 
 struct Significance {
   double volume = 0;            ///< Of the union of the balls.
   double area = 0;              ///< Of its surface.
   BettiNumbers topology;        ///< Of the union.
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
-  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the number of
-  /// points of it in the voxel of the ball and the 26 around it.
+  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the points of
+  /// it within kSeamReach of its radius, or two voxels, the nearer the more.
   std::vector<double> of_sheet;
   std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
 };

@@ -100,7 +100,7 @@ std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, s
   std::vector<Ball> balls;
   for (const MedialSphere& s : extraction.spheres) balls.push_back({s.centre, s.radius});
   const VoxelGraph graph(extraction.spheres);
-  const SheetBalls in_sheets = {balls, sheets.of_point, sheets.sheets.size(), &graph};
+  const SheetBalls in_sheets = {balls, sheets.of_point, sheets.sheets.size(), &graph, extraction.grid.voxel_size};
   std::vector<double> shares = measure_significance(in_sheets, 0).value().of_sheet;
   std::sort(shares.rbegin(), shares.rend());
   double sum = 0;
