@@ -19,7 +19,7 @@ struct SheetParameters {
   /// Degrees: two pieces are one if spokes turn by no more at half of their border.
   double border = 73;
   /// Pieces narrower than this fraction of the mean diameter of their balls go to those around, point by point; 0: none.
-  double width = 0.3;
+  double width = 0.35;
   /// So do pieces of fewer points; 0: none.
   std::uint64_t absorb_fragments = 0;
 

@@ -36,6 +36,10 @@ SheetsAround::SheetsAround(std::span<const Ball> balls, std::span<const std::int
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
 }
 
+bool SheetsAround::others_near(const Point& at, double reach, std::int32_t sheet) const {
+  return !nodes_.empty() && others_near(0, at, reach, sheet);
+}
+
 SheetsAround::Weights SheetsAround::weights(const Point& at, double reach) const {
   Weights out;
   if (!nodes_.empty()) add(0, at, reach, out);
@@ -75,6 +79,17 @@ void SheetsAround::describe(Node& node) const {
     if (sheet_of_[order_[i]] != node.sheet) node.sheet = -1;
   }
   for (double& coordinate : node.centroid) coordinate /= node.last - node.first;
+}
+
+bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reach, std::int32_t sheet) const {
+  const Node& node = nodes_[index];
+  if (node.sheet == sheet || !(distance_to_box(at, node.least, node.greatest) < reach)) return false;
+  if (node.right != 0) {
+    return others_near(index + 1, at, reach, sheet) || others_near(node.right, at, reach, sheet);
+  }
+  return std::any_of(order_.begin() + node.first, order_.begin() + node.last, [&](std::uint32_t ball) {
+    return sheet_of_[ball] != sheet && length(balls_[ball].centre - at) < reach;
+  });
 }
 
 void SheetsAround::add(std::uint32_t index, const Point& at, double reach, Weights& out) const {

@@ -17,6 +17,9 @@ class SheetsAround {
   /// `order`: the balls in an order that does not depend on how they came in; answers are then the same to the last bit.
   SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::vector<std::uint32_t> order);
 
+  /// Has a sheet other than this one a point at a distance below `reach`?
+  bool others_near(const Point& at, double reach, std::int32_t sheet) const;
+
   using Weights = std::vector<std::pair<std::int32_t, double>>;  ///< By sheet, in no order.
 
   /// Every point at a distance d < reach counts 1 - d / reach. Points of a node that is all of one sheet and no wider
@@ -33,6 +36,7 @@ class SheetsAround {
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
   void describe(Node& node) const;
+  bool others_near(std::uint32_t node, const Point& at, double reach, std::int32_t sheet) const;
   void add(std::uint32_t node, const Point& at, double reach, Weights& out) const;
 
   std::span<const Ball> balls_;

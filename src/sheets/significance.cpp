@@ -151,7 +151,10 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   std::vector<SheetsAround::Weights> weights(order.size());
   parallel_for(order.size(), 256, [&](std::size_t place) {
     const Ball& ball = sheets.balls[order[place]];
-    weights[place] = around.weights(ball.centre, std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size));
+    const std::int32_t own = sheets.sheet_of[order[place]];
+    const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
+    weights[place] = {{own, 1.0}};
+    if (around.others_near(ball.centre, reach, own)) weights[place] = around.weights(ball.centre, reach);
   });
   for (std::size_t place = 0; place < order.size(); ++place) {
     double sum = 0;

@@ -135,15 +135,17 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
 
 TEST(Options, SheetsAreGroupedAsAskedFor) {
   EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetParameters());
-  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-width", "0.1",
-                                         "--absorb-fragments", "20"})
+  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border",
+                                         "60", "--sheet-width", "0.1", "--absorb-fragments", "20"})
                                      .sheets;
   EXPECT_EQ(sheets.angle, 10);
   EXPECT_EQ(sheets.crease, 0);
+  EXPECT_EQ(sheets.border, 60);
   EXPECT_EQ(sheets.width, 0.1);
   EXPECT_EQ(sheets.absorb_fragments, 20u);
   EXPECT_THAT(message_of({"a.obj", "--sheet-angle", "91"}), HasSubstr("--sheet-angle"));
   EXPECT_THAT(message_of({"a.obj", "--sheet-crease", "-1"}), HasSubstr("--sheet-crease"));
+  EXPECT_THAT(message_of({"a.obj", "--sheet-border", "181"}), HasSubstr("--sheet-border"));
   EXPECT_THAT(message_of({"a.obj", "--sheet-width", "2"}), HasSubstr("--sheet-width"));
   EXPECT_THAT(message_of({"a.obj", "--absorb-fragments", "many"}), HasSubstr("--absorb-fragments"));
 }

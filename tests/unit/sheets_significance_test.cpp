@@ -5,12 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <set>
 #include <vector>
 
+#include "mesh/point_ops.h"
+#include "sheets/sheets_around.h"
 #include "sheets/volume_curve.h"
 
 namespace medial_vk {
@@ -94,7 +98,8 @@ TEST(Significance, SumsToOne) {
   EXPECT_NEAR(std::accumulate(found.of_ball.begin(), found.of_ball.end(), 0.0), 1, 1e-13);
 }
 
-// Four balls of one size in a row, apart, in two sheets: those at the seam count for both.
+// Four balls of one size in a row, apart, in two sheets: those at the seam count for both. With voxels of side 0.75
+// sheets count up to 1.5 from a centre, so points a step away by 1/3.
 TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {
   std::vector<MedialSphere> spheres(4);
   Parts parts;
@@ -107,11 +112,67 @@ TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {
   const VoxelGraph graph(spheres);
   SheetBalls sheets = parts.view();
   sheets.graph = &graph;
+  sheets.voxel_size = 0.75;
   const Significance found = measure_significance(sheets, 1).value();
   EXPECT_NEAR(found.of_ball[2], 0.25, 1e-14);
-  // Of the third, two parts in three; of the fourth, one in two.
-  EXPECT_NEAR(found.of_sheet[0], 0.25 * (1 + 1 + 2.0 / 3 + 0.5), 1e-14);
-  EXPECT_NEAR(found.of_sheet[1], 0.25 * (1.0 / 3 + 0.5), 1e-14);
+  // The third has its own point and those to either side, the fourth its own and one.
+  EXPECT_NEAR(found.of_sheet[0], 0.25 * (1 + 1 + 4.0 / 5 + 1.0 / 4), 1e-14);
+  EXPECT_NEAR(found.of_sheet[1], 0.25 * (1.0 / 5 + 3.0 / 4), 1e-14);
+}
+
+// Beyond two voxels kSeamReach of the radius counts: 0.8 of a ball of radius 2.
+TEST(Significance, LargeBallsReachFarther) {
+  std::vector<MedialSphere> spheres(2);
+  spheres[1].voxel = {7, 0, 0};
+  Parts parts;
+  parts.balls = {{{0, 0, 0}, 2}, {{0.7, 0, 0}, 2}};
+  parts.sheet_of = {0, 1};
+  parts.sheets = 2;
+  const VoxelGraph graph(spheres);
+  SheetBalls sheets = parts.view();
+  sheets.graph = &graph;
+  sheets.voxel_size = 0.1;
+  // As large as each other; each counts 1 - 0.7 / 0.8 = 1/8 against its own 1.
+  EXPECT_NEAR(measure_significance(sheets, 1).value().of_sheet[0], 0.5, 1e-14);
+  parts.balls[1].radius = 1;
+  sheets.balls = parts.balls;
+  const Significance uneven = measure_significance(sheets, 1).value();
+  EXPECT_NEAR(uneven.of_sheet[0], uneven.of_ball[0] * 8 / 9, 1e-14) << "the small one does not reach the large one's";
+}
+
+// Against a sum over all points. Nodes are taken whole up to a diagonal w of reach / 4. Points that are no farther than w
+// from each other are within w sqrt(3/8) of their centre of mass (Jung), so no weight is wrong by more than sqrt(3/8) / 4.
+TEST(SheetsAround, WeightsAreThoseOfAllPoints) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0, 1);
+  std::vector<Ball> balls;
+  std::vector<std::int32_t> sheet_of;
+  for (int i = 0; i < 3000; ++i) {
+    balls.push_back({{place(random), place(random), 0.05 * place(random)}, 0.1});
+    sheet_of.push_back(static_cast<std::int32_t>(3 * balls.back().centre[0]));
+  }
+  std::vector<std::uint32_t> order(balls.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const SheetsAround around(balls, sheet_of, order);
+  for (const double reach : {0.001, 0.02, 0.1, 0.4, 2.0}) {
+    for (std::size_t i = 0; i < balls.size(); i += 50) {
+      std::array<double, 3> exact = {}, found = {};
+      double within = 0;
+      bool others = false;
+      for (std::size_t j = 0; j < balls.size(); ++j) {
+        const double distance = length(balls[j].centre - balls[i].centre);
+        if (distance < 1.25 * reach) ++within;
+        if (distance >= reach) continue;
+        exact[static_cast<std::size_t>(sheet_of[j])] += 1 - distance / reach;
+        others = others || sheet_of[j] != sheet_of[i];
+      }
+      for (const auto& [sheet, weight] : around.weights(balls[i].centre, reach)) {
+        found[static_cast<std::size_t>(sheet)] += weight;
+      }
+      EXPECT_EQ(around.others_near(balls[i].centre, reach, sheet_of[i]), others);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], exact[k], std::sqrt(3.0 / 8) / 4 * within);
+    }
+  }
 }
 
 TEST(SheetRemoval, TakesTheLeastSignificantFirst) {

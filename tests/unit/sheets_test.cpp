@@ -52,7 +52,12 @@ std::vector<MedialSphere> together(std::vector<MedialSphere> a, const std::vecto
 }
 
 /// Only the published test.
-SheetParameters as_published(double angle = 5.7) { return {angle, 0, 0, 0}; }
+SheetParameters as_published(double angle = 5.7) {
+  SheetParameters parameters;
+  parameters.angle = angle;
+  parameters.crease = parameters.width = 0;
+  return parameters;
+}
 
 Sheets find(const std::vector<MedialSphere>& spheres, const SheetParameters& parameters) {
   return find_sheets(spheres, kGrid, ExtractionParameters(), parameters);
@@ -99,30 +104,61 @@ TEST(Sheets, CreasesJoin) {
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u) << "as published, normals alone decide";
   parameters.crease = 21;
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
-  // A border that turns by the same everywhere joins by kBorderTurn more.
-  const std::vector<MedialSphere> sharp = together(square(6), square(6, 40, 7));
-  parameters.crease = 14;
-  EXPECT_EQ(sizes(find(sharp, parameters)).size(), 2u);
-  parameters.crease = 16;
-  EXPECT_EQ(sizes(find(sharp, parameters)).size(), 1u);
+  // What no link joins a border may.
+  parameters.crease = 10;
+  parameters.border = 19;
+  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u);
+  parameters.border = 21;
+  EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
 }
 
-// Beside a flat square a twisted one, row by row: no link is small enough to join them, and the border does if half of
-// it turns by no more than 10 + kBorderTurn.
-TEST(Sheets, HalfOfABorderDecides) {
-  SheetParameters parameters = as_published();
-  parameters.crease = 10;
-  const auto twisted = [](double first) {
-    std::vector<MedialSphere> out = square(6, 0, 7);
-    for (MedialSphere& s : out) {
-      const double turn = (first + 5 * s.voxel[1]) * std::numbers::pi / 180;
-      s.spoke_a = {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))};
-      s.spoke_b = {-s.spoke_a[0], 0, -s.spoke_a[2]};
+// Beside a flat strip of ten rows a twisted one, 20 to 65 degrees. The least turns of the points on the twisted side are
+// these; those on the flat side see the row before, too: 20, 20, 25, ... 60. So the tenth of these twenty turns by 40
+// degrees. (With 40 points each, 20 are no short border.)
+TEST(Sheets, TheMiddleOfABorderDecides) {
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t row = 1; row <= 10; ++row) {
+    const double turn = (15 + 5 * row) * std::numbers::pi / 180;
+    const std::array<float, 3> twisted = {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))};
+    for (std::uint32_t x = 1; x <= 4; ++x) spheres.push_back(point_at(x, row, 8, {0, 0, 1}));
+    for (std::uint32_t x = 5; x <= 8; ++x) spheres.push_back(point_at(x, row, 8, twisted));
+  }
+  SheetParameters parameters;
+  parameters.width = 0;
+  parameters.border = 39;
+  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 2u);
+  parameters.border = 41;
+  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 1u);
+}
+
+// The second square begins beside the last row of the first, so that three points are at the border: one and two. They
+// count as 3 sqrt(points), of which half must turn by no more: 3 of 6 for four points, 3 of 9 for nine do not.
+TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
+  const auto touching = [](std::uint32_t n) {
+    std::vector<MedialSphere> out = square(n);
+    for (MedialSphere s : square(n, 20, n + 1)) {
+      s.voxel[1] += n - 1;
+      s.centre[1] += n - 1;
+      out.push_back(s);
     }
     return out;
   };
-  EXPECT_EQ(sizes(find(together(square(6), twisted(10)), parameters)).size(), 1u) << "15 to 40 degrees";
-  EXPECT_EQ(sizes(find(together(square(6), twisted(24)), parameters)).size(), 2u) << "29 to 54 degrees";
+  SheetParameters parameters;
+  parameters.width = 0;
+  EXPECT_EQ(sizes(find(touching(2), parameters)).size(), 1u);
+  EXPECT_EQ(sizes(find(touching(3), parameters)).size(), 2u);
+}
+
+// Between two that differ by 60 degrees one of 30 degrees: with a border of 45 it joins either, and once it has, most of
+// the border of the three is that of the other two.
+TEST(Sheets, WhatTurnsLeastJoinsFirst) {
+  const std::vector<MedialSphere> spheres =
+      together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
+  SheetParameters parameters;
+  parameters.border = 30;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(72, 36));
+  parameters.border = 32;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(108));
 }
 
 // Normals that agree do not join two sheets if a salient one may pass between them: here two bisectors of a square
@@ -182,7 +218,7 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
     std::vector<MedialSphere> shuffled;
     for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
 
-    for (const SheetParameters& parameters : {SheetParameters(), as_published(), SheetParameters{5.7, 20, 0.2, 30}}) {
+    for (const SheetParameters& parameters : {SheetParameters(), as_published(), SheetParameters{5.7, 20, 45, 0.2, 30}}) {
       const Sheets a = find(spheres, parameters), b = find(shuffled, parameters);
       ASSERT_EQ(a.sheets.size(), b.sheets.size());
       for (std::size_t i = 0; i < order.size(); ++i) {
@@ -197,8 +233,8 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
   }
 }
 
-TEST(Sheets, SmallPiecesJoinTheNeighbourTheyTouchMost) {
-  // Ten columns, a strip of two, three columns, all 13 high; bends of 60 degrees.
+// Ten columns, a strip of two, three columns, all 13 high; bends of 60 degrees.
+TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
   std::vector<MedialSphere> spheres;
   for (const MedialSphere& s : square(15)) {
     if (s.voxel[1] > 13) continue;
@@ -207,6 +243,7 @@ TEST(Sheets, SmallPiecesJoinTheNeighbourTheyTouchMost) {
     spheres.push_back(strip ? point_at(s.voxel[0], s.voxel[1], s.voxel[2], {side, 0, 0.5f}) : s);
   }
   SheetParameters parameters;
+  parameters.border = 55;
   parameters.width = 0;
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(130, 39, 26));
   parameters.absorb_fragments = 27;
@@ -214,13 +251,31 @@ TEST(Sheets, SmallPiecesJoinTheNeighbourTheyTouchMost) {
   EXPECT_EQ(absorbed.pieces, 3u);
   EXPECT_EQ(absorbed.absorbed_pieces, 1u);
   EXPECT_EQ(absorbed.absorbed_points, 26u);
-  EXPECT_THAT(sizes(absorbed), ElementsAre(156, 39)) << "of two that it touches as much, the first";
+  EXPECT_THAT(sizes(absorbed), ElementsAre(143, 52)) << "a column to either side";
   // The strip is one voxel deep: 1/8 of the diameter. The columns beside it are three deep from there: 5/8.
-  parameters = {};
+  parameters.absorb_fragments = 0;
   parameters.width = 0.12;
   EXPECT_EQ(sizes(find(spheres, parameters)).size(), 3u);
   parameters.width = 0.13;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(156, 39));
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(143, 52));
+}
+
+// Four columns, each turned by 80 degrees against those beside it: no piece is wide enough to take the others.
+TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
+  std::vector<MedialSphere> spheres;
+  for (MedialSphere s : square(4)) {
+    const double turn = 80 * s.voxel[0] * std::numbers::pi / 180;
+    spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
+                               {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
+  }
+  SheetParameters parameters;
+  parameters.width = 0;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(4, 4, 4, 4));
+  parameters.width = 0.3;
+  const Sheets sheets = find(spheres, parameters);
+  EXPECT_THAT(sizes(sheets), ElementsAre(16));
+  EXPECT_EQ(sheets.absorbed_pieces, 3u);
+  EXPECT_EQ(sheets.absorbed_points, 12u);
 }
 
 TEST(Sheets, APieceWithoutNeighboursStays) {
