@@ -7,6 +7,7 @@
 
 #include "mesh/parallel_for.h"
 #include "mesh/point_ops.h"
+#include "sheets/rim.h"
 
 namespace medial_vk {
 namespace {
@@ -57,7 +58,7 @@ class Absorption {
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
     const double diameter = 2 * radii / static_cast<double>(piece.size());
     // As wide as the widest strip that fits, from one voxel of the border to that on the other side.
-    return 2 * greatest_depth(piece, border) + voxel_size_ < parameters_.width * diameter;
+    return 2 * greatest_depth(piece, edge_of(piece)) + voxel_size_ < parameters_.width * diameter;
   }
 
   /// What lies beside a rim is not at a border.
@@ -68,6 +69,16 @@ class Absorption {
                                  [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
     });
     return border;
+  }
+
+  std::vector<std::uint32_t> edge_of(std::span<const std::uint32_t> piece) const {
+    std::vector<std::uint32_t> edge;
+    std::ranges::copy_if(piece, std::back_inserter(edge), [&](std::uint32_t place) {
+      return std::ranges::any_of(graph_.neighbours(place),
+                                 [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; }) ||
+             is_rim(graph_, place);
+    });
+    return edge;
   }
 
   /// Voxel by voxel from its border inwards, with the nearest point of the border that a point heard of from those

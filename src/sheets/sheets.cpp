@@ -10,6 +10,7 @@
 #include "sheets/absorb_pieces.h"
 #include "sheets/grow_pieces.h"
 #include "sheets/join_pieces.h"
+#include "sheets/rim.h"
 #include "sheets/tangent_frame.h"
 #include "sheets/voxel_graph.h"
 #include "sheets/voxel_section.h"
@@ -59,24 +60,6 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
   for (std::size_t place = 0; place < graph.size(); ++place)
     out.sheets[static_cast<std::size_t>(sheet_of[place])].area += areas[place];
   for (Sheet& sheet : out.sheets) sheet.area *= grid.voxel_size * grid.voxel_size;
-}
-
-/// Is there a gap of a third of a turn or more between the directions to its neighbours, seen along the normal? Within
-/// a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their voxels.
-bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
-  constexpr double kGap = 2 * std::numbers::pi / 3;
-  const TangentFrame frame(sheet_normal(graph.sphere(place)));
-  std::array<double, 26> angles;
-  std::size_t count = 0;
-  for (const std::uint32_t other : graph.neighbours(place)) {
-    if (count == angles.size()) break;
-    angles[count++] = frame.angle(graph.sphere(other).centre - graph.sphere(place).centre);
-  }
-  if (count == 0) return true;
-  std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count));
-  double widest = angles[0] + 2 * std::numbers::pi - angles[count - 1];
-  for (std::size_t i = 1; i < count; ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
-  return widest >= kGap;
 }
 
 std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::uint32_t place) {

@@ -1,0 +1,30 @@
+#include "sheets/rim.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+#include "sheets/tangent_frame.h"
+
+namespace medial_vk {
+
+// Within a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their
+// voxels.
+bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
+  constexpr double kGap = 2 * std::numbers::pi / 3;
+  const TangentFrame frame(sheet_normal(graph.sphere(place)));
+  std::array<double, 26> angles;
+  std::size_t count = 0;
+  for (const std::uint32_t other : graph.neighbours(place)) {
+    if (count == angles.size()) break;
+    angles[count++] = frame.angle(graph.sphere(other).centre - graph.sphere(place).centre);
+  }
+  if (count == 0) return true;
+  std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count));
+  double widest = angles[0] + 2 * std::numbers::pi - angles[count - 1];
+  for (std::size_t i = 1; i < count; ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+  return widest >= kGap;
+}
+
+}  // namespace medial_vk
