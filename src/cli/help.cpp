@@ -81,9 +81,10 @@ How points are grouped into sheets:
                         degrees, as between facets of a round shape, 0 to 180
                         (default 10; 0: only the angle decides, as published)
       --sheet-border A  so are pieces if half of their border turns by no more
-                        than A degrees, 0 to 180 (default 73)
+                        than A degrees, 0 to 180 (default 74)
       --sheet-width W   pieces narrower than W times the diameter of their
-                        balls, 0 to 1, go to those around (default 0.35; 0: none)
+                        balls, 0 to 1, go to those around them (default 0.17;
+                        0: none)
       --absorb-fragments N  so do pieces of fewer than N points (default 0)
       --keep-volume V   keep only the most significant sheets, with at least V
                         of the volume of the union of balls, between 0 and 1

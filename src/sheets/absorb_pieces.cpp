@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <iterator>
 #include <span>
 
 #include "mesh/parallel_for.h"
@@ -16,13 +16,8 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Absorption {
  public:
-  Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
-             std::vector<std::uint32_t>& piece_of)
-      : graph_(graph),
-        voxel_size_(voxel_size),
-        parameters_(parameters),
-        piece_of_(piece_of),
-        nearest_(graph.size(), kNone) {
+  Absorption(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of)
+      : graph_(graph), parameters_(parameters), piece_of_(piece_of), nearest_(graph.size(), kNone) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) {
       if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
       places_[piece_of[place]].push_back(place);
@@ -50,41 +45,27 @@ class Absorption {
   }
 
   bool is_small(std::span<const std::uint32_t> piece) {
-    const std::vector<std::uint32_t> border = border_of(piece);
-    if (border.empty()) return false;
+    if (std::ranges::none_of(piece, [&](std::uint32_t place) { return is_at_border(place); })) return false;
     if (piece.size() < parameters_.absorb_fragments) return true;
-    if (!(parameters_.width > 0)) return false;
     double radii = 0;
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
     const double diameter = 2 * radii / static_cast<double>(piece.size());
-    // As wide as the widest strip that fits, from one voxel of the border to that on the other side.
-    return 2 * greatest_depth(piece, edge_of(piece)) + voxel_size_ < parameters_.width * diameter;
+    // Edges lie somewhere in their voxels: the piece is at least so wide.
+    return 2 * greatest_depth(piece) < parameters_.width * diameter;
   }
 
-  /// What lies beside a rim is not at a border.
-  std::vector<std::uint32_t> border_of(std::span<const std::uint32_t> piece) const {
-    std::vector<std::uint32_t> border;
-    std::ranges::copy_if(piece, std::back_inserter(border), [&](std::uint32_t place) {
-      return std::ranges::any_of(graph_.neighbours(place),
-                                 [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
-    });
-    return border;
+  bool is_at_border(std::uint32_t place) const {
+    return std::ranges::any_of(graph_.neighbours(place),
+                               [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
   }
 
-  std::vector<std::uint32_t> edge_of(std::span<const std::uint32_t> piece) const {
-    std::vector<std::uint32_t> edge;
-    std::ranges::copy_if(piece, std::back_inserter(edge), [&](std::uint32_t place) {
-      return std::ranges::any_of(graph_.neighbours(place),
-                                 [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; }) ||
-             is_rim(graph_, place);
-    });
-    return edge;
-  }
-
-  /// Voxel by voxel from its border inwards, with the nearest point of the border that a point heard of from those
-  /// before it: the distance of the farthest.
-  double greatest_depth(std::span<const std::uint32_t> piece, std::vector<std::uint32_t> front) {
+  /// Of the widest strip that fits, half the width: voxel by voxel from borders and rims inwards, with the nearest
+  /// point of these that a point heard of from those before it, the distance of the farthest.
+  double greatest_depth(std::span<const std::uint32_t> piece) {
     const std::uint32_t own = piece_of_[piece.front()];
+    std::vector<std::uint32_t> front;
+    std::ranges::copy_if(piece, std::back_inserter(front),
+                         [&](std::uint32_t place) { return is_at_border(place) || is_rim(graph_, place); });
     for (const std::uint32_t place : front) nearest_[place] = place;
     std::vector<std::uint32_t> reached;
     double depth = 0;
@@ -186,18 +167,17 @@ class Absorption {
   }
 
   const VoxelGraph& graph_;
-  double voxel_size_;
   const SheetParameters& parameters_;
-  std::vector<std::uint32_t>& piece_of_;             // by place: its piece, or none while it is free
-  std::vector<std::vector<std::uint32_t>> places_;   // by piece, as they were at first
-  std::vector<std::uint32_t> nearest_;               // by place: a place of the border of its piece, once measured
+  std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
+  std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
+  std::vector<std::uint32_t> nearest_;  // by place: the nearest place at the edge of its piece, once measured
 };
 
 }  // namespace
 
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, const SheetParameters& parameters,
                        std::vector<std::uint32_t>& piece_of) {
-  return Absorption(graph, voxel_size, parameters, piece_of).run();
+  return Absorption(graph, parameters, piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -15,10 +15,10 @@ struct Absorbed {
 };
 
 /// Rewrites `piece_of` (by place, numbers from 0 without gaps): pieces that have a neighbour and are narrower than
-/// parameters.width or have fewer points than parameters.absorb_fragments, all at once, go to the pieces around, voxel
-/// by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small pieces
-/// that hang together and touch no other become one. Numbers are those of pieces that there were, with gaps.
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+/// parameters.width allows or have fewer points than parameters.absorb_fragments, all at once, go to the pieces around,
+/// voxel by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small
+/// pieces that hang together and touch no other become one. Numbers are those of pieces that there were, with gaps.
+Absorbed absorb_pieces(const VoxelGraph& graph, const SheetParameters& parameters,
                        std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

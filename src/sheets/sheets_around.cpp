@@ -57,9 +57,8 @@ std::uint32_t SheetsAround::build(std::uint32_t first, std::uint32_t last) {
   const Point size = node.greatest - node.least;
   const auto axis = static_cast<std::size_t>(std::ranges::max_element(size) - size.begin());
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(
-      order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-      [&](std::uint32_t a, std::uint32_t b) { return balls_[a].centre[axis] < balls_[b].centre[axis]; });
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                   [&](std::uint32_t a, std::uint32_t b) { return balls_[a].centre[axis] < balls_[b].centre[axis]; });
   build(first, middle);
   const std::uint32_t right = build(middle, last);
   nodes_[index].right = right;

@@ -14,7 +14,8 @@ namespace medial_vk {
 /// for what is asked: a question takes about as long on any grid.
 class SheetsAround {
  public:
-  /// `order`: the balls in an order that does not depend on how they came in; answers are then the same to the last bit.
+  /// `order`: the balls in an order that does not depend on how they came in; answers are then the same to the last
+  /// bit.
   SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::vector<std::uint32_t> order);
 
   /// Has a sheet other than this one a point at a distance below `reach`?
@@ -29,9 +30,9 @@ class SheetsAround {
  private:
   struct Node {
     Point least, greatest, centroid;
-    std::uint32_t first, last;    ///< In order_.
-    std::uint32_t right;          ///< The left one comes next; 0: a leaf.
-    std::int32_t sheet;           ///< -1: several.
+    std::uint32_t first, last;  ///< In order_.
+    std::uint32_t right;        ///< The left one comes next; 0: a leaf.
+    std::int32_t sheet;         ///< -1: several.
   };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);

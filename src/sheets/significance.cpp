@@ -141,7 +141,8 @@ class Removing {
 std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
   std::vector<double> of_sheet(sheets.sheets);
   if (!sheets.graph) {
-    for (std::size_t i = 0; i < of_ball.size(); ++i) of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += of_ball[i];
+    for (std::size_t i = 0; i < of_ball.size(); ++i)
+      of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += of_ball[i];
     return of_sheet;
   }
   // In voxel order, so that the sums do not depend on that of the balls.

@@ -24,7 +24,7 @@ struct SheetBalls {
 };
 
 /// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
-inline constexpr double kSeamReach = 0.4;
+inline constexpr double kSeamReach = 0.5;
 
 struct Significance {
   double volume = 0;            ///< Of the union of the balls.

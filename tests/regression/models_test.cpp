@@ -91,8 +91,8 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   EXPECT_LT(medial_mesh.value().triangles.size(), 2.1 * static_cast<double>(extraction.spheres.size()));
 }
 
-/// Significances of the fewest sheets with 90 % of the volume, descending.
-std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, std::uint32_t resolution) {
+/// Significances of the fewest sheets with this share of the volume, descending.
+std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, std::uint32_t resolution, double share) {
   ExtractionParameters parameters;
   parameters.resolution = resolution;
   const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
@@ -105,16 +105,16 @@ std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, s
   std::sort(shares.rbegin(), shares.rend());
   double sum = 0;
   std::size_t count = 0;
-  while (count < shares.size() && sum < 0.9) sum += shares[count++];
+  while (count < shares.size() && sum < share) sum += shares[count++];
   shares.resize(count);
   return shares;
 }
 
-/// How much the share of a leading sheet may change from resolution 120 to 240, of itself: as measured
-/// (docs/theory.md, "Sheets"), rounded up. The number stays.
+/// The sheets that hold this share of the volume change by less than 5 % from resolution 120 to 240, each of itself;
+/// their number stays. docs/theory.md, "Sheets", has what holds less.
 struct Stability {
   const char* name;
-  double most;
+  double share;
 };
 
 class RealSheets : public testing::TestWithParam<Stability> {};
@@ -124,14 +124,15 @@ TEST_P(RealSheets, ChangeLittleWithTheGrid) {
   if (!std::filesystem::exists(file_of(GetParam().name))) GTEST_SKIP() << kNoModels;
   const PreparedMesh mesh = test::prepare(read_mesh(file_of(GetParam().name)).value());
   Context context = test::make_context();
-  const std::vector<double> coarse = leading_shares(context, mesh, 120), fine = leading_shares(context, mesh, 240);
+  const std::vector<double> coarse = leading_shares(context, mesh, 120, GetParam().share);
+  const std::vector<double> fine = leading_shares(context, mesh, 240, GetParam().share);
   ASSERT_EQ(coarse.size(), fine.size());
-  for (std::size_t i = 0; i < coarse.size(); ++i) EXPECT_NEAR(fine[i], coarse[i], GetParam().most * coarse[i]) << i;
+  for (std::size_t i = 0; i < coarse.size(); ++i) EXPECT_NEAR(fine[i], coarse[i], 0.05 * coarse[i]) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RealSheets,
-                         testing::Values(Stability{"spot", 0.07}, Stability{"rocker-arm", 0.14},
-                                         Stability{"fandisk", 0.11}),
+                         testing::Values(Stability{"spot", 0.9}, Stability{"rocker-arm", 0.8}, Stability{"homer", 0.5},
+                                         Stability{"fandisk", 0.5}),
                          [](const auto& model) {
                            std::string name = model.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');

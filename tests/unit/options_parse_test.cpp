@@ -135,8 +135,8 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
 
 TEST(Options, SheetsAreGroupedAsAskedFor) {
   EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetParameters());
-  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border",
-                                         "60", "--sheet-width", "0.1", "--absorb-fragments", "20"})
+  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border", "60",
+                                         "--sheet-width", "0.1", "--absorb-fragments", "20"})
                                      .sheets;
   EXPECT_EQ(sheets.angle, 10);
   EXPECT_EQ(sheets.crease, 0);
