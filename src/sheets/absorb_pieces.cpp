@@ -16,8 +16,13 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Absorption {
  public:
-  Absorption(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of)
-      : graph_(graph), parameters_(parameters), piece_of_(piece_of), nearest_(graph.size(), kNone) {
+  Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+             std::vector<std::uint32_t>& piece_of)
+      : graph_(graph),
+        voxel_size_(voxel_size),
+        parameters_(parameters),
+        piece_of_(piece_of),
+        nearest_(graph.size(), kNone) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) {
       if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
       places_[piece_of[place]].push_back(place);
@@ -50,7 +55,9 @@ class Absorption {
     double radii = 0;
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
     const double diameter = 2 * radii / static_cast<double>(piece.size());
-    // Edges lie somewhere in their voxels: the piece is at least so wide.
+    // Edges lie somewhere in their voxels: the piece is at least as wide as it is deep on both sides. Between them
+    // there may be a voxel more: where that is wide enough for these balls, the grid cannot tell what is narrow.
+    if (voxel_size_ >= parameters_.width * diameter) return false;
     return 2 * greatest_depth(piece) < parameters_.width * diameter;
   }
 
@@ -167,6 +174,7 @@ class Absorption {
   }
 
   const VoxelGraph& graph_;
+  double voxel_size_;
   const SheetParameters& parameters_;
   std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
   std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
@@ -175,9 +183,9 @@ class Absorption {
 
 }  // namespace
 
-Absorbed absorb_pieces(const VoxelGraph& graph, const SheetParameters& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
                        std::vector<std::uint32_t>& piece_of) {
-  return Absorption(graph, parameters, piece_of).run();
+  return Absorption(graph, voxel_size, parameters, piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -18,7 +18,8 @@ struct Absorbed {
 /// parameters.width allows or have fewer points than parameters.absorb_fragments, all at once, go to the pieces around,
 /// voxel by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small
 /// pieces that hang together and touch no other become one. Numbers are those of pieces that there were, with gaps.
-Absorbed absorb_pieces(const VoxelGraph& graph, const SheetParameters& parameters,
+/// `voxel_size` is the side of the graph's voxels: what is no wider cannot be told from what is.
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
                        std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

@@ -107,7 +107,7 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   join_pieces(graph, parameters, piece_of);
   Sheets out;
   for (const std::uint32_t piece : piece_of) out.pieces = std::max(out.pieces, std::uint64_t{piece} + 1);
-  const Absorbed absorbed = absorb_pieces(graph, parameters, piece_of);
+  const Absorbed absorbed = absorb_pieces(graph, grid.voxel_size, parameters, piece_of);
   out.absorbed_pieces = absorbed.pieces;
   out.absorbed_points = absorbed.points;
   std::size_t count = 0;

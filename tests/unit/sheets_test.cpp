@@ -261,6 +261,23 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(156, 78));
 }
 
+// Six columns, and two of another sheet beside them, one at the border and one at the rim: those are 0 deep. Whether
+// they are too narrow is not asked where a quarter of the diameter is less than a voxel.
+TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
+  SheetParameters parameters;
+  parameters.width = 0.25;
+  const auto sizes_with = [&](double radius) {
+    std::vector<MedialSphere> spheres;
+    for (std::uint32_t y = 1; y <= 12; ++y) {
+      for (std::uint32_t x = 1; x <= 6; ++x) spheres.push_back(point_at(x, y, 8, {0, 0, 1}, radius));
+      for (std::uint32_t x = 7; x <= 8; ++x) spheres.push_back(point_at(x, y, 8, {1, 0, 0}, radius));
+    }
+    return sizes(find(spheres, parameters));
+  };
+  EXPECT_THAT(sizes_with(1.9), ElementsAre(72, 24));
+  EXPECT_THAT(sizes_with(2.1), ElementsAre(96));
+}
+
 // Four columns, each turned by 80 degrees against those beside it: no piece is wide enough to take the others.
 TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
   std::vector<MedialSphere> spheres;
