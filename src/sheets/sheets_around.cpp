@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "mesh/point_ops.h"
 
@@ -18,21 +20,11 @@ double distance_to_box(const Point& at, const Point& least, const Point& greates
   return length(gap);
 }
 
-void add_weight(std::int32_t sheet, double weight, SheetsAround::Weights& out) {
-  if (!(weight > 0)) return;
-  const auto found = std::ranges::find(out, sheet, [](const auto& entry) { return entry.first; });
-  if (found == out.end()) {
-    out.emplace_back(sheet, weight);
-  } else {
-    found->second += weight;
-  }
-}
-
 }  // namespace
 
-SheetsAround::SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of,
+SheetsAround::SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::size_t sheets,
                            std::vector<std::uint32_t> order)
-    : balls_(balls), sheet_of_(sheet_of), order_(std::move(order)) {
+    : balls_(balls), sheet_of_(sheet_of), sheets_(sheets), order_(std::move(order)) {
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
 }
 
@@ -40,10 +32,27 @@ bool SheetsAround::others_near(const Point& at, double reach, std::int32_t sheet
   return !nodes_.empty() && others_near(0, at, reach, sheet);
 }
 
-SheetsAround::Weights SheetsAround::weights(const Point& at, double reach) const {
-  Weights out;
-  if (!nodes_.empty()) add(0, at, reach, out);
-  return out;
+void SheetsAround::Given::add(const Given& other) {
+  std::ranges::transform(sheets, other.sheets, sheets.begin(), std::plus<>());
+  std::ranges::transform(nodes, other.nodes, nodes.begin(), std::plus<>());
+}
+
+void SheetsAround::divide(double amount, const Point& at, double reach, Given& to) const {
+  std::vector<Part> parts;
+  find_parts(0, at, reach, parts);
+  double sum = 0;
+  for (const Part& part : parts) sum += part.points * part.weight;
+  for (const Part& part : parts) {
+    const double to_each = amount * part.weight / sum;
+    if (part.sheet >= 0) to.sheets[static_cast<std::size_t>(part.sheet)] += part.points * to_each;
+    if (part.sheet < 0) to.nodes[part.node] += to_each;
+  }
+}
+
+std::vector<double> SheetsAround::by_sheet(const Given& given) const {
+  Given all = given;
+  if (!nodes_.empty()) hand_down(0, 0, all);
+  return std::move(all.sheets);
 }
 
 std::uint32_t SheetsAround::build(std::uint32_t first, std::uint32_t last) {
@@ -66,18 +75,19 @@ std::uint32_t SheetsAround::build(std::uint32_t first, std::uint32_t last) {
 }
 
 void SheetsAround::describe(Node& node) const {
-  node.least = node.greatest = balls_[order_[node.first]].centre;
+  const Point origin = balls_[order_[node.first]].centre;
+  node.least = node.greatest = origin;
   node.sheet = sheet_of_[order_[node.first]];
   for (std::uint32_t i = node.first; i < node.last; ++i) {
     const Point& centre = balls_[order_[i]].centre;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       node.least[axis] = std::min(node.least[axis], centre[axis]);
       node.greatest[axis] = std::max(node.greatest[axis], centre[axis]);
-      node.centroid[axis] += centre[axis];
+      node.centroid[axis] += centre[axis] - origin[axis];
     }
     if (sheet_of_[order_[i]] != node.sheet) node.sheet = -1;
   }
-  for (double& coordinate : node.centroid) coordinate /= node.last - node.first;
+  node.centroid = origin + 1.0 / (node.last - node.first) * node.centroid;
 }
 
 bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reach, std::int32_t sheet) const {
@@ -91,18 +101,35 @@ bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reac
   });
 }
 
-void SheetsAround::add(std::uint32_t index, const Point& at, double reach, Weights& out) const {
+void SheetsAround::find_parts(std::uint32_t index, const Point& at, double reach, std::vector<Part>& parts) const {
   const Node& node = nodes_[index];
   if (!(distance_to_box(at, node.least, node.greatest) < reach)) return;
-  if (node.sheet >= 0 && length(node.greatest - node.least) <= reach / 4) {
-    add_weight(node.sheet, (node.last - node.first) * (1 - length(node.centroid - at) / reach), out);
+  const auto enter = [&](const Point& place, std::uint32_t points, std::int32_t sheet) {
+    const double distance = length(place - at);
+    if (distance < reach) parts.push_back({1 - distance / reach, points, index, sheet});
+  };
+  if (length(node.greatest - node.least) <= reach / (node.sheet >= 0 ? 4 : 8)) {
+    enter(node.centroid, node.last - node.first, node.sheet);
   } else if (node.right != 0) {
-    add(index + 1, at, reach, out);
-    add(node.right, at, reach, out);
+    find_parts(index + 1, at, reach, parts);
+    find_parts(node.right, at, reach, parts);
+  } else {
+    for (std::uint32_t i = node.first; i < node.last; ++i) enter(balls_[order_[i]].centre, 1, sheet_of_[order_[i]]);
+  }
+}
+
+/// What nodes were given, theirs and those above them, goes to the sheets of their points.
+void SheetsAround::hand_down(std::uint32_t index, double to_each, Given& given) const {
+  const Node& node = nodes_[index];
+  to_each += given.nodes[index];
+  if (node.sheet >= 0) {
+    given.sheets[static_cast<std::size_t>(node.sheet)] += (node.last - node.first) * to_each;
+  } else if (node.right != 0) {
+    hand_down(index + 1, to_each, given);
+    hand_down(node.right, to_each, given);
   } else {
     for (std::uint32_t i = node.first; i < node.last; ++i) {
-      const std::uint32_t ball = order_[i];
-      add_weight(sheet_of_[ball], 1 - length(balls_[ball].centre - at) / reach, out);
+      given.sheets[static_cast<std::size_t>(sheet_of_[order_[i]])] += to_each;
     }
   }
 }

@@ -1,31 +1,41 @@
-// Which sheets have points near a place, and how many.
+// Amounts divided among the points around places, and summed by their sheets.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk {
 
-/// A k-d tree over the centres of balls. It looks closer only where nodes have points of several sheets, or are large
-/// for what is asked: a question takes about as long on any grid.
+/// A k-d tree over the centres of balls. What lies close together for what is asked counts as one, so that a question
+/// takes about as long on any grid, however many sheets there are.
 class SheetsAround {
  public:
-  /// `order`: the balls in an order that does not depend on how they came in; answers are then the same to the last
-  /// bit.
-  SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::vector<std::uint32_t> order);
+  /// `order`: the balls in an order that does not depend on how they came in; sums are then the same to the last bit.
+  /// Sheets are numbered from 0 up to below `sheets`.
+  SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::size_t sheets,
+               std::vector<std::uint32_t> order);
 
   /// Has a sheet other than this one a point at a distance below `reach`?
   bool others_near(const Point& at, double reach, std::int32_t sheet) const;
 
-  using Weights = std::vector<std::pair<std::int32_t, double>>;  ///< By sheet, in no order.
+  /// What points have been given.
+  struct Given {
+    std::vector<double> sheets;  ///< By sheet.
+    std::vector<double> nodes;   ///< By node that has points of several sheets: to each of its points.
 
-  /// Every point at a distance d < reach counts 1 - d / reach. Points of a node that is all of one sheet and no wider
-  /// than reach / 4 count as if they were at its centre of mass.
-  Weights weights(const Point& at, double reach) const;
+    void add(const Given& other);
+  };
+  Given nothing() const { return {std::vector<double>(sheets_), std::vector<double>(nodes_.size())}; }
+
+  /// Divides an amount among the points at a distance d < reach, in proportion to 1 - d / reach. Points of a node count
+  /// as if they were at its centre of mass if it is no wider than reach / 4 and all of one sheet, or than reach / 8.
+  /// Precondition: there is such a point.
+  void divide(double amount, const Point& at, double reach, Given& to) const;
+
+  std::vector<double> by_sheet(const Given& given) const;
 
  private:
   struct Node {
@@ -34,14 +44,23 @@ class SheetsAround {
     std::uint32_t right;        ///< The left one comes next; 0: a leaf.
     std::int32_t sheet;         ///< -1: several.
   };
+  /// Points that count alike.
+  struct Part {
+    double weight;  ///< Of each of them.
+    std::uint32_t points;
+    std::uint32_t node;  ///< Which they are all of, if it has several sheets.
+    std::int32_t sheet;  ///< Otherwise.
+  };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
   void describe(Node& node) const;
-  bool others_near(std::uint32_t node, const Point& at, double reach, std::int32_t sheet) const;
-  void add(std::uint32_t node, const Point& at, double reach, Weights& out) const;
+  bool others_near(std::uint32_t index, const Point& at, double reach, std::int32_t sheet) const;
+  void find_parts(std::uint32_t index, const Point& at, double reach, std::vector<Part>& parts) const;
+  void hand_down(std::uint32_t index, double to_each, Given& given) const;
 
   std::span<const Ball> balls_;
   std::span<const std::int32_t> sheet_of_;
+  std::size_t sheets_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };

@@ -138,33 +138,42 @@ class Removing {
   double done_ = 0;
 };
 
-std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
+std::vector<double> sum_by_sheet(const SheetBalls& sheets, const std::vector<double>& of_ball) {
   std::vector<double> of_sheet(sheets.sheets);
-  if (!sheets.graph) {
-    for (std::size_t i = 0; i < of_ball.size(); ++i)
-      of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += of_ball[i];
-    return of_sheet;
-  }
-  // In voxel order, so that the sums do not depend on that of the balls.
-  std::vector<std::uint32_t> order(of_ball.size());
-  for (std::uint32_t place = 0; place < order.size(); ++place) order[place] = sheets.graph->index(place);
-  const SheetsAround around(sheets.balls, sheets.sheet_of, order);
-  std::vector<SheetsAround::Weights> weights(order.size());
-  parallel_for(order.size(), 256, [&](std::size_t place) {
-    const Ball& ball = sheets.balls[order[place]];
-    const std::int32_t own = sheets.sheet_of[order[place]];
-    const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
-    weights[place] = {{own, 1.0}};
-    if (around.others_near(ball.centre, reach, own)) weights[place] = around.weights(ball.centre, reach);
-  });
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    double sum = 0;
-    for (const auto& [sheet, weight] : weights[place]) sum += weight;
-    for (const auto& [sheet, weight] : weights[place]) {
-      of_sheet[static_cast<std::size_t>(sheet)] += of_ball[order[place]] * weight / sum;
-    }
-  }
+  for (std::size_t i = 0; i < of_ball.size(); ++i) of_sheet[static_cast<std::size_t>(sheets.sheet_of[i])] += of_ball[i];
   return of_sheet;
+}
+
+/// What a ball has goes to the sheets around it.
+void give(const SheetBalls& sheets, std::uint32_t index, double amount, const SheetsAround& around,
+          SheetsAround::Given& to) {
+  const Ball& ball = sheets.balls[index];
+  const std::int32_t own = sheets.sheet_of[index];
+  const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
+  if (around.others_near(ball.centre, reach, own)) {
+    around.divide(amount, ball.centre, reach, to);
+  } else {
+    to.sheets[static_cast<std::size_t>(own)] += amount;
+  }
+}
+
+/// In voxel order, whatever the order of the balls, and in as many parts for any number of cores: sums do not depend on
+/// these. Precondition: there is a graph.
+std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
+  constexpr std::size_t kParts = 16;
+  const std::size_t count = of_ball.size();
+  std::vector<std::uint32_t> order(count);
+  for (std::uint32_t place = 0; place < count; ++place) order[place] = sheets.graph->index(place);
+  const SheetsAround around(sheets.balls, sheets.sheet_of, sheets.sheets, order);
+  std::vector<SheetsAround::Given> given(kParts);
+  parallel_for(kParts, 1, [&](std::size_t part) {
+    given[part] = around.nothing();
+    for (std::size_t place = part * count / kParts; place < (part + 1) * count / kParts; ++place) {
+      give(sheets, order[place], of_ball[order[place]], around, given[part]);
+    }
+  });
+  for (std::size_t part = 1; part < kParts; ++part) given[0].add(given[part]);
+  return around.by_sheet(given[0]);
 }
 
 }  // namespace
@@ -189,7 +198,7 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
   for (std::size_t i = 0; i < result.of_ball.size(); ++i) {
     if (result.volume > 0) result.of_ball[i] /= result.volume;
   }
-  result.of_sheet = share_among_sheets(sheets, result.of_ball);
+  result.of_sheet = sheets.graph ? share_among_sheets(sheets, result.of_ball) : sum_by_sheet(sheets, result.of_ball);
   return result;
 }
 
