@@ -81,7 +81,7 @@ How points are grouped into sheets:
                         degrees, as between facets of a round shape, 0 to 180
                         (default 10; 0: only the angle decides, as published)
       --sheet-border A  so are pieces if half of their border turns by no more
-                        than A degrees, 0 to 180 (default 74)
+                        than A degrees, 0 to 180 (default 75)
       --sheet-width W   pieces narrower than W times the diameter of their
                         balls, 0 to 1, go to those around them (default 0.17;
                         0: none)

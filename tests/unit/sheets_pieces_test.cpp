@@ -152,7 +152,7 @@ TEST(JoinPieces, AsAPlainProgramWould) {
     const std::vector<MedialSphere> spheres = patches(seed);
     const VoxelGraph graph(spheres);
     const Pieces pieces = grown(graph);
-    for (const double border : {0.0, 30.0, 74.0, 110.0, 180.0}) {
+    for (const double border : {0.0, 30.0, 75.0, 110.0, 180.0}) {
       SheetParameters parameters;
       parameters.border = border;
       Pieces joined = pieces;

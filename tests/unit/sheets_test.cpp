@@ -149,11 +149,12 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
   EXPECT_EQ(sizes(find(touching(3), parameters)).size(), 2u);
 }
 
-// Between two that differ by 60 degrees one of 30 degrees: with a border of 45 it joins either, and once it has, most
-// of the border of the three is that of the other two.
-TEST(Sheets, WhatTurnsLeastJoinsFirst) {
+// Between two that differ by 60 degrees one that differs from them by 29 and 31.
+TEST(Sheets, PiecesJoinUpToTheTurnOfABorder) {
   const std::vector<MedialSphere> spheres = together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
   SheetParameters parameters;
+  parameters.border = 28;
+  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(36, 36, 36));
   parameters.border = 30;
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(72, 36));
   parameters.border = 32;
@@ -215,6 +216,7 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
     std::mt19937 random(seed);
     std::shuffle(order.begin(), order.end(), random);
     std::vector<MedialSphere> shuffled;
+    shuffled.reserve(order.size());
     for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
 
     for (const SheetParameters& parameters :
@@ -312,7 +314,7 @@ TEST(Sheets, CheckFindsPartsAndWrongNumbers) {
   EXPECT_EQ(check_sheets(spheres)[0].failed, 1u) << "two parts";
   for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = 1 - sheets.of_point[i];
   EXPECT_EQ(check_sheets(spheres)[1].failed, 1u) << "the smaller one first";
-  for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = -1;
+  for (MedialSphere& s : spheres) s.sheet = -1;
   EXPECT_EQ(check_sheets(spheres)[1].failed, 1u) << "none";
 }
 
