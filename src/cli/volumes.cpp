@@ -68,8 +68,10 @@ class VolumeStep {
     const VoxelGraph graph(spheres_);
     sheets_.graph = &graph;
     sheets_.voxel_size = record_.grid.voxel_size;
+    sheets_.marks = record_.sheets.marks;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
     sheets_.graph = nullptr;
+    sheets_.marks = {};
     if (!measured) return measured.error();
     significance_ = std::move(measured).value();
     record_.ball_union = UnionRecord{significance_.volume, significance_.area, significance_.topology};

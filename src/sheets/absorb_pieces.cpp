@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "mesh/parallel_for.h"
 #include "mesh/point_ops.h"
@@ -32,11 +33,15 @@ class Absorption {
   Absorbed run() {
     const std::vector<std::uint32_t> before = piece_of_;
     set_small_pieces_free();
+    std::vector<std::uint8_t> was_small(graph_.size());
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) was_small[place] = is_free(place) ? 1 : 0;
     hand_out(front_of_free_places());
     for (std::uint32_t place = 0; place < graph_.size(); ++place) {
       if (piece_of_[place] == kNone) unite(place, before[place]);
     }
-    return count(before);
+    Absorbed absorbed = count(before);
+    absorbed.was_small = std::move(was_small);
+    return absorbed;
   }
 
  private:

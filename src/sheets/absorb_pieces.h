@@ -10,8 +10,9 @@
 namespace medial_vk {
 
 struct Absorbed {
-  std::uint64_t pieces = 0;  ///< By how many there are fewer.
-  std::uint64_t points = 0;  ///< Whose piece is another now.
+  std::uint64_t pieces = 0;             ///< By how many there are fewer.
+  std::uint64_t points = 0;             ///< Whose piece is another now.
+  std::vector<std::uint8_t> was_small;  ///< By place: was its piece one of those? 0 or 1.
 };
 
 /// Rewrites `piece_of` (by place, numbers from 0 without gaps): pieces that have a neighbour and are narrower than

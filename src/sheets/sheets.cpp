@@ -113,6 +113,9 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   std::size_t count = 0;
   const std::vector<std::int32_t> sheet_of = number_sheets(piece_of, count);
   describe(graph, sheet_of, count, out);
+  for (std::uint32_t place = 0; place < graph.size(); ++place) {
+    if (absorbed.was_small[place]) out.marks[graph.index(place)] |= kHandedOut;
+  }
   if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, out);
   return out;
 }

@@ -40,8 +40,9 @@ struct Sheet {
 
 /// What is special about a point; flags.
 enum PointMark : std::uint8_t {
-  kSeam = 1,  ///< Another sheet has a point in a voxel beside that of this one.
-  kRim = 2,   ///< The sheet ends here: for a third of the way around, no voxel beside it has a point.
+  kSeam = 1,       ///< Another sheet has a point in a voxel beside that of this one.
+  kRim = 2,        ///< The sheet ends here: for a third of the way around, no voxel beside it has a point.
+  kHandedOut = 4,  ///< Of a piece too small for a sheet: its sheet is one of those around that piece.
 };
 
 struct Sheets {

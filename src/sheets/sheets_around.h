@@ -13,12 +13,14 @@ namespace medial_vk {
 /// takes about as long on any grid, however many sheets there are.
 class SheetsAround {
  public:
-  /// `order`: the balls in an order that does not depend on how they came in; sums are then the same to the last bit.
-  /// Sheets are numbered from 0 up to below `sheets`.
+  /// `order`: the balls that count, in an order that does not depend on how they came in; sums are then the same to the
+  /// last bit. Sheets are numbered from 0 up to below `sheets`.
   SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::size_t sheets,
                std::vector<std::uint32_t> order);
 
-  /// Has a sheet other than this one a point at a distance below `reach`?
+  static constexpr std::int32_t kNoSheet = -2;
+
+  /// Has a sheet other than this one (kNoSheet: any) a point at a distance below `reach`?
   bool others_near(const Point& at, double reach, std::int32_t sheet) const;
 
   /// What points have been given.

@@ -1,11 +1,13 @@
 #include "sheets/significance.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "mesh/parallel_for.h"
+#include "sheets/sheets.h"
 #include "sheets/sheets_around.h"
 
 namespace medial_vk {
@@ -144,13 +146,18 @@ std::vector<double> sum_by_sheet(const SheetBalls& sheets, const std::vector<dou
   return of_sheet;
 }
 
-/// What a ball has goes to the sheets around it.
+bool was_handed_out(const SheetBalls& sheets, std::uint32_t ball) {
+  return !sheets.marks.empty() && (sheets.marks[ball] & kHandedOut);
+}
+
+/// What a ball has goes to the sheets around it; where there are none, or none but its own, to that.
 void give(const SheetBalls& sheets, std::uint32_t index, double amount, const SheetsAround& around,
           SheetsAround::Given& to) {
   const Ball& ball = sheets.balls[index];
   const std::int32_t own = sheets.sheet_of[index];
+  const std::int32_t counted = was_handed_out(sheets, index) ? SheetsAround::kNoSheet : own;
   const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
-  if (around.others_near(ball.centre, reach, own)) {
+  if (around.others_near(ball.centre, reach, counted)) {
     around.divide(amount, ball.centre, reach, to);
   } else {
     to.sheets[static_cast<std::size_t>(own)] += amount;
@@ -164,7 +171,10 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   const std::size_t count = of_ball.size();
   std::vector<std::uint32_t> order(count);
   for (std::uint32_t place = 0; place < count; ++place) order[place] = sheets.graph->index(place);
-  const SheetsAround around(sheets.balls, sheets.sheet_of, sheets.sheets, order);
+  std::vector<std::uint32_t> counted;
+  std::ranges::copy_if(order, std::back_inserter(counted),
+                       [&](std::uint32_t ball) { return !was_handed_out(sheets, ball); });
+  const SheetsAround around(sheets.balls, sheets.sheet_of, sheets.sheets, std::move(counted));
   std::vector<SheetsAround::Given> given(kParts);
   parallel_for(kParts, 1, [&](std::size_t part) {
     given[part] = around.nothing();

@@ -21,6 +21,8 @@ struct SheetBalls {
   /// The same balls by the voxels they lie in, or nothing: then every ball is of its own sheet only.
   const VoxelGraph* graph = nullptr;
   double voxel_size = 0;  ///< Of these voxels; above 0 if there is a graph.
+  /// PointMark by ball, or nothing: no ball was handed out. Those that were do not say which sheets are around.
+  std::span<const std::uint8_t> marks = {};
 };
 
 /// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
@@ -32,7 +34,7 @@ struct Significance {
   BettiNumbers topology;        ///< Of the union.
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
   /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the points of
-  /// it within kSeamReach of its radius, or two voxels, the nearer the more.
+  /// it within kSeamReach of its radius, or two voxels, the nearer the more, but by none that were handed out.
   std::vector<double> of_sheet;
   std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mesh/point_ops.h"
+#include "sheets/sheets.h"
 #include "sheets/sheets_around.h"
 #include "sheets/volume_curve.h"
 
@@ -138,6 +139,34 @@ TEST(Significance, LargeBallsReachFarther) {
   sheets.balls = parts.balls;
   const Significance uneven = measure_significance(sheets, 1).value();
   EXPECT_NEAR(uneven.of_sheet[0], uneven.of_ball[0] / 1.3, 1e-14) << "the small one does not reach the large one's";
+}
+
+// A chain of balls of one size whose ends are sheets; those between were handed out. They go to the ends within reach,
+// two voxels here, whatever their own sheets are, and to their own where there is none.
+TEST(Significance, BallsThatWereHandedOutDoNotCount) {
+  std::vector<MedialSphere> spheres(6);
+  Parts parts;
+  for (const double x : {0.0, 1.0, 2.0, 3.5, 5.0, 6.0}) {
+    spheres[parts.balls.size()].voxel = {static_cast<std::uint32_t>(2 * x), 0, 0};
+    parts.balls.push_back({{x, 0, 0}, 0.4});
+  }
+  parts.sheet_of = {0, 0, 1, 1, 0, 1};
+  parts.sheets = 2;
+  std::vector<std::uint8_t> marks = {0, kHandedOut, kHandedOut, kHandedOut, kHandedOut, 0};
+  const VoxelGraph graph(spheres);
+  SheetBalls sheets = parts.view();
+  sheets.graph = &graph;
+  sheets.marks = marks;
+  const auto first_sheet = [&](double reach) {
+    sheets.voxel_size = reach / 2;
+    return measure_significance(sheets, 1).value().of_sheet[0];
+  };
+  EXPECT_NEAR(first_sheet(0.5), 3.0 / 6, 1e-14) << "each is of its own";
+  EXPECT_NEAR(first_sheet(1.1), 2.0 / 6, 1e-14) << "the first and the one beside it";
+  // The third is 2 and 4 away from the ends, the fourth 3.5 and 2.5.
+  EXPECT_NEAR(first_sheet(4.2), (1 + 1 + 2.2 / 2.4 + 0.7 / 2.4) / 6, 1e-14);
+  std::ranges::fill(marks, kHandedOut);
+  EXPECT_NEAR(first_sheet(4.2), 3.0 / 6, 1e-14) << "where all were handed out, each is of its own";
 }
 
 /// Clusters on a grid of step 1, each as small as nothing, of one sheet or of several. What is no wider than a quarter

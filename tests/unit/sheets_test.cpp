@@ -280,6 +280,23 @@ TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
   EXPECT_THAT(sizes_with(2.1), ElementsAre(96));
 }
 
+// Two columns beside six: the points that changed hands are marked, in the order that they came in.
+TEST(Sheets, MarksWhatWasHandedOut) {
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t x = 8; x >= 1; --x) {
+    for (std::uint32_t y = 1; y <= 12; ++y) {
+      spheres.push_back(point_at(x, y, 8, x > 6 ? std::array{1.f, 0.f, 0.f} : std::array{0.f, 0.f, 1.f}, 40));
+    }
+  }
+  SheetParameters parameters;
+  parameters.width = 0;
+  parameters.absorb_fragments = 25;
+  const Sheets sheets = find(spheres, parameters);
+  EXPECT_THAT(sizes(sheets), ElementsAre(96));
+  EXPECT_EQ(sheets.absorbed_points, 24u);
+  for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ((sheets.marks[i] & kHandedOut) != 0, i < 24) << i;
+}
+
 // Four columns, each turned by 80 degrees against those beside it: no piece is wide enough to take the others.
 TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
   std::vector<MedialSphere> spheres;
