@@ -97,6 +97,29 @@ KnownSolid plate_with_hole() {
           {1, 1, 0}};
 }
 
+/// Two holes, with bars around and between them that are twice as wide as they are thick: one middle around both.
+KnownSolid plate_with_two_holes() {
+  const auto hole = [](double left) {
+    return [=](const Vector3d& p) {
+      return std::abs(std::max(std::abs(p.x() - left - 0.2), std::abs(p.y() - 0.6)) - 0.2);
+    };
+  };
+  return {"plate_with_two_holes",
+          test::make_plate_with_two_holes(0.4, 0.2),
+          {{"left", wall(0, 0)},
+           {"right", wall(0, 2)},
+           {"front", wall(1, 0)},
+           {"back", wall(1, 1.2)},
+           {"hole_1", hole(0.4)},
+           {"hole_2", hole(1.2)},
+           {"bottom", wall(2, 0)},
+           {"top", wall(2, 0.2)}},
+          {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
+           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole_1",
+           "bottom hole_2", "hole_1 top", "hole_2 top"},
+          {1, 2, 0}};
+}
+
 std::string part_at(const KnownSolid& solid, const Vector3d& p) {
   return std::ranges::min_element(solid.parts, {}, [&](const Part& part) { return part.distance(p); })->name;
 }
@@ -150,7 +173,7 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
   EXPECT_EQ(topology.bare_edges, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, KnownSheets, testing::Values(&box, &l_shape, &plate_with_hole),
+INSTANTIATE_TEST_SUITE_P(Solids, KnownSheets, testing::Values(&box, &l_shape, &plate_with_hole, &plate_with_two_holes),
                          [](const auto& solid) { return solid.param().name; });
 
 // The bisector of an edge of length l in a box of least side a ends where the balls have the radius a/2: a trapezium of

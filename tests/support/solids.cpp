@@ -246,6 +246,33 @@ Mesh make_plate_with_hole(double side, double thickness, double hole) {
   return mesh;
 }
 
+// A chequerboard of 5 x 3 squares without the two that are holes.
+Mesh make_plate_with_two_holes(double a, double thickness) {
+  Mesh mesh;
+  const auto is_solid = [](int x, int y) {
+    return x >= 0 && x < 5 && y >= 0 && y < 3 && !(y == 1 && (x == 1 || x == 3));
+  };
+  const auto corner = [](int x, int y, int top) { return static_cast<std::uint32_t>((top * 4 + y) * 6 + x); };
+  for (int i = 0; i < 48; ++i) add_vertex(mesh, {a * (i % 6), a * (i / 6 % 4), thickness * (i / 24)});
+  // Counter-clockwise around the square: the corner where each of its sides begins, and the square beyond it.
+  constexpr std::array<std::array<int, 4>, 4> kSides = {{{0, 0, 0, -1}, {1, 0, 1, 0}, {1, 1, 0, 1}, {0, 1, -1, 0}}};
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      if (!is_solid(x, y)) continue;
+      add_quad(mesh, corner(x, y, 0), corner(x, y + 1, 0), corner(x + 1, y + 1, 0), corner(x + 1, y, 0));
+      add_quad(mesh, corner(x, y, 1), corner(x + 1, y, 1), corner(x + 1, y + 1, 1), corner(x, y + 1, 1));
+      for (std::size_t side = 0; side < 4; ++side) {
+        const auto& [u, v, beyond_x, beyond_y] = kSides[side];
+        const auto& end = kSides[(side + 1) % 4];
+        if (is_solid(x + beyond_x, y + beyond_y)) continue;
+        add_quad(mesh, corner(x + u, y + v, 0), corner(x + end[0], y + end[1], 0), corner(x + end[0], y + end[1], 1),
+                 corner(x + u, y + v, 1));
+      }
+    }
+  }
+  return mesh;
+}
+
 void rotate(Mesh& mesh, Point axis, double angle) {
   // Rodrigues' formula.
   const double length = std::hypot(axis[0], axis[1], axis[2]);
