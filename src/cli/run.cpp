@@ -176,9 +176,8 @@ class ExtractionRun {
   void group() {
     Stopwatch stopwatch;
     record_.sheet_parameters = options_.sheets;
-    const bool is_reported = !options_.report.empty() || !options_.html.empty();
     record_.sheets = find_sheets(spheres_, record_.grid, options_.parameters, options_.sheets,
-                                 is_reported ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
+                                 needs_volumes(options_) ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
     for (std::size_t i = 0; i < spheres_.size(); ++i) spheres_[i].sheet = record_.sheets.of_point[i];
     record_.host_times.push_back({"sheets", stopwatch.lap()});
   }

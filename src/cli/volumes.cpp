@@ -68,10 +68,11 @@ class VolumeStep {
     const VoxelGraph graph(spheres_);
     sheets_.graph = &graph;
     sheets_.voxel_size = record_.grid.voxel_size;
-    sheets_.marks = record_.sheets.marks;
+    const std::vector<double> weights = seam_weights(record_.sheets);
+    sheets_.weights = weights;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
     sheets_.graph = nullptr;
-    sheets_.marks = {};
+    sheets_.weights = {};
     if (!measured) return measured.error();
     significance_ = std::move(measured).value();
     record_.ball_union = UnionRecord{significance_.volume, significance_.area, significance_.topology};
@@ -119,6 +120,7 @@ class VolumeStep {
     keep_marked(keep, spheres_);
     keep_marked(keep, record_.sheets.of_point);
     keep_marked(keep, record_.sheets.marks);
+    keep_marked(keep, record_.sheets.areas);
     keep_marked(keep, significance_.of_ball);
     keep_marked(keep, significance_.areas);
     record_.removal = std::move(removal);

@@ -23,7 +23,8 @@ class Absorption {
         voxel_size_(voxel_size),
         parameters_(parameters),
         piece_of_(piece_of),
-        nearest_(graph.size(), kNone) {
+        nearest_(graph.size(), kNone),
+        is_small_(graph.size()) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) {
       if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
       places_[piece_of[place]].push_back(place);
@@ -32,30 +33,41 @@ class Absorption {
 
   Absorbed run() {
     const std::vector<std::uint32_t> before = piece_of_;
+    judge_pieces();
     set_small_pieces_free();
-    std::vector<std::uint8_t> was_small(graph_.size());
-    for (std::uint32_t place = 0; place < graph_.size(); ++place) was_small[place] = is_free(place) ? 1 : 0;
     hand_out(front_of_free_places());
     for (std::uint32_t place = 0; place < graph_.size(); ++place) {
-      if (piece_of_[place] == kNone) unite(place, before[place]);
+      if (is_free(place)) unite(place, before[place]);
     }
-    Absorbed absorbed = count(before);
-    absorbed.was_small = std::move(was_small);
-    return absorbed;
+    return count(before);
   }
 
  private:
+  void judge_pieces() {
+    parallel_for(places_.size(), 16, [&](std::size_t piece) { judge(places_[piece]); });
+  }
+
+  void judge(std::span<const std::uint32_t> piece) {
+    const std::uint8_t small = is_small(piece) ? 1 : 0;
+    for (const std::uint32_t place : piece) is_small_[place] = small;
+  }
+
+  /// Those that touch others.
   void set_small_pieces_free() {
-    std::vector<std::uint8_t> small(places_.size());
-    parallel_for(places_.size(), 16, [&](std::size_t piece) { small[piece] = is_small(places_[piece]) ? 1 : 0; });
-    for (std::size_t piece = 0; piece < small.size(); ++piece) {
-      if (!small[piece]) continue;
+    std::vector<std::uint8_t> goes(places_.size());
+    parallel_for(places_.size(), 16, [&](std::size_t piece) {
+      const auto touches = [&](std::uint32_t place) { return is_at_border(place); };
+      goes[piece] = is_small_[places_[piece].front()] && std::ranges::any_of(places_[piece], touches) ? 1 : 0;
+    });
+    for (std::size_t piece = 0; piece < goes.size(); ++piece) {
+      if (!goes[piece]) continue;
       for (const std::uint32_t place : places_[piece]) piece_of_[place] = kNone;
     }
   }
 
   bool is_small(std::span<const std::uint32_t> piece) {
-    if (std::ranges::none_of(piece, [&](std::uint32_t place) { return is_at_border(place); })) return false;
+    const auto ends = [&](std::uint32_t place) { return is_at_border(place) || is_rim(graph_, place); };
+    if (std::ranges::none_of(piece, ends)) return false;  // around a cavity, of any width
     if (piece.size() < parameters_.absorb_fragments) return true;
     double radii = 0;
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
@@ -152,23 +164,24 @@ class Absorption {
     return best;
   }
 
-  /// All free places that hang together with this one.
+  /// All free places that hang together with this one become a piece, which is judged in its turn.
   void unite(std::uint32_t place, std::uint32_t piece) {
-    std::vector<std::uint32_t> open = {place};
+    std::vector<std::uint32_t> united = {place};
     piece_of_[place] = piece;
-    while (!open.empty()) {
-      const std::uint32_t at = open.back();
-      open.pop_back();
-      for (const std::uint32_t other : graph_.neighbours(at)) {
+    for (std::size_t i = 0; i < united.size(); ++i) {
+      nearest_[united[i]] = kNone;
+      for (const std::uint32_t other : graph_.neighbours(united[i])) {
         if (!is_free(other)) continue;
         piece_of_[other] = piece;
-        open.push_back(other);
+        united.push_back(other);
       }
     }
+    judge(united);
   }
 
-  Absorbed count(const std::vector<std::uint32_t>& before) const {
+  Absorbed count(const std::vector<std::uint32_t>& before) {
     Absorbed absorbed;
+    absorbed.is_small = std::move(is_small_);
     std::vector<bool> is_left(places_.size());
     for (std::size_t place = 0; place < before.size(); ++place) {
       if (piece_of_[place] != before[place]) ++absorbed.points;
@@ -184,6 +197,7 @@ class Absorption {
   std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
   std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
   std::vector<std::uint32_t> nearest_;  // by place: the nearest place at the edge of its piece, once measured
+  std::vector<std::uint8_t> is_small_;  // by place
 };
 
 }  // namespace

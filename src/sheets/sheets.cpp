@@ -50,18 +50,6 @@ double area_in_voxel(const MedialSphere& sphere, const VoxelGrid& grid, double e
   return 0.5 * (section_area(place + aside, normal) + section_area(place - aside, normal));
 }
 
-/// Sums in voxel order, so that they come out the same whatever the order of the points.
-void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon,
-                   const std::vector<std::int32_t>& sheet_of, Sheets& out) {
-  std::vector<double> areas(graph.size());
-  parallel_for(graph.size(), 1024, [&](std::size_t i) {
-    areas[i] = area_in_voxel(graph.sphere(static_cast<std::uint32_t>(i)), grid, epsilon);
-  });
-  for (std::size_t place = 0; place < graph.size(); ++place)
-    out.sheets[static_cast<std::size_t>(sheet_of[place])].area += areas[place];
-  for (Sheet& sheet : out.sheets) sheet.area *= grid.voxel_size * grid.voxel_size;
-}
-
 std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::uint32_t place) {
   const auto neighbours = graph.neighbours(place);
   const bool seam =
@@ -69,7 +57,7 @@ std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& 
   return static_cast<std::uint8_t>((seam ? kSeam : 0) | (is_rim(graph, place) ? kRim : 0));
 }
 
-/// Sums in voxel order, too.
+/// Sums in voxel order, so that they come out the same whatever the order of the points.
 void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::size_t count, Sheets& out) {
   std::vector<std::uint8_t> marks(graph.size());
   parallel_for(graph.size(), 1024, [&](std::size_t i) {
@@ -98,6 +86,21 @@ void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of
   }
 }
 
+/// Sums in voxel order, too. After describe().
+void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon,
+                   const std::vector<std::int32_t>& sheet_of, Sheets& out) {
+  const double voxel_area = grid.voxel_size * grid.voxel_size;
+  out.areas.resize(graph.size());
+  parallel_for(graph.size(), 1024, [&](std::size_t i) {
+    const auto place = static_cast<std::uint32_t>(i);
+    const std::uint32_t point = graph.index(place);
+    const double share = out.marks[point] & kRim ? 0.5 : 1;
+    out.areas[point] = share * voxel_area * area_in_voxel(graph.sphere(place), grid, epsilon);
+  });
+  for (std::uint32_t place = 0; place < graph.size(); ++place)
+    out.sheets[static_cast<std::size_t>(sheet_of[place])].area += out.areas[graph.index(place)];
+}
+
 }  // namespace
 
 Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
@@ -114,7 +117,7 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   const std::vector<std::int32_t> sheet_of = number_sheets(piece_of, count);
   describe(graph, sheet_of, count, out);
   for (std::uint32_t place = 0; place < graph.size(); ++place) {
-    if (absorbed.was_small[place]) out.marks[graph.index(place)] |= kHandedOut;
+    if (absorbed.is_small[place]) out.marks[graph.index(place)] |= kSmall;
   }
   if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, out);
   return out;

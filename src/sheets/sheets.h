@@ -32,23 +32,26 @@ inline constexpr std::uint64_t kFragmentPoints = 10;
 
 struct Sheet {
   std::uint64_t points = 0;
-  double area = 0;               ///< Units of the mesh squared: of the planes through its points, within their voxels.
-  double mean_radius = 0;        ///< Of its points.
-  double mean_object_angle = 0;  ///< Of its points, radians.
+  double area = 0;                     ///< Units of the mesh squared: the sum over its points.
+  double mean_radius = 0;              ///< Of its points.
+  double mean_object_angle = 0;        ///< Of its points, radians.
   std::optional<double> significance;  ///< lambda of equation 6.2; nothing until volumes have been measured.
 };
 
 /// What is special about a point; flags.
 enum PointMark : std::uint8_t {
-  kSeam = 1,       ///< Another sheet has a point in a voxel beside that of this one.
-  kRim = 2,        ///< The sheet ends here: for a third of the way around, no voxel beside it has a point.
-  kHandedOut = 4,  ///< Of a piece too small for a sheet: its sheet is one of those around that piece.
+  kSeam = 1,   ///< Another sheet has a point in a voxel beside that of this one.
+  kRim = 2,    ///< The sheet ends here: for a third of the way around, no voxel beside it has a point.
+  kSmall = 4,  ///< Of a piece too small for a sheet of its own: which sheet it is in says little.
 };
 
 struct Sheets {
   std::vector<std::int32_t> of_point;  ///< By point: its sheet.
   std::vector<std::uint8_t> marks;     ///< By point: PointMark.
-  std::vector<Sheet> sheets;           ///< By decreasing number of points; of equals, that of the first voxel first.
+  /// By point, units of the mesh squared: of the plane through it within its voxel, half of that at a rim, where the
+  /// sheet ends somewhere in the voxel. Empty if left out.
+  std::vector<double> areas;
+  std::vector<Sheet> sheets;  ///< By decreasing number of points; of equals, that of the first voxel first.
 
   std::uint64_t pieces = 0;           ///< Before any were absorbed.
   std::uint64_t absorbed_pieces = 0;  ///< Too narrow, or of too few points.
@@ -59,7 +62,7 @@ struct Sheets {
   std::uint64_t rim_points = 0;
 };
 
-/// Groups do not need them; kLeftOut: they stay 0.
+/// Groups do not need them, volumes do; kLeftOut: those of sheets stay 0.
 enum class SheetAreas { kMeasured, kLeftOut };
 
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.

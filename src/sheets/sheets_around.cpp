@@ -22,9 +22,10 @@ double distance_to_box(const Point& at, const Point& least, const Point& greates
 
 }  // namespace
 
-SheetsAround::SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::size_t sheets,
-                           std::vector<std::uint32_t> order)
-    : balls_(balls), sheet_of_(sheet_of), sheets_(sheets), order_(std::move(order)) {
+SheetsAround::SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of,
+                           std::span<const double> weight_of, std::size_t sheets, std::vector<std::uint32_t> order)
+    : balls_(balls), sheet_of_(sheet_of), weight_of_(weight_of), sheets_(sheets), order_(std::move(order)) {
+  std::erase_if(order_, [&](std::uint32_t ball) { return !(weight_of_[ball] > 0); });
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
 }
 
@@ -37,16 +38,17 @@ void SheetsAround::Given::add(const Given& other) {
   std::ranges::transform(nodes, other.nodes, nodes.begin(), std::plus<>());
 }
 
-void SheetsAround::divide(double amount, const Point& at, double reach, Given& to) const {
+bool SheetsAround::divide(double amount, const Point& at, double reach, Given& to) const {
   std::vector<Part> parts;
-  find_parts(0, at, reach, parts);
+  if (!nodes_.empty()) find_parts(0, at, reach, parts);
   double sum = 0;
-  for (const Part& part : parts) sum += part.points * part.weight;
+  for (const Part& part : parts) sum += part.weight * part.nearness;
   for (const Part& part : parts) {
-    const double to_each = amount * part.weight / sum;
-    if (part.sheet >= 0) to.sheets[static_cast<std::size_t>(part.sheet)] += part.points * to_each;
-    if (part.sheet < 0) to.nodes[part.node] += to_each;
+    const double per_weight = amount * part.nearness / sum;
+    if (part.sheet >= 0) to.sheets[static_cast<std::size_t>(part.sheet)] += part.weight * per_weight;
+    if (part.sheet < 0) to.nodes[part.node] += per_weight;
   }
+  return !parts.empty();
 }
 
 std::vector<double> SheetsAround::by_sheet(const Given& given) const {
@@ -80,14 +82,16 @@ void SheetsAround::describe(Node& node) const {
   node.sheet = sheet_of_[order_[node.first]];
   for (std::uint32_t i = node.first; i < node.last; ++i) {
     const Point& centre = balls_[order_[i]].centre;
+    const double weight = weight_of_[order_[i]];
+    node.weight += weight;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       node.least[axis] = std::min(node.least[axis], centre[axis]);
       node.greatest[axis] = std::max(node.greatest[axis], centre[axis]);
-      node.centroid[axis] += centre[axis] - origin[axis];
+      node.centroid[axis] += weight * (centre[axis] - origin[axis]);
     }
     if (sheet_of_[order_[i]] != node.sheet) node.sheet = -1;
   }
-  node.centroid = origin + 1.0 / (node.last - node.first) * node.centroid;
+  node.centroid = origin + 1 / node.weight * node.centroid;
 }
 
 bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reach, std::int32_t sheet) const {
@@ -104,32 +108,34 @@ bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reac
 void SheetsAround::find_parts(std::uint32_t index, const Point& at, double reach, std::vector<Part>& parts) const {
   const Node& node = nodes_[index];
   if (!(distance_to_box(at, node.least, node.greatest) < reach)) return;
-  const auto enter = [&](const Point& place, std::uint32_t points, std::int32_t sheet) {
-    const double distance = length(place - at);
-    if (distance < reach) parts.push_back({1 - distance / reach, points, index, sheet});
+  const auto enter = [&](const Point& place, double weight, std::int32_t sheet) {
+    const double nearness = 1 - length(place - at) / reach;
+    if (nearness > 0) parts.push_back({weight, nearness, index, sheet});
   };
   if (length(node.greatest - node.least) <= reach / (node.sheet >= 0 ? 4 : 8)) {
-    enter(node.centroid, node.last - node.first, node.sheet);
+    enter(node.centroid, node.weight, node.sheet);
   } else if (node.right != 0) {
     find_parts(index + 1, at, reach, parts);
     find_parts(node.right, at, reach, parts);
   } else {
-    for (std::uint32_t i = node.first; i < node.last; ++i) enter(balls_[order_[i]].centre, 1, sheet_of_[order_[i]]);
+    for (std::uint32_t i = node.first; i < node.last; ++i) {
+      enter(balls_[order_[i]].centre, weight_of_[order_[i]], sheet_of_[order_[i]]);
+    }
   }
 }
 
 /// What nodes were given, theirs and those above them, goes to the sheets of their points.
-void SheetsAround::hand_down(std::uint32_t index, double to_each, Given& given) const {
+void SheetsAround::hand_down(std::uint32_t index, double per_weight, Given& given) const {
   const Node& node = nodes_[index];
-  to_each += given.nodes[index];
+  per_weight += given.nodes[index];
   if (node.sheet >= 0) {
-    given.sheets[static_cast<std::size_t>(node.sheet)] += (node.last - node.first) * to_each;
+    given.sheets[static_cast<std::size_t>(node.sheet)] += node.weight * per_weight;
   } else if (node.right != 0) {
-    hand_down(index + 1, to_each, given);
-    hand_down(node.right, to_each, given);
+    hand_down(index + 1, per_weight, given);
+    hand_down(node.right, per_weight, given);
   } else {
     for (std::uint32_t i = node.first; i < node.last; ++i) {
-      given.sheets[static_cast<std::size_t>(sheet_of_[order_[i]])] += to_each;
+      given.sheets[static_cast<std::size_t>(sheet_of_[order_[i]])] += weight_of_[order_[i]] * per_weight;
     }
   }
 }

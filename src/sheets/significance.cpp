@@ -1,13 +1,11 @@
 #include "sheets/significance.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "mesh/parallel_for.h"
-#include "sheets/sheets.h"
 #include "sheets/sheets_around.h"
 
 namespace medial_vk {
@@ -146,22 +144,15 @@ std::vector<double> sum_by_sheet(const SheetBalls& sheets, const std::vector<dou
   return of_sheet;
 }
 
-bool was_handed_out(const SheetBalls& sheets, std::uint32_t ball) {
-  return !sheets.marks.empty() && (sheets.marks[ball] & kHandedOut);
-}
-
 /// What a ball has goes to the sheets around it; where there are none, or none but its own, to that.
-void give(const SheetBalls& sheets, std::uint32_t index, double amount, const SheetsAround& around,
+void give(const SheetBalls& sheets, std::uint32_t index, double amount, double weight, const SheetsAround& around,
           SheetsAround::Given& to) {
   const Ball& ball = sheets.balls[index];
   const std::int32_t own = sheets.sheet_of[index];
-  const std::int32_t counted = was_handed_out(sheets, index) ? SheetsAround::kNoSheet : own;
   const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
-  if (around.others_near(ball.centre, reach, counted)) {
-    around.divide(amount, ball.centre, reach, to);
-  } else {
-    to.sheets[static_cast<std::size_t>(own)] += amount;
-  }
+  const bool asks_around = !(weight > 0) || around.others_near(ball.centre, reach, own);
+  if (asks_around && around.divide(amount, ball.centre, reach, to)) return;
+  to.sheets[static_cast<std::size_t>(own)] += amount;
 }
 
 /// In voxel order, whatever the order of the balls, and in as many parts for any number of cores: sums do not depend on
@@ -171,15 +162,14 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   const std::size_t count = of_ball.size();
   std::vector<std::uint32_t> order(count);
   for (std::uint32_t place = 0; place < count; ++place) order[place] = sheets.graph->index(place);
-  std::vector<std::uint32_t> counted;
-  std::ranges::copy_if(order, std::back_inserter(counted),
-                       [&](std::uint32_t ball) { return !was_handed_out(sheets, ball); });
-  const SheetsAround around(sheets.balls, sheets.sheet_of, sheets.sheets, std::move(counted));
+  std::vector<double> weights(sheets.weights.begin(), sheets.weights.end());
+  if (weights.empty()) weights.assign(count, 1);
+  const SheetsAround around(sheets.balls, sheets.sheet_of, weights, sheets.sheets, order);
   std::vector<SheetsAround::Given> given(kParts);
   parallel_for(kParts, 1, [&](std::size_t part) {
     given[part] = around.nothing();
     for (std::size_t place = part * count / kParts; place < (part + 1) * count / kParts; ++place) {
-      give(sheets, order[place], of_ball[order[place]], around, given[part]);
+      give(sheets, order[place], of_ball[order[place]], weights[order[place]], around, given[part]);
     }
   });
   for (std::size_t part = 1; part < kParts; ++part) given[0].add(given[part]);
@@ -187,6 +177,14 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
 }
 
 }  // namespace
+
+std::vector<double> seam_weights(const Sheets& sheets) {
+  std::vector<double> weights = sheets.areas;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (sheets.marks[i] & kSmall) weights[i] = 0;
+  }
+  return weights;
+}
 
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads) {
   for (const std::int32_t sheet : sheets.sheet_of) {

@@ -9,6 +9,7 @@
 
 #include "medial_vk/result.h"
 #include "medial_vk/shrinking_union.h"
+#include "sheets/sheets.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {
@@ -21,9 +22,13 @@ struct SheetBalls {
   /// The same balls by the voxels they lie in, or nothing: then every ball is of its own sheet only.
   const VoxelGraph* graph = nullptr;
   double voxel_size = 0;  ///< Of these voxels; above 0 if there is a graph.
-  /// PointMark by ball, or nothing: no ball was handed out. Those that were do not say which sheets are around.
-  std::span<const std::uint8_t> marks = {};
+  /// How much of a sheet each ball stands for, where it is asked which sheets are around: seam_weights(). All alike if
+  /// empty.
+  std::span<const double> weights = {};
 };
+
+/// By point: its area; 0 for those of pieces that were too small for a sheet. Precondition: areas were measured.
+std::vector<double> seam_weights(const Sheets& sheets);
 
 /// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
 inline constexpr double kSeamReach = 0.5;
@@ -33,8 +38,8 @@ struct Significance {
   double area = 0;              ///< Of its surface.
   BettiNumbers topology;        ///< Of the union.
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
-  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the points of
-  /// it within kSeamReach of its radius, or two voxels, the nearer the more, but by none that were handed out.
+  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the
+  /// weights of its points within kSeamReach of its radius, or two voxels, the nearer the more.
   std::vector<double> of_sheet;
   std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
 };

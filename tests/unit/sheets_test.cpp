@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <thread>
 
@@ -73,7 +74,9 @@ TEST(Sheets, ASquareIsOneSheetOfItsArea) {
   const Sheets sheets = find(square(10), as_published());
   ASSERT_EQ(sheets.sheets.size(), 1u);
   EXPECT_EQ(sheets.sheets[0].points, 100u);
-  EXPECT_NEAR(sheets.sheets[0].area, 100, 1e-6);
+  // It ends somewhere in the 36 outermost voxels: half of each counts.
+  EXPECT_NEAR(sheets.sheets[0].area, 64 + 36 / 2, 1e-6);
+  EXPECT_NEAR(std::accumulate(sheets.areas.begin(), sheets.areas.end(), 0.0), 82, 1e-6);
   EXPECT_DOUBLE_EQ(sheets.sheets[0].mean_radius, 4);
   EXPECT_NEAR(sheets.sheets[0].mean_object_angle, std::numbers::pi / 2, 1e-6);
   EXPECT_FALSE(sheets.sheets[0].significance.has_value());
@@ -281,7 +284,7 @@ TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
 }
 
 // Two columns beside six: the points that changed hands are marked, in the order that they came in.
-TEST(Sheets, MarksWhatWasHandedOut) {
+TEST(Sheets, MarksWhatIsSmall) {
   std::vector<MedialSphere> spheres;
   for (std::uint32_t x = 8; x >= 1; --x) {
     for (std::uint32_t y = 1; y <= 12; ++y) {
@@ -294,7 +297,7 @@ TEST(Sheets, MarksWhatWasHandedOut) {
   const Sheets sheets = find(spheres, parameters);
   EXPECT_THAT(sizes(sheets), ElementsAre(96));
   EXPECT_EQ(sheets.absorbed_points, 24u);
-  for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ((sheets.marks[i] & kHandedOut) != 0, i < 24) << i;
+  for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ((sheets.marks[i] & kSmall) != 0, i < 24) << i;
 }
 
 // Four columns, each turned by 80 degrees against those beside it: no piece is wide enough to take the others.
@@ -315,11 +318,37 @@ TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
   EXPECT_EQ(sheets.absorbed_points, 12u);
 }
 
+std::size_t small_points(const Sheets& sheets) {
+  return static_cast<std::size_t>(std::ranges::count_if(sheets.marks, [](std::uint8_t m) { return m & kSmall; }));
+}
+
+// Eight columns, each turned by 80 degrees against those beside it, of balls of the diameter 8: together they are 6
+// wide between the rims.
+TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
+  std::vector<MedialSphere> spheres;
+  for (const MedialSphere& s : square(8)) {
+    const double turn = (s.voxel[0] % 2 == 0 ? 40 : -40) * std::numbers::pi / 180;
+    spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
+                               {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
+  }
+  SheetParameters parameters;
+  parameters.border = 60;
+  for (const double width : {0.3, 1.0}) {
+    parameters.width = width;
+    const Sheets sheets = find(spheres, parameters);
+    EXPECT_EQ(sheets.pieces, 8u);
+    EXPECT_THAT(sizes(sheets), ElementsAre(64));
+    EXPECT_EQ(small_points(sheets), 8 * width > 6 ? 64u : 0u);
+  }
+}
+
 TEST(Sheets, APieceWithoutNeighboursStays) {
   SheetParameters parameters;
   parameters.width = 1;
   parameters.absorb_fragments = 1000;
-  EXPECT_EQ(sizes(find(together(square(2), square(2, 0, 30)), parameters)).size(), 2u);
+  const Sheets sheets = find(together(square(2), square(2, 0, 30)), parameters);
+  EXPECT_EQ(sizes(sheets).size(), 2u);
+  EXPECT_EQ(small_points(sheets), 8u);
 }
 
 TEST(Sheets, CheckFindsPartsAndWrongNumbers) {
@@ -377,7 +406,7 @@ TEST(Sheets, ASheetInAWallCountsOnce) {
   for (MedialSphere& s : above) s.centre[2] = 9 + 0.003;
   const Sheets sheets = find(together(below, above), SheetParameters());
   ASSERT_EQ(sheets.sheets.size(), 1u);
-  EXPECT_NEAR(sheets.sheets[0].area, 100, 1e-6);
+  EXPECT_NEAR(sheets.sheets[0].area, 64 + 36 / 2, 1e-6);
 }
 
 TEST(ConcurrentSets, TheRootIsTheLeastMemberWhateverTheThreads) {
