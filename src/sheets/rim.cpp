@@ -10,15 +10,19 @@
 namespace medial_vk {
 
 // Within a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their
-// voxels.
+// voxels. What is rather above a point than beside it says nothing of where the sheet goes on.
 bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
   constexpr double kGap = 2 * std::numbers::pi / 3;
-  const TangentFrame frame(sheet_normal(graph.sphere(place)));
+  const Point normal = sheet_normal(graph.sphere(place));
+  const TangentFrame frame(normal);
   std::array<double, 26> angles;
   std::size_t count = 0;
   for (const std::uint32_t other : graph.neighbours(place)) {
     if (count == angles.size()) break;
-    angles[count++] = frame.angle(graph.sphere(other).centre - graph.sphere(place).centre);
+    const Point direction = graph.sphere(other).centre - graph.sphere(place).centre;
+    const double above = dot(normal, direction);
+    if (2 * above * above > dot(normal, normal) * dot(direction, direction)) continue;
+    angles[count++] = frame.angle(direction);
   }
   if (count == 0) return true;
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count));
