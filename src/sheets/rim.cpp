@@ -10,7 +10,7 @@
 namespace medial_vk {
 
 // Within a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their
-// voxels. What is rather above a point than beside it says nothing of where the sheet goes on.
+// voxels. What is above a point, within 18 degrees of its normal, does not say where the sheet goes on.
 bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
   constexpr double kGap = 2 * std::numbers::pi / 3;
   const Point normal = sheet_normal(graph.sphere(place));
@@ -21,7 +21,7 @@ bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
     if (count == angles.size()) break;
     const Point direction = graph.sphere(other).centre - graph.sphere(place).centre;
     const double above = dot(normal, direction);
-    if (2 * above * above > dot(normal, normal) * dot(direction, direction)) continue;
+    if (above * above > 0.9 * dot(normal, normal) * dot(direction, direction)) continue;
     angles[count++] = frame.angle(direction);
   }
   if (count == 0) return true;
