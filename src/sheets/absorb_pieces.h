@@ -12,7 +12,8 @@ namespace medial_vk {
 struct Absorbed {
   std::uint64_t pieces = 0;  ///< By how many there are fewer.
   std::uint64_t points = 0;  ///< Whose piece is another now.
-  /// By place: 1 if its piece is too small for a sheet, and so is what it has become one with, else 0.
+  /// By place: 1 if its piece is too small for a sheet, and so is what it has become one with, else 0. That does not
+  /// ask for neighbours, but a piece with neither borders nor rims is large.
   std::vector<std::uint8_t> is_small;
 };
 

@@ -10,9 +10,11 @@
 namespace medial_vk {
 
 // Within a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their
-// voxels. What is above a point, within 18 degrees of its normal, does not say where the sheet goes on.
+// voxels. A sheet does not rise by 70 degrees from a voxel to the next, so what is steeper is another layer of it, as
+// in a wall between voxels, or another sheet.
 bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
   constexpr double kGap = 2 * std::numbers::pi / 3;
+  constexpr double kSteep = 0.9;  // the square of the sine of 71.6 degrees
   const Point normal = sheet_normal(graph.sphere(place));
   const TangentFrame frame(normal);
   std::array<double, 26> angles;
@@ -21,7 +23,7 @@ bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
     if (count == angles.size()) break;
     const Point direction = graph.sphere(other).centre - graph.sphere(place).centre;
     const double above = dot(normal, direction);
-    if (above * above > 0.9 * dot(normal, normal) * dot(direction, direction)) continue;
+    if (above * above > kSteep * dot(normal, normal) * dot(direction, direction)) continue;
     angles[count++] = frame.angle(direction);
   }
   if (count == 0) return true;

@@ -34,7 +34,7 @@ class SheetsAround {
   /// Divides an amount among the points at a distance d < reach, in proportion to their weights and 1 - d / reach.
   /// Points of a node count as if they were at its centre of mass if it is no wider than reach / 4 and all of one
   /// sheet, or than reach / 8. If there is no such point, nothing is given, and the answer is false.
-  bool divide(double amount, const Point& at, double reach, Given& to) const;
+  [[nodiscard]] bool divide(double amount, const Point& at, double reach, Given& to) const;
 
   std::vector<double> by_sheet(const Given& given) const;
 

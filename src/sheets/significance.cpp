@@ -192,6 +192,10 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
       return Error{ErrorCode::kInternal, "a ball is in sheet " + std::to_string(sheet) + ", which there is not"};
     }
   }
+  if (!sheets.weights.empty() && sheets.weights.size() != sheets.balls.size()) {
+    return Error{ErrorCode::kInternal, std::to_string(sheets.balls.size()) + " balls have " +
+                                           std::to_string(sheets.weights.size()) + " weights"};
+  }
   Result<BallUnion> measured = measure_ball_union(sheets.balls, {.threads = threads, .complex = true});
   if (!measured) return measured.error();
   BallUnion& whole = measured.value();

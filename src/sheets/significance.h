@@ -27,7 +27,8 @@ struct SheetBalls {
   std::span<const double> weights = {};
 };
 
-/// By point: its area; 0 for those of pieces that were too small for a sheet. Precondition: areas were measured.
+/// By point: its area; 0 for those of pieces that were too small for a sheet. Precondition: areas were measured. A ball
+/// whose plane just touches its voxel has little or no weight and is of the sheets around it, as if it were at a seam.
 std::vector<double> seam_weights(const Sheets& sheets);
 
 /// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
@@ -44,7 +45,7 @@ struct Significance {
   std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
 };
 
-/// Errors: those of measure_ball_union().
+/// Errors: those of measure_ball_union(); kInternal for sheets or weights that are not as said.
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads);
 
 /// The order in which sheets go.

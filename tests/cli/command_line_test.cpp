@@ -243,6 +243,12 @@ TEST_F(CommandLine, KeepsTheSheetsThatCount) {
   EXPECT_THAT(result.err, HasSubstr("kept"));
 }
 
+TEST_F(CommandLine, KeepsTheSameSheetsWhateverElseIsWritten) {
+  ASSERT_EQ(run_cpu({"part.obj", "--keep-volume", "0.7", "-o", "alone.ply"}).exit_code, 0);
+  ASSERT_EQ(run_cpu({"part.obj", "--keep-volume", "0.7", "-o", "reported.ply", "--report", "r.json"}).exit_code, 0);
+  EXPECT_TRUE(read_file(path("alone.ply")) == read_file(path("reported.ply")));
+}
+
 TEST_F(CommandLine, PerturbIsSeededAndSimplifyOnlyRemoves) {
   ASSERT_EQ(run_cpu({"part.obj", "-o", "plain.ply"}).exit_code, 0);
   for (const char* name : {"a.ply", "b.ply"}) {

@@ -25,8 +25,8 @@ Mesh make_cup(double radius, double wall, double height, std::uint32_t segments)
 Mesh make_torus(double major, double minor, std::uint32_t around, std::uint32_t along, double flatten = 1.0);
 /// [0, side]^2 x [0, thickness] with a square hole of side `hole` in the middle.
 Mesh make_plate_with_hole(double side, double thickness, double hole);
-/// [0, 5 a] x [0, 3 a] x [0, thickness] with two square holes of side a, at [a, 2 a] and [3 a, 4 a] along x and [a, 2
-/// a] along y.
+/// [0, 5 a] x [0, 3 a] x [0, thickness] with two square holes of side a in a row: where x / a is from 1 to 2 and from 3
+/// to 4.
 Mesh make_plate_with_two_holes(double a, double thickness);
 
 /// A torus of radii 1 and 0.4 in a generic position.

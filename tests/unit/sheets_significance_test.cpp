@@ -191,6 +191,17 @@ TEST(Significance, NothingIsLostBetweenAPointAndItsNode) {
   EXPECT_NEAR(found.of_sheet[1], 2.0 / 3, 1e-14);
 }
 
+TEST(Significance, EveryBallHasAWeight) {
+  Parts parts;
+  parts.add({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}});
+  SheetBalls sheets = parts.view();
+  const std::array<double, 1> weights = {1};
+  sheets.weights = weights;
+  const auto result = measure_significance(sheets, 1);
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(result.error().message, HasSubstr("2 balls have 1 weights"));
+}
+
 TEST(Significance, SeamWeightsAreAreasOfWhatIsNotSmall) {
   Sheets sheets;
   sheets.areas = {1, 2, 3};
@@ -299,7 +310,7 @@ TEST(SheetsAround, TakesNodesWholeThatAreSmallForTheReach) {
     const std::vector<double> weights(24, 1);
     const SheetsAround around(balls, sheet_of, weights, 3, order);
     SheetsAround::Given given = around.nothing();
-    around.divide(1, {0, 0, 0}, reach, given);
+    EXPECT_TRUE(around.divide(1, {0, 0, 0}, reach, given));
     return around.by_sheet(given)[1];
   };
   const auto expected = [](double distance, double reach) { return 1 / (1 + (1 - distance / reach)); };

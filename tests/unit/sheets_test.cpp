@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "mesh/point_ops.h"
 #include "sheets/check_sheets.h"
 #include "sheets/concurrent_sets.h"
 #include "sheets/voxel_graph.h"
@@ -334,12 +335,34 @@ TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
   SheetParameters parameters;
   parameters.border = 60;
   for (const double width : {0.3, 1.0}) {
+    SCOPED_TRACE(width);
     parameters.width = width;
     const Sheets sheets = find(spheres, parameters);
     EXPECT_EQ(sheets.pieces, 8u);
     EXPECT_THAT(sizes(sheets), ElementsAre(64));
     EXPECT_EQ(small_points(sheets), 8 * width > 6 ? 64u : 0u);
   }
+}
+
+// A sphere of radius 6 has neither borders nor rims.
+TEST(Sheets, WhatIsClosedIsNotSmall) {
+  std::vector<MedialSphere> spheres;
+  for (std::uint32_t i = 0; i < 16 * 16 * 16; ++i) {
+    const std::uint32_t x = i % 16, y = i / 16 % 16, z = i / 256;
+    const Point from_centre = {x - 7.5, y - 7.5, z - 7.5};
+    const double distance = length(from_centre);
+    if (std::abs(distance - 6) > 0.6) continue;
+    const Point out = 1 / distance * from_centre;
+    spheres.push_back(
+        point_at(x, y, z, {static_cast<float>(out[0]), static_cast<float>(out[1]), static_cast<float>(out[2])}));
+  }
+  SheetParameters parameters;
+  parameters.width = 1;
+  parameters.absorb_fragments = 10000;
+  const Sheets sheets = find(spheres, parameters);
+  EXPECT_EQ(sheets.sheets.size(), 1u);
+  EXPECT_EQ(sheets.rim_points, 0u);
+  EXPECT_EQ(small_points(sheets), 0u);
 }
 
 TEST(Sheets, APieceWithoutNeighboursStays) {
