@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "sheets/medial_mesh.h"
 #include "sheets/sheets.h"
@@ -38,19 +39,20 @@ std::function<double(const Vector3d&)> wall(int axis, double at) {
   return [=](const Vector3d& p) { return std::abs(p[axis] - at); };
 }
 
-/// a < b < c: the middle between the nearest two faces, and a bisector for each of the twelve edges.
+/// The six walls of [0, x] x [0, y] x [0, z].
+std::vector<Part> walls_of_box(double x, double y, double z) {
+  return {{"left", wall(0, 0)}, {"right", wall(0, x)},  {"front", wall(1, 0)},
+          {"back", wall(1, y)}, {"bottom", wall(2, 0)}, {"top", wall(2, z)}};
+}
+
+/// z < x, y: the middle between bottom and top, and a bisector for each of the twelve edges.
+std::set<std::string> sheets_of_box() {
+  return {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top",  "right top",
+          "front top",  "back top",    "front left",   "back left",    "front right", "back right"};
+}
+
 KnownSolid box() {
-  return {"box",
-          test::make_box({1, 0.75, 0.5}),
-          {{"left", wall(0, 0)},
-           {"right", wall(0, 1)},
-           {"front", wall(1, 0)},
-           {"back", wall(1, 0.75)},
-           {"bottom", wall(2, 0)},
-           {"top", wall(2, 0.5)}},
-          {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right"},
-          {1, 0, 0}};
+  return {"box", test::make_box({1, 0.75, 0.5}), walls_of_box(1, 0.75, 0.5), sheets_of_box(), {1, 0, 0}};
 }
 
 /// Arms 0.35 thick and 1 long, 0.5 high: nowhere does a ball touch bottom and top, as the largest, at the corner, has
@@ -78,47 +80,37 @@ KnownSolid l_shape() {
           {1, 0, 0}};
 }
 
+/// The sides of a square with its lower left corner at (x, y), from bottom to top.
+std::function<double(const Vector3d&)> hole(double x, double y, double side) {
+  return [=](const Vector3d& p) {
+    return std::abs(std::max(std::abs(p.x() - x - side / 2), std::abs(p.y() - y - side / 2)) - side / 2);
+  };
+}
+
 /// The middle, a ring; bisectors of the four outer walls with each other, with bottom and with top; and one bisector of
 /// each of these with the four walls of the hole, whose edges are reflex: spokes turn around them without a jump.
 KnownSolid plate_with_hole() {
-  const auto hole = [](const Vector3d& p) {
-    return std::abs(std::max(std::abs(p.x() - 0.5), std::abs(p.y() - 0.5)) - 0.2);
-  };
-  return {"plate_with_hole",
-          test::make_plate_with_hole(1, 0.15, 0.4),
-          {{"left", wall(0, 0)},
-           {"right", wall(0, 1)},
-           {"front", wall(1, 0)},
-           {"back", wall(1, 1)},
-           {"hole", hole},
-           {"bottom", wall(2, 0)},
-           {"top", wall(2, 0.15)}},
-          {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole", "hole top"},
-          {1, 1, 0}};
+  KnownSolid plate = {"plate_with_hole",
+                      test::make_plate_with_hole(1, 0.15, 0.4),
+                      walls_of_box(1, 1, 0.15),
+                      sheets_of_box(),
+                      {1, 1, 0}};
+  plate.parts.push_back({"hole", hole(0.3, 0.3, 0.4)});
+  plate.sheets.insert({"bottom hole", "hole top"});
+  return plate;
 }
 
 /// Two holes, with bars around and between them that are twice as wide as they are thick: one middle around both.
 KnownSolid plate_with_two_holes() {
-  const auto hole = [](double left) {
-    return [=](const Vector3d& p) {
-      return std::abs(std::max(std::abs(p.x() - left - 0.2), std::abs(p.y() - 0.6)) - 0.2);
-    };
-  };
-  return {"plate_with_two_holes",
-          test::make_plate_with_two_holes(0.4, 0.2),
-          {{"left", wall(0, 0)},
-           {"right", wall(0, 2)},
-           {"front", wall(1, 0)},
-           {"back", wall(1, 1.2)},
-           {"hole_1", hole(0.4)},
-           {"hole_2", hole(1.2)},
-           {"bottom", wall(2, 0)},
-           {"top", wall(2, 0.2)}},
-          {"bottom top", "bottom left", "bottom right", "bottom front", "back bottom", "left top", "right top",
-           "front top", "back top", "front left", "back left", "front right", "back right", "bottom hole_1",
-           "bottom hole_2", "hole_1 top", "hole_2 top"},
-          {1, 2, 0}};
+  KnownSolid plate = {"plate_with_two_holes",
+                      test::make_plate_with_two_holes(0.4, 0.2),
+                      walls_of_box(2, 1.2, 0.2),
+                      sheets_of_box(),
+                      {1, 2, 0}};
+  plate.parts.push_back({"hole_1", hole(0.4, 0.4, 0.4)});
+  plate.parts.push_back({"hole_2", hole(1.2, 0.4, 0.4)});
+  plate.sheets.insert({"bottom hole_1", "bottom hole_2", "hole_1 top", "hole_2 top"});
+  return plate;
 }
 
 std::string part_at(const KnownSolid& solid, const Vector3d& p) {
