@@ -80,8 +80,9 @@ How points are grouped into sheets:
       --sheet-crease A  so are neighbours whose spokes turn by no more than A
                         degrees, as between facets of a round shape, 0 to 180
                         (default 10; 0: only the angle decides, as published)
-      --sheet-border A  so are pieces if half of their border turns by no more
-                        than A degrees, 0 to 180 (default 75)
+      --sheet-border A  so are pieces if spokes turn by no more than A degrees
+                        along their border, in the mean, 0 to 180 (default 77;
+                        no point counts as below A - 30 or above A + 4)
       --sheet-width W   pieces narrower than W times the diameter of their
                         balls, 0 to 1, go to those around them (default 0.17;
                         0: none)

@@ -17,52 +17,26 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
+/// Degrees: by how much a point speaks for a join at most, and against it. What turns by kOpen less than the limit is
+/// as open as anything, what turns by kClosed more as closed; in between a sum does not jump where a count would.
+constexpr double kOpen = 30, kClosed = 4;
+
 /// Around a compact piece of n points there are 2 sqrt(pi n), so a border around all of it has twice as many, counted
-/// on either side. No border counts as less than about two fifths of that.
-constexpr double kLeastBorder = 3;
+/// on either side. No border counts as less than about a quarter of that.
+constexpr double kLeastBorder = 1.75;
 
-/// By point of either of two pieces with a point of the other beside it: the cosine of its least turn to these. The
-/// greatest are kept apart from the rest, in heaps, so that the middle one is at hand after every change.
-class Border {
- public:
-  std::size_t size() const { return greatest_.size() + rest_.size(); }
+/// Degrees are added up in millionths: sums of whole numbers are the same in any order.
+constexpr double kUnit = 1e-6;
 
-  void add(float cosine) {
-    const bool is_great = !greatest_.empty() && cosine > greatest_.front();
-    is_great ? push(cosine, greatest_, std::greater<>()) : push(cosine, rest_, std::less<>());
+/// Of the points of either of two pieces with a point of the other beside it.
+struct Border {
+  std::int64_t pull = 0;  // in units: by how much their least turns to these are below the limit, the sum
+  std::uint64_t points = 0;
+
+  void add(const Border& other) {
+    pull += other.pull;
+    points += other.points;
   }
-
-  /// Adds all that the smaller one has to the larger one, which stays here.
-  void take(Border other) {
-    if (size() < other.size()) std::swap(*this, other);
-    for (const float cosine : other.greatest_) add(cosine);
-    for (const float cosine : other.rest_) add(cosine);
-  }
-
-  /// Precondition: 1 <= n <= size(). While n does not fall, all calls together move as many turns as n and size() grow.
-  float nth_greatest(std::size_t n) {
-    while (greatest_.size() < n) push(pop(rest_, std::less<>()), greatest_, std::greater<>());
-    while (greatest_.size() > n) push(pop(greatest_, std::greater<>()), rest_, std::less<>());
-    return greatest_.front();
-  }
-
- private:
-  template <class Compare>
-  static void push(float cosine, std::vector<float>& heap, Compare compare) {
-    heap.push_back(cosine);
-    std::push_heap(heap.begin(), heap.end(), compare);
-  }
-
-  template <class Compare>
-  static float pop(std::vector<float>& heap, Compare compare) {
-    std::pop_heap(heap.begin(), heap.end(), compare);
-    const float cosine = heap.back();
-    heap.pop_back();
-    return cosine;
-  }
-
-  std::vector<float> greatest_;  // the least of them in front
-  std::vector<float> rest_;      // the greatest of them in front
 };
 
 /// What a point has to say of the border of two pieces, the first number below the second.
@@ -98,8 +72,8 @@ std::vector<LeastTurn> least_turns(const VoxelGraph& graph, const std::vector<st
 
 class Joining {
  public:
-  Joining(const VoxelGraph& graph, double least_cosine, std::vector<std::uint32_t>& piece_of)
-      : piece_of_(piece_of), least_cosine_(least_cosine) {
+  Joining(const VoxelGraph& graph, double limit, std::vector<std::uint32_t>& piece_of)
+      : piece_of_(piece_of), limit_(limit) {
     for (const std::uint32_t piece : piece_of) {
       if (piece >= points_.size()) points_.resize(piece + std::size_t{1}, 0);
       ++points_[piece];
@@ -118,15 +92,15 @@ class Joining {
 
   void run() {
     while (!queue_.empty()) {
-      const auto [cosine, a, b] = queue_.top();
+      const auto [pull, a, b] = queue_.top();
       queue_.pop();
       const auto border = borders_.find(key(a, b));
       if (border == borders_.end()) continue;  // one of the two is part of another now
-      // A border that has changed was queued anew. Others only count for less as pieces grow.
-      const double now = -cosine_of_border(a, b, border->second);
-      if (now == cosine) {
+      // A border that has changed was queued anew. Others only pull less as pieces grow.
+      const double now = -pull_of_border(a, b, border->second);
+      if (now == pull) {
         join(a, b);
-      } else if (now > cosine) {
+      } else if (now > pull) {
         queue(a, b, border->second);
       }
     }
@@ -134,7 +108,7 @@ class Joining {
   }
 
  private:
-  using Turn = std::tuple<double, std::uint32_t, std::uint32_t>;  // the cosine, negative, and two pieces, ascending
+  using Join = std::tuple<double, std::uint32_t, std::uint32_t>;  // the pull, negative, and two pieces, ascending
 
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
@@ -142,23 +116,27 @@ class Joining {
 
   void enter(const LeastTurn& turn) {
     const auto [border, is_new] = borders_.try_emplace(key(turn.first, turn.second));
-    border->second.add(turn.cosine);
+    border->second.add(point_of_border(turn.cosine));
     if (!is_new) return;
     neighbours_[turn.first].push_back(turn.second);
     neighbours_[turn.second].push_back(turn.first);
   }
 
-  /// -1 if most of the border is missing.
-  double cosine_of_border(std::uint32_t a, std::uint32_t b, Border& border) const {
-    const auto fewer = static_cast<double>(std::min(points_[a], points_[b]));
-    const double points = std::max(static_cast<double>(border.size()), kLeastBorder * std::sqrt(fewer));
-    const auto middle = static_cast<std::size_t>(std::ceil(points / 2));
-    return middle > border.size() ? -1 : double{border.nth_greatest(middle)};
+  Border point_of_border(float cosine) const {
+    const double turn = std::acos(std::clamp(double{cosine}, -1.0, 1.0)) * 180 / std::numbers::pi;
+    return {std::llround(std::clamp(limit_ - turn, -kClosed, kOpen) / kUnit), 1};
   }
 
-  void queue(std::uint32_t a, std::uint32_t b, Border& border) {
-    const double cosine = cosine_of_border(a, b, border);
-    if (cosine >= least_cosine_) queue_.push({-cosine, std::min(a, b), std::max(a, b)});
+  /// Degrees times points, with what is missing to a border of the least length.
+  double pull_of_border(std::uint32_t a, std::uint32_t b, const Border& border) const {
+    const auto fewer = static_cast<double>(std::min(points_[a], points_[b]));
+    const double missing = std::max(0.0, kLeastBorder * std::sqrt(fewer) - static_cast<double>(border.points));
+    return static_cast<double>(border.pull) * kUnit - missing * kClosed;
+  }
+
+  void queue(std::uint32_t a, std::uint32_t b, const Border& border) {
+    const double pull = pull_of_border(a, b, border);
+    if (pull >= 0) queue_.push({-pull, std::min(a, b), std::max(a, b)});
   }
 
   /// The one with fewer neighbours goes into the other, so that all that is moved is n log n.
@@ -177,7 +155,7 @@ class Joining {
       if (inserted.inserted) {
         neighbours_[a].push_back(other);
       } else {
-        inserted.position->second.take(std::move(inserted.node.mapped()));
+        inserted.position->second.add(inserted.node.mapped());
       }
       queue(a, other, inserted.position->second);
     }
@@ -199,20 +177,20 @@ class Joining {
   }
 
   std::vector<std::uint32_t>& piece_of_;
-  double least_cosine_;
+  double limit_;                                       // degrees
   std::vector<std::uint64_t> points_;                  // by piece
   std::vector<std::uint32_t> into_;                    // by piece: itself, or the one that it went to
   std::unordered_map<std::uint64_t, Border> borders_;  // by two pieces
   // By piece: those that it has borders with, by numbers that they had once.
   std::vector<std::vector<std::uint32_t>> neighbours_;
-  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
+  std::priority_queue<Join, std::vector<Join>, std::greater<>> queue_;
 };
 
 }  // namespace
 
 void join_pieces(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of) {
   if (parameters.crease == 0) return;
-  Joining(graph, std::cos(parameters.border * std::numbers::pi / 180), piece_of).run();
+  Joining(graph, parameters.border, piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -32,7 +32,7 @@ struct SheetBalls {
 std::vector<double> seam_weights(const Sheets& sheets);
 
 /// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
-inline constexpr double kSeamReach = 0.5;
+inline constexpr double kSeamReach = 0.7;
 
 struct Significance {
   double volume = 0;            ///< Of the union of the balls.

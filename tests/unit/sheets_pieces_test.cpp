@@ -105,11 +105,12 @@ class PlainJoining {
     }
   }
 
-  Pieces run(double least_cosine) {
+  Pieces run(double limit) {
     while (!borders_.empty()) {
-      const auto turns_least = std::ranges::max_element(borders_, {}, [&](const auto& entry) { return cosine(entry); });
-      if (cosine(*turns_least) < least_cosine) break;
-      join(turns_least->first.first, turns_least->first.second);
+      const auto strongest =
+          std::ranges::max_element(borders_, {}, [&](const auto& entry) { return pull(entry, limit); });
+      if (pull(*strongest, limit) < 0) break;
+      join(strongest->first.first, strongest->first.second);
     }
     return numbered_anew(piece_of_);
   }
@@ -117,14 +118,17 @@ class PlainJoining {
  private:
   using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>>;
 
-  /// The one in the middle, with what is missing to 3 sqrt(points of the smaller piece).
-  double cosine(const Borders::value_type& entry) const {
-    const auto& [pieces, turns] = entry;
+  /// Of all its points, and of those that it lacks to have 1.75 sqrt(points of the smaller piece). To the 1e-5, so that
+  /// equal ones are equal in whatever order they are added up.
+  double pull(const Borders::value_type& entry, double limit) const {
+    const auto& [pieces, cosines] = entry;
     const auto fewer = static_cast<double>(std::min(points_.at(pieces.first), points_.at(pieces.second)));
-    std::vector<float> all = turns;
-    while (static_cast<double>(all.size()) < 3 * std::sqrt(fewer)) all.push_back(-1);
-    std::ranges::sort(all, std::greater<>());
-    return double{all[(all.size() + 1) / 2 - 1]};
+    double sum = -4 * std::max(0.0, 1.75 * std::sqrt(fewer) - static_cast<double>(cosines.size()));
+    for (const float cosine : cosines) {
+      const double turn = std::acos(std::min(double{cosine}, 1.0)) * 180 / std::numbers::pi;
+      sum += std::clamp(limit - turn, -4.0, 30.0);
+    }
+    return std::round(1e5 * sum) / 1e5;
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
@@ -152,13 +156,12 @@ TEST(JoinPieces, AsAPlainProgramWould) {
     const std::vector<MedialSphere> spheres = patches(seed);
     const VoxelGraph graph(spheres);
     const Pieces pieces = grown(graph);
-    for (const double border : {0.0, 30.0, 75.0, 110.0, 180.0}) {
+    for (const double border : {0.0, 30.0, 77.0, 110.0, 180.0}) {
       SheetParameters parameters;
       parameters.border = border;
       Pieces joined = pieces;
       join_pieces(graph, parameters, joined);
-      EXPECT_EQ(joined, PlainJoining(graph, pieces).run(std::cos(border * std::numbers::pi / 180)))
-          << "seed " << seed << ", border " << border;
+      EXPECT_EQ(joined, PlainJoining(graph, pieces).run(border)) << "seed " << seed << ", border " << border;
       joins += std::set(pieces.begin(), pieces.end()).size() - std::set(joined.begin(), joined.end()).size();
     }
   }

@@ -121,24 +121,24 @@ TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {
   EXPECT_NEAR(found.of_sheet[1], 0.25 * (1.0 / 5 + 3.0 / 4), 1e-14);
 }
 
-// Beyond two voxels kSeamReach of the radius counts: 1 of a ball of radius 2.
+// Beyond two voxels kSeamReach of the radius counts: 1.4 of a ball of radius 2.
 TEST(Significance, LargeBallsReachFarther) {
   std::vector<MedialSphere> spheres(2);
-  spheres[1].voxel = {7, 0, 0};
+  spheres[1].voxel = {10, 0, 0};
   Parts parts;
-  parts.balls = {{{0, 0, 0}, 2}, {{0.7, 0, 0}, 2}};
+  parts.balls = {{{0, 0, 0}, 2}, {{1.05, 0, 0}, 2}};
   parts.sheet_of = {0, 1};
   parts.sheets = 2;
   const VoxelGraph graph(spheres);
   SheetBalls sheets = parts.view();
   sheets.graph = &graph;
   sheets.voxel_size = 0.1;
-  // As large as each other; each counts 1 - 0.7 against its own 1.
+  // As large as each other; each counts 1 - 1.05 / 1.4 against its own 1.
   EXPECT_NEAR(measure_significance(sheets, 1).value().of_sheet[0], 0.5, 1e-14);
   parts.balls[1].radius = 1;
   sheets.balls = parts.balls;
   const Significance uneven = measure_significance(sheets, 1).value();
-  EXPECT_NEAR(uneven.of_sheet[0], uneven.of_ball[0] / 1.3, 1e-14) << "the small one does not reach the large one's";
+  EXPECT_NEAR(uneven.of_sheet[0], uneven.of_ball[0] / 1.25, 1e-14) << "the small one does not reach the large one's";
 }
 
 // A chain of balls of one size, of which only the ends have a weight. The others go to the ends within reach, two

@@ -117,9 +117,10 @@ TEST(Sheets, CreasesJoin) {
 }
 
 // Beside a flat strip of ten rows a twisted one, 20 to 65 degrees. The least turns of the points on the twisted side
-// are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. So the tenth of these twenty turns by
-// 40 degrees. (With 40 points each, 20 are no short border.)
-TEST(Sheets, TheMiddleOfABorderDecides) {
+// are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty pulls by
+// more than 30 or apart by more than 4: together they pull apart by 5 for a limit of 31, and pull by 4 for one of 32.
+// (The mean of their turns is 40.25. With 40 points each, 20 are no short border.)
+TEST(Sheets, AllOfABorderDecides) {
   std::vector<MedialSphere> spheres;
   for (std::uint32_t row = 1; row <= 10; ++row) {
     const double turn = (15 + 5 * row) * std::numbers::pi / 180;
@@ -129,14 +130,15 @@ TEST(Sheets, TheMiddleOfABorderDecides) {
   }
   SheetParameters parameters;
   parameters.width = 0;
-  parameters.border = 39;
+  parameters.border = 31;
   EXPECT_EQ(sizes(find(spheres, parameters)).size(), 2u);
-  parameters.border = 41;
+  parameters.border = 32;
   EXPECT_EQ(sizes(find(spheres, parameters)).size(), 1u);
 }
 
-// The second square begins beside the last row of the first, so that three points are at the border: one and two. They
-// count as 3 sqrt(points), of which half must turn by no more: 3 of 6 for four points, 3 of 9 for nine do not.
+// The second square begins beside the last row of the first, so that two points of either are at the border. They turn
+// by 20 degrees and pull by 30 each, and their number is made up to 1.75 sqrt(points) with points that pull apart by 4:
+// 4 * 30 - 29.25 * 4 = 3 for squares of 19 by 19 points, 4 * 30 - 31 * 4 = -4 for 20 by 20.
 TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
   const auto touching = [](std::uint32_t n) {
     std::vector<MedialSphere> out = square(n);
@@ -149,8 +151,8 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
   };
   SheetParameters parameters;
   parameters.width = 0;
-  EXPECT_EQ(sizes(find(touching(2), parameters)).size(), 1u);
-  EXPECT_EQ(sizes(find(touching(3), parameters)).size(), 2u);
+  EXPECT_EQ(sizes(find(touching(19), parameters)).size(), 1u);
+  EXPECT_EQ(sizes(find(touching(20), parameters)).size(), 2u);
 }
 
 // Between two that differ by 60 degrees one that differs from them by 29 and 31.
