@@ -82,7 +82,8 @@ How points are grouped into sheets:
                         (default 10; 0: only the angle decides, as published)
       --sheet-border A  so are pieces if spokes turn by no more than A degrees
                         along their border, in the mean, 0 to 180 (default 77;
-                        no point counts as below A - 30 or above A + 4)
+                        none counts as below A - 30 or above A + 4, and what
+                        a short border lacks as A + 4)
       --sheet-width W   pieces narrower than W times the diameter of their
                         balls, 0 to 1, go to those around them (default 0.17;
                         0: none)

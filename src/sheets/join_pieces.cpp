@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <compare>
 #include <numbers>
+#include <numeric>
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -28,7 +28,8 @@ constexpr double kLeastBorder = 1.75;
 /// Degrees are added up in millionths: sums of whole numbers are the same in any order.
 constexpr double kUnit = 1e-6;
 
-/// Of the points of either of two pieces with a point of the other beside it.
+/// Of the points of either of two pieces with a point of the other beside it. One that is beside several pieces counts
+/// for each, also once these are one.
 struct Border {
   std::int64_t pull = 0;  // in units: by how much their least turns to these are below the limit, the sum
   std::uint64_t points = 0;
@@ -79,7 +80,8 @@ class Joining {
       ++points_[piece];
     }
     into_.resize(points_.size());
-    for (std::uint32_t i = 0; i < into_.size(); ++i) into_[i] = i;
+    std::iota(into_.begin(), into_.end(), 0u);
+    first_ = into_;
     neighbours_.resize(points_.size());
     const std::vector<LeastTurn> turns = least_turns(graph, piece_of);
     for (const LeastTurn& turn : turns) enter(turn);
@@ -92,15 +94,15 @@ class Joining {
 
   void run() {
     while (!queue_.empty()) {
-      const auto [pull, a, b] = queue_.top();
+      const Join strongest = queue_.top();
       queue_.pop();
+      const auto& [a, b] = strongest.pieces;
       const auto border = borders_.find(key(a, b));
       if (border == borders_.end()) continue;  // one of the two is part of another now
       // A border that has changed was queued anew. Others only pull less as pieces grow.
-      const double now = -pull_of_border(a, b, border->second);
-      if (now == pull) {
+      if (join_of(a, b, border->second) == strongest) {
         join(a, b);
-      } else if (now > pull) {
+      } else {
         queue(a, b, border->second);
       }
     }
@@ -108,7 +110,14 @@ class Joining {
   }
 
  private:
-  using Join = std::tuple<double, std::uint32_t, std::uint32_t>;  // the pull, negative, and two pieces, ascending
+  /// The greater one comes first: the stronger pull, of equals one by the order of voxels.
+  struct Join {
+    double pull;
+    std::pair<std::uint32_t, std::uint32_t> first_voxels;  // of first_, with all bits turned
+    std::pair<std::uint32_t, std::uint32_t> pieces;
+
+    auto operator<=>(const Join&) const = default;
+  };
 
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
@@ -134,15 +143,21 @@ class Joining {
     return static_cast<double>(border.pull) * kUnit - missing * kClosed;
   }
 
+  Join join_of(std::uint32_t a, std::uint32_t b, const Border& border) const {
+    const auto [first, second] = std::minmax(first_[a], first_[b]);
+    return {pull_of_border(a, b, border), {~first, ~second}, {a, b}};
+  }
+
   void queue(std::uint32_t a, std::uint32_t b, const Border& border) {
-    const double pull = pull_of_border(a, b, border);
-    if (pull >= 0) queue_.push({-pull, std::min(a, b), std::max(a, b)});
+    const Join join = join_of(std::min(a, b), std::max(a, b), border);
+    if (join.pull >= 0) queue_.push(join);
   }
 
   /// The one with fewer neighbours goes into the other, so that all that is moved is n log n.
   void join(std::uint32_t a, std::uint32_t b) {
     if (neighbours_[a].size() < neighbours_[b].size()) std::swap(a, b);
     into_[b] = a;
+    first_[a] = std::min(first_[a], first_[b]);
     points_[a] += points_[b];
     borders_.erase(key(a, b));
     const std::vector<std::uint32_t> neighbours = std::exchange(neighbours_[b], {});
@@ -180,10 +195,11 @@ class Joining {
   double limit_;                                       // degrees
   std::vector<std::uint64_t> points_;                  // by piece
   std::vector<std::uint32_t> into_;                    // by piece: itself, or the one that it went to
+  std::vector<std::uint32_t> first_;                   // by piece: the first of those that it is made of
   std::unordered_map<std::uint64_t, Border> borders_;  // by two pieces
   // By piece: those that it has borders with, by numbers that they had once.
   std::vector<std::vector<std::uint32_t>> neighbours_;
-  std::priority_queue<Join, std::vector<Join>, std::greater<>> queue_;
+  std::priority_queue<Join> queue_;
 };
 
 }  // namespace

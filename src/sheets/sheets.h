@@ -17,7 +17,7 @@ struct SheetParameters {
   /// 0: only the published test, of neighbours and of pieces.
   double crease = 10;
   /// Degrees: two pieces are one if spokes turn by no more along their border, in the mean; no point of it counts as
-  /// less than 30 below that, or as more than 4 above.
+  /// less than 30 below that, or as more than 4 above, as what a short border lacks does.
   double border = 77;
   /// Pieces narrower than this fraction of the mean diameter of their balls go to those around, point by point; 0:
   /// none. As wide as a strip is that fits between borders and rims, without the voxels of these.

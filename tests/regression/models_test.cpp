@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -91,8 +92,15 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   EXPECT_LT(medial_mesh.value().triangles.size(), 2.1 * static_cast<double>(extraction.spheres.size()));
 }
 
-/// Significances of the fewest sheets with this share of the volume, descending.
-std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, std::uint32_t resolution, double share) {
+/// Shares of which `--keep-volume` is asked.
+constexpr std::array<double, 3> kKept = {0.8, 0.9, 0.95};
+
+struct Weighed {
+  std::vector<double> significances;           // of all sheets, descending
+  std::array<std::size_t, kKept.size()> kept;  // sheets that stay for each share
+};
+
+Weighed weigh_sheets(Context& context, const PreparedMesh& mesh, std::uint32_t resolution) {
   ExtractionParameters parameters;
   parameters.resolution = resolution;
   const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
@@ -103,18 +111,31 @@ std::vector<double> leading_shares(Context& context, const PreparedMesh& mesh, s
   const std::vector<double> weights = seam_weights(sheets);
   const SheetBalls in_sheets = {balls,  sheets.of_point, sheets.sheets.size(), &graph, extraction.grid.voxel_size,
                                 weights};
-  std::vector<double> shares = measure_significance(in_sheets, 0).value().of_sheet;
-  std::sort(shares.rbegin(), shares.rend());
+  const Significance significance = measure_significance(in_sheets, 0).value();
+  const SheetRemoval removal =
+      remove_sheets(in_sheets, significance, RemovalRule::kSignificance, 0, 0, [](double) { return true; }).value();
+  Weighed weighed{significance.of_sheet, {}};
+  std::sort(weighed.significances.rbegin(), weighed.significances.rend());
+  for (std::size_t i = 0; i < kKept.size(); ++i) {
+    weighed.kept[i] = stop_at_volume(removal, significance, kKept[i]).kept.size();
+  }
+  return weighed;
+}
+
+/// The fewest with this share of the volume.
+std::vector<double> leading(const Weighed& weighed, double share) {
+  std::vector<double> out;
   double sum = 0;
-  std::size_t count = 0;
-  while (count < shares.size() && sum < share) sum += shares[count++];
-  shares.resize(count);
-  return shares;
+  while (out.size() < weighed.significances.size() && sum < share) {
+    out.push_back(weighed.significances[out.size()]);
+    sum += out.back();
+  }
+  return out;
 }
 
 /// The sheets that hold this share of the volume change by less than 5 % from resolution 120 to 240, each of itself;
-/// their number stays. That is so of the models as stored, on the device; docs/theory.md, "Sheets", has what holds of
-/// others, and what holds less.
+/// their number stays, and so does the number that `--keep-volume` keeps. That is so of the models as stored, on the
+/// device; docs/theory.md, "Sheets", has what holds of others, and what holds less.
 struct Stability {
   const char* name;
   double share;
@@ -127,8 +148,9 @@ TEST_P(RealSheets, ChangeLittleWithTheGrid) {
   if (!std::filesystem::exists(file_of(GetParam().name))) GTEST_SKIP() << kNoModels;
   const PreparedMesh mesh = test::prepare(read_mesh(file_of(GetParam().name)).value());
   Context context = test::make_context();
-  const std::vector<double> coarse = leading_shares(context, mesh, 120, GetParam().share);
-  const std::vector<double> fine = leading_shares(context, mesh, 240, GetParam().share);
+  const Weighed at_120 = weigh_sheets(context, mesh, 120), at_240 = weigh_sheets(context, mesh, 240);
+  EXPECT_EQ(at_120.kept, at_240.kept);
+  const std::vector<double> coarse = leading(at_120, GetParam().share), fine = leading(at_240, GetParam().share);
   ASSERT_EQ(coarse.size(), fine.size());
   for (std::size_t i = 0; i < coarse.size(); ++i) EXPECT_NEAR(fine[i], coarse[i], 0.05 * coarse[i]) << i;
 }

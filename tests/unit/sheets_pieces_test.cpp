@@ -118,17 +118,18 @@ class PlainJoining {
  private:
   using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>>;
 
-  /// Of all its points, and of those that it lacks to have 1.75 sqrt(points of the smaller piece). To the 1e-5, so that
-  /// equal ones are equal in whatever order they are added up.
+  /// Of all its points, in whole millionths of a degree, and of those that it lacks to have 1.75 sqrt(points of the
+  /// smaller piece).
   double pull(const Borders::value_type& entry, double limit) const {
     const auto& [pieces, cosines] = entry;
     const auto fewer = static_cast<double>(std::min(points_.at(pieces.first), points_.at(pieces.second)));
-    double sum = -4 * std::max(0.0, 1.75 * std::sqrt(fewer) - static_cast<double>(cosines.size()));
+    double sum = 0;
     for (const float cosine : cosines) {
       const double turn = std::acos(std::min(double{cosine}, 1.0)) * 180 / std::numbers::pi;
-      sum += std::clamp(limit - turn, -4.0, 30.0);
+      sum += std::round(std::clamp(limit - turn, -4.0, 30.0) * 1e6);
     }
-    return std::round(1e5 * sum) / 1e5;
+    const double missing = std::max(0.0, 1.75 * std::sqrt(fewer) - static_cast<double>(cosines.size()));
+    return sum * 1e-6 - 4 * missing;
   }
 
   void join(std::uint32_t a, std::uint32_t b) {

@@ -41,6 +41,7 @@ struct Parts {
 
 std::vector<Ball> row(const Point& from, const Point& step, int count, double radius) {
   std::vector<Ball> balls;
+  balls.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     balls.push_back({{from[0] + i * step[0], from[1] + i * step[1], from[2] + i * step[2]}, radius});
   }
