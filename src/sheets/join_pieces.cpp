@@ -116,7 +116,7 @@ class Joining {
     std::pair<std::uint32_t, std::uint32_t> first_voxels;  // of first_, with all bits turned
     std::pair<std::uint32_t, std::uint32_t> pieces;
 
-    auto operator<=>(const Join&) const = default;
+    auto operator<=>(const Join&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
   };
 
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
