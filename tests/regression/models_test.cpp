@@ -92,7 +92,7 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   EXPECT_LT(medial_mesh.value().triangles.size(), 2.1 * static_cast<double>(extraction.spheres.size()));
 }
 
-/// Shares of which `--keep-volume` is asked.
+/// Shares of which `--keep-volume` is asked, ascending.
 constexpr std::array<double, 3> kKept = {0.8, 0.9, 0.95};
 constexpr std::size_t kCompared = 1;  // for 0.9 what is kept is compared, too
 
@@ -114,7 +114,9 @@ Weighed weigh_sheets(Context& context, const PreparedMesh& mesh, std::uint32_t r
                                 weights};
   const Significance significance = measure_significance(in_sheets, 0).value();
   const SheetRemoval removal =
-      remove_sheets(in_sheets, significance, RemovalRule::kSignificance, 0, 0, [](double) { return true; }).value();
+      remove_sheets(in_sheets, significance, RemovalRule::kSignificance, kKept.front(), 0, [](double) {
+        return true;
+      }).value();
   Weighed weighed{significance.of_sheet, {}};
   std::sort(weighed.significances.rbegin(), weighed.significances.rend());
   for (std::size_t i = 0; i < kKept.size(); ++i) {

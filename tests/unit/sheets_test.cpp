@@ -117,9 +117,9 @@ TEST(Sheets, CreasesJoin) {
 }
 
 // Beside a flat strip of ten rows a twisted one, 20 to 65 degrees. The least turns of the points on the twisted side
-// are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty pulls
-// apart by more than 4: together they pull apart by 5 for a limit of 31, and pull by 4 for one of 32.
-// (The mean of their turns is 40.25. With 40 points each, 20 are no short border.)
+// are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty pulls apart
+// by more than 4: together they pull apart by 5 for a limit of 31, and pull by 4 for one of 32. (The mean of their
+// turns is 40.25. With 40 points each, 20 are no short border.)
 TEST(Sheets, AllOfABorderDecides) {
   std::vector<MedialSphere> spheres;
   for (std::uint32_t row = 1; row <= 10; ++row) {
