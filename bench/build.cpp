@@ -13,10 +13,11 @@
 #include <thread>
 
 #include "bumpy_torus.h"
-#include "device_tree.h"
+#include "device_mesh/device_tree.h"
+#include "device_mesh/mesh_links.h"
+#include "input/read_mesh.h"
 #include "medial_vk/bvh.h"
-#include "mesh/load_mesh.h"
-#include "mesh_links.h"
+#include "medial_vk/prepare.h"
 
 namespace {
 

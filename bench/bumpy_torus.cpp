@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk::bench {
 

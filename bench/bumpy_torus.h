@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 
 namespace medial_vk::bench {
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "base/point_math.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/foam.h"
-#include "mesh/mesh.h"
-#include "point_math.h"
-#include "support/solids.h"
+#include "medial_vk/mesh.h"
+#include "support/solids/solids.h"
 
 namespace {
 

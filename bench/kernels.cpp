@@ -17,10 +17,11 @@
 #include <vector>
 
 #include "bumpy_torus.h"
+#include "input/read_mesh.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
-#include "mesh/load_mesh.h"
-#include "support/solids.h"
+#include "medial_vk/prepare.h"
+#include "support/solids/solids.h"
 
 namespace {
 

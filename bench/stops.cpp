@@ -15,9 +15,10 @@
 #include <thread>
 #include <vector>
 
+#include "input/read_mesh.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
-#include "mesh/load_mesh.h"
+#include "medial_vk/prepare.h"
 
 namespace {
 

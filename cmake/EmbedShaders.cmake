@@ -1,6 +1,7 @@
 # Compiles GLSL compute shaders to SPIR-V, validates them and embeds them as constant arrays.
-#   medial_vk_embed_shaders(TARGET SHADER_DIR name1 name2 ...)
-# adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No names: an empty list.
+#   medial_vk_embed_shaders(TARGET SHARED_DIR file1.comp file2.comp ...)
+# whose includes are looked up in SHARED_DIR; names of files are unique among all folders. It
+# adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No files: an empty list.
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
@@ -29,27 +30,35 @@ function(_medial_vk_freeze variant values name_out flags_out)
       PARENT_SCOPE)
 endfunction()
 
-function(medial_vk_embed_shaders target shader_dir)
+function(medial_vk_embed_shaders target shared_dir)
   cmake_parse_arguments(arg "" "" "FROZEN" ${ARGN})
+  set(names)
+  foreach(source ${arg_UNPARSED_ARGUMENTS})
+    get_filename_component(name ${source} NAME_WE)
+    if(name IN_LIST names)
+      message(FATAL_ERROR "Two shaders are called ${name}")
+    endif()
+    list(APPEND names ${name})
+  endforeach()
   foreach(frozen ${arg_FROZEN})
     string(REGEX REPLACE "=.*" "" name ${frozen})
-    if(NOT name IN_LIST arg_UNPARSED_ARGUMENTS)
+    if(NOT name IN_LIST names)
       message(FATAL_ERROR "There is no shader ${name} to set constants of")
     endif()
   endforeach()
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${out})
-  file(GLOB includes CONFIGURE_DEPENDS ${shader_dir}/shared/*.glsl ${shader_dir}/shared/*.h)
+  file(GLOB_RECURSE includes CONFIGURE_DEPENDS ${shared_dir}/*.glsl ${shared_dir}/*.h)
   set(spirv_files)
-  foreach(name ${arg_UNPARSED_ARGUMENTS})
-    set(source ${shader_dir}/${name}.comp)
+  foreach(source ${arg_UNPARSED_ARGUMENTS})
+    get_filename_component(name ${source} NAME_WE)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     set(variants ${name})
-    file(STRINGS ${source} uses_lanes REGEX "include \"lanes.glsl\"")
+    file(STRINGS ${source} uses_lanes REGEX "include \"lanes/lanes.glsl\"")
     if(uses_lanes)
       list(APPEND variants ${name}_lockstep)
     endif()
-    file(STRINGS ${source} uses_texels REGEX "include \"(triangles|tree_query|tree_packet_main).glsl\"")
+    file(STRINGS ${source} uses_texels REGEX "include \"tree/(triangles|tree_query|tree_packet_main).glsl\"")
     if(uses_texels)
       list(TRANSFORM variants APPEND _storage OUTPUT_VARIABLE storage_variants)
       list(APPEND variants ${storage_variants})
@@ -64,7 +73,7 @@ function(medial_vk_embed_shaders target shader_dir)
         list(APPEND defines -DSTORAGE)
       endif()
       add_custom_command(OUTPUT ${spv}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 ${defines} -I${shader_dir}/shared
+        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 ${defines} -I${shared_dir} -I${shared_dir}/types
                 -o ${spv}.raw ${source}
         COMMAND ${SPIRV_OPT} -O ${spv}.raw -o ${spv}
         COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spv}

@@ -1,5 +1,5 @@
 # Script: writes OUTPUT, a C++ file with the words of every file in SPIRV_FILES.
-set(text "// Made by the build from shaders/*.comp.\n#include \"embedded_shaders.h\"\n\n#include <array>\n\nnamespace medial_vk {\nnamespace {\n")
+set(text "// Made by the build from shaders/*/*.comp.\n#include \"device/embedded_shaders.h\"\n\n#include <array>\n\nnamespace medial_vk {\nnamespace {\n")
 set(table "")
 set(count 0)
 foreach(file ${SPIRV_FILES})

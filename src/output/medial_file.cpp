@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
-#include "output/file_extension.h"
-#include "output/little_endian.h"
+#include "output/files/file_extension.h"
+#include "output/files/little_endian.h"
 #include "output/version.h"
 
 namespace medial_vk {

@@ -12,7 +12,7 @@
 
 #include "output/page/base64.h"
 #include "output/page/embedded_page.h"
-#include "output/report_json.h"
+#include "output/report/report_json.h"
 
 namespace medial_vk {
 namespace {

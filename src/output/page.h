@@ -5,9 +5,9 @@
 #include <string>
 
 #include "medial_vk/extraction.h"
+#include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
-#include "mesh/mesh.h"
-#include "output/run_record.h"
+#include "output/report/run_record.h"
 #include "output/up_axis.h"
 
 namespace medial_vk {

@@ -8,8 +8,8 @@
 
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
-#include "mesh/mesh.h"
 #include "output/picture/options.h"
 
 namespace medial_vk {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "mesh/text_scanner.h"
+#include "input/text_scanner.h"
 
 namespace medial_vk {
 namespace {

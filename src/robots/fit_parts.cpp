@@ -9,15 +9,15 @@
 #include <numbers>
 #include <utility>
 
+#include "base/point_ops.h"
+#include "base/stopwatch.h"
 #include "cpu_reference/sphere_certificate.h"
-#include "medial/reference_bridge.h"
-#include "medial/stopwatch.h"
+#include "input/text_scanner.h"
+#include "judge/reference_bridge.h"
 #include "medial_vk/ball_union.h"
-#include "mesh/point_ops.h"
-#include "mesh/text_scanner.h"
 #include "robots/share_out.h"
-#include "spheres/approximate.h"
-#include "spheres/prefixes.h"
+#include "spheres/methods/approximate.h"
+#include "spheres/methods/prefixes.h"
 
 namespace medial_vk {
 namespace {

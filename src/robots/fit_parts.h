@@ -9,9 +9,9 @@
 
 #include "cpu_reference/certificate.h"
 #include "robots/parts.h"
-#include "spheres/measures.h"
-#include "spheres/reach_out.h"
-#include "spheres/sphere_set.h"
+#include "spheres/measures/measures.h"
+#include "spheres/measures/reach_out.h"
+#include "spheres/methods/sphere_set.h"
 
 namespace medial_vk {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 #include "robots/find_mesh.h"
 #include "robots/primitive_mesh.h"
 #include "robots/robot.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/point_ops.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 

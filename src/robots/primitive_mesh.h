@@ -1,7 +1,7 @@
 // Box, cylinder and capsule as triangle meshes that keep a contract: within the shape, or around it.
 #pragma once
 
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 #include "robots/robot.h"
 
 namespace medial_vk {

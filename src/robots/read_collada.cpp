@@ -1,6 +1,6 @@
 #include "robots/read_collada.h"
 
-#include "mesh/text_scanner.h"
+#include "input/text_scanner.h"
 
 #if defined(MEDIAL_VK_HAS_ASSIMP)
 #include <assimp/postprocess.h>

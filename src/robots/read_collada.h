@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
-#include "mesh/mesh.h"
 
 namespace medial_vk {
 

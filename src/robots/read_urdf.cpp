@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "mesh/text_scanner.h"
+#include "input/text_scanner.h"
 
 namespace medial_vk {
 namespace {

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <string>
 
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/extruded_polygon.h"
-#include "support/solids.h"
+#include "support/solids/extruded_polygon.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -11,7 +11,7 @@
 #include "cpu_reference/queries.h"
 #include "support/medial_samples.h"
 #include "support/reference_mesh.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "sheets/medial_mesh.h"
+#include "medial_mesh/medial_mesh.h"
 #include "sheets/sheets.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

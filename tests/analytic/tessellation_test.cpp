@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/mesh_promises.h"
-#include "support/smooth_solids.h"
-#include "support/solids.h"
+#include "support/solids/mesh_promises.h"
+#include "support/solids/smooth_solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -13,10 +13,10 @@
 #include "cgal/complex_volume.h"
 #include "cgal/regular_triangulation.h"
 #include "cpu_reference/ball_union.h"
-#include "mesh/load_mesh.h"
-#include "support/ball_families.h"
+#include "input/read_mesh.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/ball_families.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "balls/simplex_lists.h"
+#include "balls/unions/simplex_lists.h"
 
 namespace medial_vk::test {
 namespace {

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "output/medial_file.h"
-#include "support/mesh_files.h"
-#include "support/solids.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
 #include "tool_test.h"
 
 namespace medial_vk {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/mesh_files.h"
-#include "support/solids.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
 #include "tool_test.h"
 
 namespace medial_vk {

@@ -10,8 +10,8 @@
 #include <ostream>
 #include <thread>
 
-#include "support/mesh_files.h"
-#include "support/solids.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
 #include "tool_test.h"
 
 namespace medial_vk {

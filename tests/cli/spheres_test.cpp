@@ -10,11 +10,12 @@
 #include <sstream>
 #include <thread>
 
-#include "mesh/load_mesh.h"
+#include "input/read_mesh.h"
+#include "medial_vk/prepare.h"
 #include "mesh/solid.h"
-#include "spheres/sphere_certificate.h"
-#include "support/mesh_files.h"
-#include "support/solids.h"
+#include "spheres/measures/sphere_certificate.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
 #include "tool_test.h"
 
 namespace medial_vk {

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "commands.h"
-#include "context_impl.h"
+#include "commands/commands.h"
+#include "commands/memory.h"
+#include "commands/recorder.h"
+#include "device/context_impl.h"
 #include "medial_vk/context.h"
-#include "memory.h"
-#include "recorder.h"
-#include "support/device.h"
+#include "support/device/device.h"
 
 namespace medial_vk::test {
 namespace {

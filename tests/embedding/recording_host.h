@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "context_impl.h"
+#include "device/context_impl.h"
 #include "medial_vk/extraction_job.h"
-#include "support/lend_device.h"
+#include "support/device/lend_device.h"
 
 namespace medial_vk::test {
 

@@ -15,7 +15,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/queries.h"
 #include "recording_host.h"
-#include "support/device.h"
+#include "support/device/device.h"
 
 namespace medial_vk::test {
 namespace {

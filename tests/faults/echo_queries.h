@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "query_batches.h"
+#include "queries/query_batches.h"
 
 namespace medial_vk::test {
 

@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "context_impl.h"
+#include "device/context_impl.h"
 #include "failing_new.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/queries.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 #include "vulkan_interposer.h"
 
 namespace medial_vk::test {

@@ -8,17 +8,17 @@
 #include <new>
 #include <numeric>
 
+#include "base/host_memory.h"
+#include "base/parallel_blocks.h"
 #include "echo_queries.h"
 #include "failing_new.h"
 #include "fault_test.h"
-#include "host_memory.h"
 #include "lent_device.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/dynamic_union.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/shrinking_union.h"
-#include "parallel_blocks.h"
-#include "support/ball_families.h"
+#include "support/solids/ball_families.h"
 
 namespace medial_vk::test {
 namespace {

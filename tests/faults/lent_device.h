@@ -6,7 +6,7 @@
 
 #include "fault_test.h"
 #include "medial_vk/extraction_job.h"
-#include "support/lend_device.h"
+#include "support/device/lend_device.h"
 
 namespace medial_vk::test {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <span>
 
-#include "support/spirv_walk.h"
+#include "support/device/spirv_walk.h"
 
 namespace medial_vk::test {
 

@@ -1,7 +1,7 @@
 // The poorest device that Vulkan 1.2 allows ("Required Limits" of its specification), as far as compute is concerned.
 #pragma once
 
-#include "required_limits.h"
+#include "device/required_limits.h"
 #include "vulkan_interposer.h"
 
 namespace medial_vk::test {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "cli/options.h"
+#include "cli/options/options.h"
 #include "fuzz/arguments.h"
 
 namespace medial_vk::fuzz {

@@ -2,7 +2,8 @@
 #include <sched.h>
 
 #include "fuzz/require.h"
-#include "mesh/load_mesh.h"
+#include "input/read_mesh.h"
+#include "medial_vk/prepare.h"
 
 namespace medial_vk::fuzz {
 namespace {

@@ -1,6 +1,6 @@
 // The PLY reader, on any bytes.
 #include "fuzz/require.h"
-#include "mesh/readers.h"
+#include "input/readers.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace medial_vk;

@@ -1,6 +1,6 @@
 // Both STL readers, on any bytes: which one a file gets depends on bytes that may be wrong.
 #include "fuzz/require.h"
-#include "mesh/readers.h"
+#include "input/readers.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace medial_vk;

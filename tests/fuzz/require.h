@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
-#include "mesh/mesh.h"
 
 namespace medial_vk::fuzz {
 

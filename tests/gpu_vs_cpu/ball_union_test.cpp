@@ -10,10 +10,10 @@
 
 #include "medial_vk/ball_union.h"
 #include "medial_vk/ball_union_device.h"
-#include "support/ball_families.h"
-#include "support/device_test.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/ball_families.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

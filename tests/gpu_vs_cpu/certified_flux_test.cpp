@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "cpu_reference/queries.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/reference_mesh.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <string>
 
-#include "medial/reference_bridge.h"
+#include "judge/reference_bridge.h"
 #include "mesh/winding_number.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

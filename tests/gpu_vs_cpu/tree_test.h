@@ -16,9 +16,9 @@
 
 #include "cpu_reference/queries.h"
 #include "medial_vk/queries.h"
-#include "support/device_test.h"
+#include "support/device/device_test.h"
 #include "support/reference_mesh.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 

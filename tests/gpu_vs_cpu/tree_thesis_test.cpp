@@ -9,12 +9,12 @@
 #include <string>
 
 #include "cpu_reference/extract.h"
-#include "medial/certify.h"
 #include "medial_vk/bvh.h"
+#include "medial_vk/certify.h"
 #include "medial_vk/extraction.h"
-#include "support/device_test.h"
+#include "support/device/device_test.h"
 #include "support/reference_mesh.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "deforming_torus.h"
 #include "lent_device.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "vulkan_host.h"
 
 namespace medial_vk::test {

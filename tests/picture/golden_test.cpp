@@ -11,9 +11,9 @@
 #include "output/picture/vulkan/device_painter.h"
 #include "picture/perceptual.h"
 #include "picture/tolerance.h"
-#include "support/device.h"
-#include "support/smooth_solids.h"
-#include "support/solids.h"
+#include "support/device/device.h"
+#include "support/solids/smooth_solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "medial/reference_bridge.h"
-#include "support/device.h"
+#include "judge/reference_bridge.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/medial_sampler.h"
-#include "support/solid_catalogue.h"
-#include "support/solids.h"
+#include "support/solids/solid_catalogue.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

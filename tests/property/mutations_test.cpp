@@ -2,10 +2,10 @@
 // likes.
 #include <gtest/gtest.h>
 
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/mutation_check.h"
-#include "support/mutations.h"
+#include "support/solids/mutation_check.h"
+#include "support/solids/mutations.h"
 
 namespace medial_vk {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

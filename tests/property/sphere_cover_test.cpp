@@ -6,15 +6,15 @@
 #include <map>
 #include <numbers>
 
+#include "base/point_ops.h"
 #include "cpu_reference/sphere_certificate.h"
-#include "mesh/point_ops.h"
-#include "spheres/cover_family.h"
-#include "spheres/dilation.h"
-#include "spheres/envelope_distance.h"
+#include "spheres/cover/cover_family.h"
+#include "spheres/measures/envelope_distance.h"
+#include "spheres/methods/dilation.h"
 #include "support/extraction.h"
 #include "support/reference_balls.h"
 #include "support/reference_mesh.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

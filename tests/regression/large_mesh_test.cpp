@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "input/read_mesh.h"
 #include "medial_vk/queries.h"
-#include "mesh/load_mesh.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/mesh_files.h"
-#include "support/solids.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
 
 namespace medial_vk {
 namespace {

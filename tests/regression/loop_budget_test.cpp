@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clusters.h"
-#include "support/device.h"
+#include "device_mesh/clusters.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solids.h"
+#include "support/solids/solids.h"
 #include "tree_types.h"
 
 namespace medial_vk {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
-#include "support/solid_catalogue.h"
+#include "support/solids/solid_catalogue.h"
 
 namespace medial_vk {
 namespace {

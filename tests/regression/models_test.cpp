@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "mesh/load_mesh.h"
-#include "sheets/medial_mesh.h"
+#include "input/read_mesh.h"
+#include "medial_mesh/medial_mesh.h"
 #include "sheets/sheets.h"
 #include "sheets/significance.h"
 #include "sheets/voxel_graph.h"
-#include "support/device.h"
+#include "support/device/device.h"
 #include "support/extraction.h"
 
 namespace medial_vk {

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // For the tests of dispatches: how often each workgroup runs.
-#include "workgroup_index.glsl"
+#include "lanes/workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;  // 1
 layout(set = 0, binding = 0) buffer Runs { uint runs[]; };

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "support/extraction.h"
-#include "support/mutation_check.h"
+#include "support/solids/mutation_check.h"
 
 int main(int argc, char** argv) {
   using namespace medial_vk;

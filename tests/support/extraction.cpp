@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "cpu_reference/certificate.h"
-#include "medial/reference_bridge.h"
-#include "mesh/load_mesh.h"
+#include "judge/reference_bridge.h"
+#include "medial_vk/prepare.h"
 
 namespace medial_vk::test {
 namespace {

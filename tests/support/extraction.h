@@ -9,9 +9,9 @@
 #include <map>
 #include <string>
 
+#include "analysis/extract.h"
 #include "cpu_reference/extract.h"
-#include "medial/extract.h"
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 
 namespace medial_vk::test {
 

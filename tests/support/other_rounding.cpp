@@ -3,7 +3,7 @@
 #include <bit>
 #include <map>
 
-#include "support/spirv_walk.h"
+#include "support/device/spirv_walk.h"
 
 namespace medial_vk::test {
 namespace {

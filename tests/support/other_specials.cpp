@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "support/spirv_walk.h"
+#include "support/device/spirv_walk.h"
 
 namespace medial_vk::test {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cpu_reference/mesh.h"
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 
 namespace medial_vk::test {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "cli/declarations.h"
-#include "cli/output_names.h"
-#include "output/file_extension.h"
+#include "cli/options/declarations.h"
+#include "cli/options/output_names.h"
+#include "output/files/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/output_names.h"
-#include "cli/parse_picture.h"
+#include "cli/options/output_names.h"
+#include "cli/options/parse_picture.h"
 #include "medial_vk/result.h"
 #include "output/picture/options.h"
 #include "output/spheres/sphere_file.h"
-#include "spheres/sphere_set.h"
+#include "spheres/methods/sphere_set.h"
 
 namespace medial_vk::cli {
 

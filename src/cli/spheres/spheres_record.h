@@ -8,7 +8,7 @@
 
 #include "cli/spheres/spheres_options.h"
 #include "medial_vk/context.h"
-#include "output/atomic_file.h"
+#include "output/files/atomic_file.h"
 #include "robots/fit_parts.h"
 
 namespace medial_vk::cli {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "cli/numbers.h"
 #include "cli/spheres/spheres_record.h"
-#include "cli/tables.h"
+#include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
 
 namespace medial_vk::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "output/file_extension.h"
-#include "output/little_endian.h"
+#include "output/files/file_extension.h"
+#include "output/files/little_endian.h"
 
 namespace medial_vk {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "medial_mesh/medial_mesh.h"
 #include "output/medial_file.h"
-#include "sheets/medial_mesh.h"
 
 namespace medial_vk {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "output/little_endian.h"
+#include "output/files/little_endian.h"
 
 namespace medial_vk {
 namespace {

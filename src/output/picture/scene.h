@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "medial_vk/extraction.h"
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 #include "output/picture/camera.h"
 #include "output/picture/options.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "medial_vk/mesh.h"
 
 namespace medial_vk::picture {
 

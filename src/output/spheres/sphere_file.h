@@ -7,7 +7,7 @@
 
 #include "medial_vk/queries.h"
 #include "medial_vk/result.h"
-#include "spheres/reach_out.h"
+#include "spheres/measures/reach_out.h"
 
 namespace medial_vk {
 

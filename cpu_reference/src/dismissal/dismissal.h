@@ -1,0 +1,54 @@
+// What can be proved about a box: that it holds no salient medial point, or else of what kind and how wide a set of
+// them can be that hides there (docs/theory.md, "What undecided means").
+#pragma once
+
+#include <vector>
+
+#include "dismissal/carriers.h"
+#include "dismissal/contacts.h"
+#include "dismissal/pairs.h"
+#include "geometry/box.h"
+#include "search/grid.h"
+
+namespace medial_vk::reference {
+
+/// The contacts of a box and, once they are needed, its carriers.
+class BoxTest {
+ public:
+  /// `list` is around the centre of the box and holds all contacts of its points.
+  BoxTest(const Tree& tree, const SpokeCones& cones, const Box& box, const ContactList& list);
+  BoxTest(const BoxTest&) = delete;  // pairs point to its carriers
+  BoxTest& operator=(const BoxTest&) = delete;
+
+  /// Is it proved that no medial point of this object angle or more lies in the box, inside the solid?
+  bool dismisses(double angle);
+  /// The pairs that dismisses() did not exclude: the first of them, for lines to aim at; none before it was asked.
+  const std::vector<CarrierPair>& pairs() const { return search_.pairs; }
+
+  /// No two feet of a medial point of this object angle or more in the box are farther apart (equation 3.1).
+  double width(double angle);
+
+  const Box& box() const { return box_; }
+  const Closest& nearest() const { return list_.nearest_to_centre(); }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+
+ private:
+  const std::vector<Carrier>& carriers();
+  double width_of(const CarrierPair& pair) const;
+
+  const Tree& tree_;
+  const SpokeCones& cones_;
+  Box box_;
+  const ContactList& list_;
+  std::vector<Contact> contacts_;
+  std::vector<Carrier> carriers_;
+  bool has_carriers_ = false;
+  PairSearch search_;
+};
+
+/// What a salient medial point must be like that hides in a leaf cell of a finest voxel with these corners. `test` is
+/// the cell's, `list` its contacts; `angle` is the threshold that the cell was tested with.
+UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Thresholds& thresholds, BoxTest& test,
+                      const ContactList& list, const Box& voxel);
+
+}  // namespace medial_vk::reference

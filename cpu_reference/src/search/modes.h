@@ -1,0 +1,21 @@
+// The two modes behind extract().
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "cpu_reference/extract.h"
+#include "cpu_reference/queries.h"
+#include "search/grid.h"
+
+namespace medial_vk::reference {
+
+/// Runs a function for every top-level cell, with progress and interruption.
+using CellLoop = std::function<void(const std::function<void(const Eigen::Vector3i&)>&)>;
+
+void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
+                       const CellLoop& loop, Result& result);
+void extract_thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
+                    const CellLoop& loop, Result& result);
+
+}  // namespace medial_vk::reference

@@ -1,0 +1,26 @@
+// Which of a power cell's faces, edges and corners lie in its ball: the simplices of the dual complex.
+#pragma once
+
+#include <vector>
+
+#include "balls/cells/power_cell.h"
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+
+/// Appends the simplices whose first ball is the cell's, and the vertices of the envelope likewise. Scratch memory is
+/// kept from call to call.
+class SimplexCollector {
+ public:
+  void collect(const PowerCell& cell, const Ball& ball, DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
+
+ private:
+  enum : std::uint8_t { kFootOutside = 1, kMeetsBall = 2 };
+  void collect_edges(const PowerCell& cell, const Ball& ball, DualComplex& complex,
+                     std::vector<EnvelopeVertex>& vertices);
+  void collect_corners(const PowerCell& cell, double radius, DualComplex& complex) const;
+
+  std::vector<std::uint8_t> faces_;  // by plane of the cell
+};
+
+}  // namespace medial_vk

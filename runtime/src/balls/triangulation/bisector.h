@@ -1,0 +1,99 @@
+// The planes that bound the power cell of a ball, and on which side of a plane three others meet, exactly.
+//
+// All of it is relative to the centre of the cell's own ball i. Ball j keeps the points x with
+//   2 (c_j - c_i) . x <= |c_j - c_i|^2 + r_i^2 - r_j^2                                  (power distances, equation 1.2)
+// for i; a *wall* keeps normal . x <= offset.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "balls/triangulation/double_double.h"
+#include "balls/triangulation/expansion.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/queries.h"
+
+namespace medial_vk {
+
+/// A plane in double precision: normal . x <= offset is kept.
+struct Bisector {
+  Point normal;  ///< A unit vector, up to rounding; zero if the two centres coincide.
+  double offset = 0;
+  double slack = 0;       ///< Rounding of `offset`, at most.
+  std::int32_t ball = 0;  ///< The other ball; below 0: wall number -1 - ball.
+  bool is_apart = false;  ///< The two balls have no point in common: in no simplex are both.
+};
+
+/// No point in common, whatever rounding does: squares carry fewer than 16 roundings of half a unit.
+bool are_apart(const Ball& a, const Ball& b);
+
+/// The plane between balls i and j; |c| and r are at most 64.
+Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j);
+
+/// Where three planes meet, and how far rounding may have moved it; HUGE_VAL where they are parallel to a line, or
+/// nearly.
+std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s);
+
+// Corners in a cell's box that rounding may have moved by more, in radii, are found with more digits, also those
+// outside the ball, as edges that pass through it end there: where planes nearly have a line in common, anything may
+// happen along it, and volumes and simplices must not depend on which.
+inline constexpr double kSharpCorner = 0x1p-40;
+// The same wherever they are, at once: beyond this, more would be decided exactly, and asked of a tree. In radii, or in
+// the distance from the centre.
+inline constexpr double kRoughCorner = 0x1p-20;
+
+/// A plane that belongs to one cell only: normal . x <= offset, these very doubles.
+struct Wall {
+  Point normal;
+  double offset = 0;
+};
+
+/// Decides exactly. Where the answer is "on the plane", radii are imagined a little larger: r_k^2 + e_k with
+/// e_0 >> e_1 >> ... > 0, the same for all cells, so that all cells together are those of one regular triangulation
+/// (H. Edelsbrunner, E. P. Muecke, "Simulation of Simplicity", 1990). Not for several threads at once.
+class ExactSide {
+ public:
+  ExactSide(std::span<const Ball> balls, const std::vector<Wall>& walls) : balls_(balls), walls_(walls) {}
+
+  /// True if plane m keeps the point where planes p, q, s of the cell of ball i meet. Their normals are independent.
+  /// Each is a ball's number or -1 - a wall's.
+  bool keeps(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s, std::int32_t m);
+  /// -1, 0 or 1: the sign of det(c_p - c_i, c_q - c_i, c_s - c_i).
+  int orientation(std::uint32_t i, std::uint32_t p, std::uint32_t q, std::uint32_t s);
+  /// Where planes p, q, s of the cell of ball i meet, relative to its centre, and how far rounding may have moved that:
+  /// a few units in the last place of the point's distance, however flat the corner.
+  std::pair<Point, double> meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s);
+  /// True if the plane between i and j, which have the same centre, keeps anything: if i is the larger one, or as large
+  /// and named first.
+  bool keeps_concentric(std::uint32_t i, std::uint32_t j) const {
+    if (balls_[i].radius != balls_[j].radius) return balls_[i].radius > balls_[j].radius;
+    return i < j;
+  }
+
+ private:
+  /// A plane as (normal, offset), not scaled.
+  template <class Number>
+  struct Row {
+    Number normal[3], offset;
+  };
+  /// Of the cofactors of the offsets of four planes, and of the sum of those that belong to balls.
+  struct Signs {
+    std::array<int, 4> cofactors;
+    int of_own;
+  };
+  static bool keeps_tied(std::uint32_t i, const std::array<std::int32_t, 4>& names, const Signs& signs);
+  bool keeps_by_expansions(std::uint32_t i, const std::array<std::int32_t, 4>& names);
+  std::pair<Point, double> meet_by_expansions(std::uint32_t i, const std::array<std::int32_t, 3>& names);
+  Row<DoubleDouble> rounded_row(std::uint32_t i, std::int32_t plane) const;
+  Row<Expansion> exact_row(std::uint32_t i, std::int32_t plane);
+
+  std::span<const Ball> balls_;
+  const std::vector<Wall>& walls_;
+  ExpansionArena arena_;
+  ExpansionMath math_{arena_};
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,233 @@
+#include "medial_vk/bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/host_memory.h"
+#include "base/parallel_blocks.h"
+#include "base/point_math.h"
+#include "bvh/bvh_boxes.h"
+#include "bvh/bvh_builder.h"
+#include "bvh/triangle_distance.h"
+
+namespace medial_vk {
+namespace {
+
+Error invalid_mesh(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
+
+bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+/// Vertices and triangles of a block that a thread looks at.
+constexpr std::size_t kBlock = 32768;
+
+Status check_triangle(const MeshView& mesh, std::size_t triangle) {
+  for (const std::uint32_t v : mesh.triangles[triangle]) {
+    if (v >= mesh.vertices.size()) {
+      return invalid_mesh("face " + std::to_string(triangle) + " uses vertex " + std::to_string(v) + " of " +
+                          std::to_string(mesh.vertices.size()));
+    }
+    if (!is_finite(mesh.vertices[v])) {
+      return invalid_mesh("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+    }
+  }
+  return {};
+}
+
+/// Names the first triangle that is at fault.
+Status check_mesh(const MeshView& mesh, unsigned threads) {
+  const std::size_t count = mesh.triangles.size();
+  if (count == 0) return invalid_mesh("the mesh has no triangle");
+  if (count >= 0x7fffffffu) return invalid_mesh("the mesh has more than 2147483646 triangles");
+  std::vector<std::size_t> faults((count + kBlock - 1) / kBlock, count);  // by block
+  parallel_blocks(count, kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = end; t-- > begin;) {
+      const Triangle& triangle = mesh.triangles[t];
+      const bool fine = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+        return v < mesh.vertices.size() && is_finite(mesh.vertices[v]);
+      });
+      if (!fine) faults[begin / kBlock] = t;
+    }
+  });
+  const std::size_t first = *std::min_element(faults.begin(), faults.end());
+  return first < count ? check_triangle(mesh, first) : Status();
+}
+
+std::array<Point, 3> corners_of(const MeshView& mesh, std::size_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+std::vector<BvhPrimitive> make_primitives(const MeshView& mesh, unsigned threads) {
+  std::vector<BvhPrimitive> primitives(mesh.triangles.size());
+  parallel_blocks(primitives.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = corners_of(mesh, t);
+      const Point lower = least(a, least(b, c)), upper = greatest(a, greatest(b, c));
+      primitives[t] = {{lower[0], lower[1], lower[2], -upper[0], -upper[1], -upper[2]}, static_cast<std::uint32_t>(t)};
+    }
+  });
+  return primitives;
+}
+
+double squared_distance(const BvhBox& box, const Point& p) {
+  const Point outside = greatest(greatest(box.lower - p, p - box.upper), Point{0, 0, 0});
+  return dot(outside, outside);
+}
+
+/// Depth-first walk, nearer child first. `limit()` is the squared distance beyond which a box is of no interest (at
+/// the limit it is), `visit(position)` looks at one triangle and returns true to end the walk.
+template <class Limit, class Visit>
+void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit limit, Visit visit) {
+  struct Pending {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  std::array<Pending, Bvh::kMaxDepth + 1> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, squared_distance(nodes[0].box, p)};
+  while (size > 0) {
+    const Pending top = stack[--size];
+    if (top.squared_distance > limit()) continue;
+    const BvhNode& node = nodes[top.node];
+    if (node.count == 0) {
+      Pending near{node.first, squared_distance(nodes[node.first].box, p)};
+      Pending far{node.first + 1, squared_distance(nodes[node.first + 1].box, p)};
+      if (far.squared_distance < near.squared_distance) std::swap(near, far);
+      stack[size++] = far;
+      stack[size++] = near;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (visit(i)) return;
+    }
+  }
+}
+
+/// The same for a limit that stays: calls `visit` with every leaf. Boxes are looked at before they go on the stack, so
+/// most never do.
+template <class Visit>
+void for_each_leaf(const std::vector<BvhNode>& nodes, const Point& p, double squared_limit, Visit visit) {
+  std::array<std::uint32_t, Bvh::kMaxDepth + 1> stack;
+  std::size_t size = 0;
+  if (squared_distance(nodes[0].box, p) <= squared_limit) stack[size++] = 0;
+  while (size > 0) {
+    std::uint32_t node = stack[--size];
+    bool is_near = true;
+    while (is_near && nodes[node].count == 0) {
+      const std::uint32_t first = nodes[node].first;
+      const double to_first = squared_distance(nodes[first].box, p);
+      const double to_second = squared_distance(nodes[first + 1].box, p);
+      const std::uint32_t nearer = to_second < to_first ? 1 : 0;
+      is_near = std::min(to_first, to_second) <= squared_limit;
+      if (std::max(to_first, to_second) <= squared_limit) stack[size++] = first + 1 - nearer;
+      node = first + nearer;
+    }
+    if (is_near) visit(node);
+  }
+}
+
+}  // namespace
+
+Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned threads) {
+  threads = thread_count(threads);
+  return catch_out_of_memory("building a tree over the triangles", [&]() -> Result<Bvh> {
+    if (Status status = check_mesh(mesh, threads); !status) return status.error();
+    BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, leaf_size), threads);
+    Bvh bvh;
+    bvh.nodes_ = builder.build();
+    bvh.order_ = builder.take_order();
+    bvh.corners_.resize(bvh.order_.size());
+    bvh.take_corners(mesh, threads);
+    return bvh;
+  });
+}
+
+Status Bvh::refit(const MeshView& mesh, unsigned threads) {
+  threads = thread_count(threads);
+  if (mesh.triangles.size() != order_.size()) {
+    return invalid_mesh("the mesh has " + std::to_string(mesh.triangles.size()) +
+                        " triangles, the tree was built over " + std::to_string(order_.size()));
+  }
+  if (order_.empty()) return {};
+  return catch_out_of_memory("refitting the tree over the triangles", [&]() -> Status {
+    if (Status status = check_mesh(mesh, threads); !status) return status;
+    take_corners(mesh, threads);
+    return {};
+  });
+}
+
+void Bvh::take_corners(const MeshView& mesh, unsigned threads) {
+  parallel_blocks(order_.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) corners_[i] = corners_of(mesh, order_[i]);
+  });
+  fit_boxes(nodes_, corners_, threads);
+}
+
+BvhHit Bvh::closest(const Point& p, double bound) const {
+  BvhHit best;
+  best.squared_distance = bound > 0 ? bound * bound : 0.0;
+  walk_near_first(
+      nodes_, p, [&] { return best.squared_distance; },
+      [&](std::uint32_t i) {
+        improve(p, i, best);
+        return false;
+      });
+  if (best.triangle == 0xffffffffu) best.squared_distance = std::numeric_limits<double>::infinity();
+  return best;
+}
+
+void Bvh::improve(const Point& p, std::uint32_t position, BvhHit& best) const {
+  if (clearly_beyond(p, corners_[position], best.squared_distance)) return;
+  const NearestOffset nearest = nearest_on_triangle(p, corners_[position]);
+  const std::uint32_t triangle = order_[position];
+  const bool tie = nearest.squared_distance == best.squared_distance && best.triangle != 0xffffffffu;
+  if (nearest.squared_distance < best.squared_distance || (tie && triangle < best.triangle)) {
+    best = {nearest.squared_distance, p + nearest.offset, triangle};
+  }
+}
+
+void Bvh::gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const {
+  positions.clear();
+  const double limit = radius * radius;
+  for_each_leaf(nodes_, centre, limit, [&](std::uint32_t leaf) {
+    const std::uint32_t end = nodes_[leaf].first + nodes_[leaf].count;
+    for (std::uint32_t i = nodes_[leaf].first; i < end; ++i)
+      if (!clearly_beyond(centre, corners_[i], limit)) positions.push_back(i);
+  });
+}
+
+void Bvh::gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const {
+  leaves.clear();
+  for_each_leaf(nodes_, centre, radius * radius, [&](std::uint32_t leaf) { leaves.push_back(leaf); });
+}
+
+BvhHit Bvh::closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best) const {
+  for (const std::uint32_t position : positions) improve(p, position, best);
+  return best;
+}
+
+std::size_t Bvh::find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const {
+  // A little more than the square, so that what is skipped would not be found for rounding either.
+  const double limit = radius * radius * (1 + 1e-12);
+  const auto found = std::ranges::find_if(positions, [&](std::uint32_t i) {
+    return !clearly_beyond(p, corners_[i], limit) &&
+           std::sqrt(nearest_on_triangle(p, corners_[i]).squared_distance) < radius;
+  });
+  return static_cast<std::size_t>(found - positions.begin());
+}
+
+bool Bvh::any_within(const Point& centre, double radius) const {
+  if (!(radius > 0)) return false;
+  const double squared_radius = radius * radius;
+  bool found = false;
+  walk_near_first(
+      nodes_, centre, [&] { return squared_radius; },
+      [&](std::uint32_t i) {
+        found = nearest_on_triangle(centre, corners_[i]).squared_distance < squared_radius;
+        return found;
+      });
+  return found;
+}
+
+}  // namespace medial_vk

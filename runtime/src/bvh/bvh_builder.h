@@ -1,0 +1,73 @@
+// Builds the nodes of a Bvh: binned SAH (Wald 2007), parallel within large nodes and over subtrees, the same tree for
+// any number of threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "bvh/bvh_bins.h"
+#include "medial_vk/bvh.h"
+
+namespace medial_vk {
+
+class BvhBuilder {
+ public:
+  /// At least one primitive, in the order of their triangles; leaf_size and threads at least 1.
+  BvhBuilder(std::vector<BvhPrimitive> primitives, std::uint32_t leaf_size, unsigned threads);
+
+  /// Links and leaves, boxes still empty. Root first, depth at most Bvh::kMaxDepth. Siblings are neighbours; after a
+  /// pair come all nodes below the first of the two, then all below the second (fit_boxes() relies on it).
+  std::vector<BvhNode> build();
+  /// After build(): triangle by leaf position.
+  std::vector<std::uint32_t> take_order() { return std::move(order_); }
+
+ private:
+  /// A node to be: primitives [begin, end) of one of the two arrays, and the box around their doubled centres.
+  struct Piece {
+    std::uint32_t begin = 0, end = 0;
+    std::uint32_t depth = 0;
+    std::uint32_t array = 0;
+    BuildBox centres;
+    std::uint32_t count() const { return end - begin; }
+  };
+  struct Pair {
+    Piece left, right;
+  };
+  /// A node without its box; `first` of an inner node counts from the root of its subtree.
+  struct Link {
+    std::uint32_t first = 0, count = 0;
+  };
+  /// A node of the upper part of the tree: inner, or the root of a subtree that is built by one thread.
+  struct Top {
+    Piece piece;
+    std::uint32_t left = 0, right = 0;  // in tops_; 0: a subtree
+    std::vector<Link> subtree;          // its root first
+    std::uint32_t below = 0;            // nodes below it,
+    std::uint32_t first = 0;            // and the place of the first of them
+  };
+
+  Piece whole() const;
+  static Pair halves(const Piece& piece, std::uint32_t middle);
+  Pair split(const Piece& piece, unsigned threads);
+  Pair split_here(const Piece& piece);
+  Pair split_wide(const Piece& piece, unsigned threads);
+  Pair split_at_median(const Piece& piece);
+  BuildBins fill_bins(const Piece& piece, std::uint32_t begin, std::uint32_t end) const;
+  void move_apart(const Piece& piece, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end, Pair& to);
+  void split_tops();
+  void build_subtrees();
+  void build_subtree(const Piece& piece, std::uint32_t place, std::vector<Link>& out);
+  void make_leaf(const Piece& piece, Link& leaf);
+  std::vector<BvhNode> lay_out();
+  std::uint32_t levels_of_halving(std::uint32_t count) const;
+
+  std::array<std::vector<BvhPrimitive>, 2> arrays_;  // every split moves a piece from one to the other
+  std::vector<std::uint32_t> order_;
+  std::vector<Top> tops_;
+  std::uint32_t leaf_size_;
+  unsigned threads_;
+};
+
+}  // namespace medial_vk

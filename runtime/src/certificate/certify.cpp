@@ -1,0 +1,280 @@
+#include "medial_vk/certify.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/parallel_for.h"
+#include "certificate/near_triangles.h"
+#include "mesh/solid.h"
+
+namespace medial_vk {
+namespace {
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double norm(const Point& a) { return std::sqrt(dot(a, a)); }
+
+Point widen(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::array<float, 3> unit_float(const Point& v) {
+  const double length = norm(v);
+  return {static_cast<float>(v[0] / length), static_cast<float>(v[1] / length), static_cast<float>(v[2] / length)};
+}
+
+// Half the angle between two vectors, accurate for all angles (Kahan): of the spokes as they are written.
+double half_angle(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  const Point x = widen(a), y = widen(b);
+  const Point u = (1 / norm(x)) * x, v = (1 / norm(y)) * y;
+  return std::atan2(norm(u - v), norm(u + v));
+}
+
+/// What a thread needs: the leaves of the tree near the spheres at hand, and the triangles near one of them.
+struct Surroundings {
+  Region region;
+  std::vector<std::uint32_t> nearby;
+  std::vector<float> bounds;
+};
+
+class Certifier {
+ public:
+  Certifier(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side, const VoxelGrid& grid)
+      : bvh_(bvh),
+        triangles_(bvh),
+        parameters_(parameters),
+        grid_(grid),
+        longest_(longest_side),
+        epsilon_(parameters.epsilon * grid.voxel_size),
+        rounding_(distance_rounding(bvh)) {}
+
+  /// Takes the tree's leaves near these spheres, for certify() of each.
+  void surround(const std::vector<MedialSphere>& spheres, std::span<const std::uint32_t> group, Surroundings& s) const {
+    const Point& centre = spheres[group[group.size() / 2]].centre;
+    double radius = 0;
+    for (const std::uint32_t i : group)
+      radius = std::max(radius, norm(spheres[i].centre - centre) + expected_radius(spheres[i]) + 2 * epsilon_);
+    triangles_.surround(centre, radius * (1 + 1e-9), s.region);
+  }
+
+  /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
+  /// (contacts of three sheets that nearly tie) double can.
+  bool certify_or_mend(MedialSphere& s, Surroundings& around) const {
+    const MedialSphere as_found = s;
+    if (certify(s, around)) return true;
+    for (const MedialSphere& mended : narrowed(as_found)) {
+      s = mended;
+      if (certify(s, around)) return true;
+    }
+    return false;
+  }
+
+  /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
+  bool certify(MedialSphere& s, Surroundings& around) const {
+    if (!in_its_voxel(s)) return false;
+    // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
+    const double expected = expected_radius(s), reach = expected + 2 * epsilon_;
+    std::vector<std::uint32_t>& nearby = around.nearby;
+    const std::size_t inner = triangles_.gather(around.region, s.centre, reach, expected, nearby);
+    BvhHit nearest = triangles_.closest_of(s.centre, std::span(nearby).first(inner), around.bounds);
+    if (!(nearest.squared_distance <= expected * expected)) {
+      nearest = bvh_.closest(s.centre);
+      bvh_.gather_within(s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);
+    }
+    const double distance = std::sqrt(nearest.squared_distance);
+    if (distance <= 2 * rounding_) return false;
+    s.radius = distance - rounding_;
+    const Point toward = (1 / distance) * (nearest.point - s.centre);
+    const Point grown_centre = s.centre - epsilon_ * toward;
+    set_spokes(s, unit_float(toward));
+    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near
+    // is no nearer than that. The tip is asked first, as what is near to it is within the grown ball as a rule.
+    const bool near = tip_is_near(s, nearby);
+    if (!any_within(grown_centre, distance + epsilon_ - 4 * rounding_, nearby)) return false;
+    if (near && is_salient(s)) return set_angle(s);
+    // Where many contacts tie (the centre of a sphere), the exact nearest one may lie between the two of the device.
+    s.spoke_b = unit_float(bvh_.closest_of(grown_centre, nearby).point - grown_centre);
+    return tip_is_near(s, nearby) && is_salient(s) && set_angle(s);
+  }
+
+ private:
+  // At most, if the device is right.
+  double expected_radius(const MedialSphere& s) const { return s.radius + 1e-5 * longest_; }
+
+  struct End {
+    Point point, toward;
+    double distance;
+  };
+
+  End look(const Point& p) const {
+    const BvhHit nearest = bvh_.closest(p);
+    const double distance = std::sqrt(nearest.squared_distance);
+    return {p, (1 / std::max(distance, rounding_)) * (nearest.point - p), distance};
+  }
+
+  // The segment through the centre along the sheet's normal (equation 2.11), epsilon to both sides, bisected towards
+  // the larger turn until the growth test must hold (docs/theory.md, "How far to narrow"): a sphere at each end. None
+  // where the boundary is within twice epsilon, so that the ends lie in the solid if the centre does.
+  std::vector<MedialSphere> narrowed(const MedialSphere& s) const {
+    const Point across = widen(s.spoke_b) - widen(s.spoke_a);
+    if (norm(across) < 1e-3 || look(s.centre).distance <= 2 * epsilon_) return {};
+    const Point step = (epsilon_ / norm(across)) * across;
+    End p = look(s.centre - step), q = look(s.centre + step);
+    const double sine = std::sin(double{s.object_angle});
+    for (int i = 0; i < 64; ++i) {
+      const double distance = std::min(p.distance, q.distance);
+      if (norm(p.point - q.point) <= 0.5 * epsilon_ * sine * sine * distance / (distance + epsilon_)) break;
+      const End middle = look(0.5 * (p.point + q.point));
+      (dot(p.toward, middle.toward) < dot(middle.toward, q.toward) ? q : p) = middle;
+    }
+    MedialSphere at_p = s, at_q = s;
+    at_p.centre = p.point;
+    at_q.centre = q.point;
+    at_p.spoke_a = at_q.spoke_b = unit_float(p.toward);
+    at_p.spoke_b = at_q.spoke_a = unit_float(q.toward);
+    return {at_p, at_q};
+  }
+
+  static bool set_angle(MedialSphere& s) {
+    s.object_angle = static_cast<float>(half_angle(s.spoke_a, s.spoke_b));
+    return true;
+  }
+
+  bool in_its_voxel(const MedialSphere& s) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell = std::floor((s.centre[axis] - grid_.origin[axis]) / grid_.voxel_size);
+      if (cell != static_cast<double>(s.voxel[axis])) return false;
+    }
+    return true;
+  }
+
+  // Spoke b is the direction that the search saw on the other side of the sheet. Where the two contacts tie within the
+  // rounding of the device, exact arithmetic may call the other one nearest: then the device's spoke a is spoke b.
+  void set_spokes(MedialSphere& s, const std::array<float, 3>& a) const {
+    const bool swapped = dot(widen(a), widen(s.spoke_b)) > dot(widen(a), widen(s.spoke_a));
+    const std::array<float, 3> b = swapped ? s.spoke_a : s.spoke_b;
+    s.spoke_a = a;
+    s.spoke_b = unit_float(widen(b));
+  }
+
+  // Is one of the nearby triangles closer to p than that? It comes first then: the next question is often about it too.
+  bool any_within(const Point& p, double radius, std::vector<std::uint32_t>& nearby) const {
+    const std::size_t found = bvh_.find_within(p, radius, nearby);
+    if (found == nearby.size()) return false;
+    std::swap(nearby.front(), nearby[found]);
+    return true;
+  }
+
+  // Lemma 2.4: the tip of spoke b is within 2 epsilon of the boundary.
+  bool tip_is_near(const MedialSphere& s, std::vector<std::uint32_t>& nearby) const {
+    return any_within(s.centre + s.radius * widen(s.spoke_b), 2 * epsilon_ * (1 - 1e-6), nearby);
+  }
+
+  bool is_salient(const MedialSphere& s) const {
+    const double angle = half_angle(s.spoke_a, s.spoke_b);
+    return angle >= parameters_.object_angle || (parameters_.radius > 0 && s.radius >= parameters_.radius * longest_);
+  }
+
+  const Bvh& bvh_;
+  NearTriangles triangles_;
+  const ExtractionParameters& parameters_;
+  const VoxelGrid& grid_;
+  double longest_, epsilon_, rounding_;
+};
+
+/// Spheres in cubes of four voxels along a side: neighbours, whose queries look at the same leaves.
+class NeighbourGroups {
+ public:
+  explicit NeighbourGroups(const std::vector<MedialSphere>& spheres) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(spheres.size());
+    for (const MedialSphere& s : spheres) keys.emplace_back(key_of(s), static_cast<std::uint32_t>(keys.size()));
+    std::ranges::sort(keys);
+    order_.reserve(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i == 0 || keys[i].first != keys[i - 1].first) begins_.push_back(i);
+      order_.push_back(keys[i].second);
+    }
+    begins_.push_back(keys.size());
+  }
+
+  std::size_t size() const { return begins_.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t group) const {
+    return std::span(order_).subspan(begins_[group], begins_[group + 1] - begins_[group]);
+  }
+
+ private:
+  static std::uint64_t key_of(const MedialSphere& s) {
+    std::uint64_t key = 0;
+    for (const std::uint32_t coordinate : s.voxel) key = key << 21 | coordinate >> 2;
+    return key;
+  }
+
+  std::vector<std::uint32_t> order_;  // indices of spheres, group by group
+  std::vector<std::size_t> begins_;   // of groups in order_, and its end
+};
+
+/// What a thread takes: enough that threads do not meet, little enough that none waits long for another at the end.
+constexpr std::size_t kGroupsAtOnce = 8;
+
+/// 1 for each that is the first of its voxel. They are in voxel order.
+std::vector<std::uint8_t> first_of_voxels(const std::vector<MedialSphere>& spheres) {
+  std::vector<std::uint8_t> is_first(spheres.size(), 1);
+  for (std::size_t i = 1; i < spheres.size(); ++i) is_first[i] = spheres[i].voxel != spheres[i - 1].voxel ? 1 : 0;
+  return is_first;
+}
+
+/// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
+/// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.
+void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extraction) {
+  std::vector<UndecidedVoxel>& undecided = extraction.undecided;
+  const std::size_t known = undecided.size();
+  const double diagonal = std::sqrt(3.0) * extraction.grid.voxel_size;
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    const MedialSphere& dropped = extraction.spheres[i];
+    const auto width = static_cast<float>(2 * (dropped.radius + diagonal));
+    if (passed[i] == 0) undecided.push_back({dropped.voxel, UndecidedKind::kOther, width});
+  }
+  std::inplace_merge(undecided.begin(), undecided.begin() + static_cast<std::ptrdiff_t>(known), undecided.end(),
+                     [](const auto& a, const auto& b) { return is_earlier_voxel(a.voxel, b.voxel); });
+}
+
+}  // namespace
+
+CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
+                              Extraction& extraction, unsigned threads) {
+  std::vector<MedialSphere>& spheres = extraction.spheres;
+  const Certifier certifier(bvh, parameters, longest_side, extraction.grid);
+  std::vector<std::uint8_t> passed = first_of_voxels(spheres);
+  const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  const NeighbourGroups groups(spheres);
+  std::atomic<std::size_t> next = 0;
+  parallel_for(count, 1, [&](std::size_t) {
+    Surroundings around;
+    for (std::size_t first = next.fetch_add(kGroupsAtOnce); first < groups.size();
+         first = next.fetch_add(kGroupsAtOnce)) {
+      for (std::size_t g = first; g < std::min(first + kGroupsAtOnce, groups.size()); ++g) {
+        certifier.surround(spheres, groups[g], around);
+        for (const std::uint32_t i : groups[g])
+          passed[i] = passed[i] != 0 && certifier.certify_or_mend(spheres[i], around) ? 1 : 0;
+      }
+    }
+  });
+
+  if (parameters.mode == Mode::kCertified) list_dropped(passed, extraction);
+  CertifyReport report;
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    if (passed[i] != 0) spheres[report.passed++] = spheres[i];
+  report.rejected = spheres.size() - report.passed;
+  spheres.resize(report.passed);
+  extraction.counters.found -= report.rejected;
+  extraction.counters.undecided += report.rejected;
+  return report;
+}
+
+}  // namespace medial_vk

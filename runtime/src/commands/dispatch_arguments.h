@@ -1,0 +1,60 @@
+// The group counts of indirect dispatches, made on the device from its counters. On a CPU one more dispatch costs as
+// much as the work of a small one, so those that the same counters size are made together, before the first of them.
+// Which those are is known in advance because what is recorded is recorded twice: the first time is a plan.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "commands/memory.h"
+#include "commands/recorder.h"
+#include "commands/stop_word.h"
+#include "gpu_types.h"
+
+namespace medial_vk {
+
+class DispatchArguments {
+ public:
+  /// Makes the buffers. `counters` are the pipeline's; `stop` outlives this. `is_stage`: the recorder's clock tells
+  /// what this takes apart. Errors: kOutOfMemory.
+  Status create(Arena& arena, const Buffer& counters, const StopWord& stop, bool is_stage);
+
+  /// From here on offset_of() takes notes, and nothing may be dispatched.
+  void begin_plan();
+  /// From here on the same calls in the same order as since begin_plan().
+  void begin();
+  bool plans() const { return plans_; }
+
+  /// Counters have changed, or this is a place where the host can stop a run: what comes next is prepared after it.
+  void counters_change() { is_stale_ = true; }
+  /// A change of counters between levels (kStart* in gpu_types.h), made together with what comes next.
+  void start(Recorder& recorder, std::uint32_t start);
+  /// Where in buffer() the group counts for `wanted` (without its `argument`) will be.
+  VkDeviceSize offset_of(Recorder& recorder, const gpu::DispatchConstants& wanted);
+
+  const Buffer& buffer() const { return arguments_; }
+
+ private:
+  // Dispatches that are prepared together, after what start says.
+  struct Batch {
+    std::uint32_t start = gpu::kStartNothing;
+    std::vector<gpu::DispatchConstants> rows;
+  };
+  // What a call of offset_of() is answered by.
+  struct Call {
+    std::size_t batch, row;
+  };
+
+  void note(const gpu::DispatchConstants& wanted);
+  void record_batch(Recorder& recorder);
+
+  Buffer counters_, table_, arguments_;
+  const StopWord* stop_ = nullptr;
+  std::vector<Batch> batches_;
+  std::vector<Call> calls_;
+  std::size_t next_batch_ = 0, next_call_ = 0;
+  std::uint32_t next_row_ = 0;  // of the table; its rows are those of the arguments
+  bool is_stage_ = false, plans_ = false, is_stale_ = true;
+};
+
+}  // namespace medial_vk

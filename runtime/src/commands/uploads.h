@@ -1,0 +1,66 @@
+// Bytes of the host on their way into buffers of the device.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "commands/commands.h"
+#include "commands/memory.h"
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// Copies through two pieces of staging memory, of which the host fills one while the device empties the other, on a
+/// queue of its own if it has one; nothing is staged where a buffer is mapped. The host goes on meanwhile: kernels see
+/// all of it once finish() has returned.
+class Uploads {
+ public:
+  explicit Uploads(Context::Impl& context);
+  Uploads(const Uploads&) = delete;
+  Uploads& operator=(const Uploads&) = delete;
+  /// Waits for what is under way; the rest is dropped.
+  ~Uploads();
+
+  /// To the start of the buffer, which outlives this object or finish(); `bytes` may go when this returns. The device
+  /// must not use the buffer until finish(). Errors: kOutOfMemory, kInternal (too many bytes, device lost).
+  Status add(const Buffer& buffer, std::span<const std::byte> bytes);
+  /// All is on its way when this returns. Errors: kOutOfMemory, kInternal (device lost).
+  Status flush();
+  /// Waits until all is there. Errors: kOutOfMemory, kInternal (device lost).
+  Status finish();
+
+ private:
+  struct Piece {
+    Piece(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
+    Buffer memory;
+    VkDeviceSize used = 0;
+    bool records = false;
+    Commands commands;
+  };
+  Status begin(Piece& piece);
+  Status send(Piece& piece, const Semaphore* signal);
+
+  Context::Impl* context_;
+  Arena arena_;
+  Semaphore sent_;
+  Commands received_;  // on the queue of the kernels
+  std::array<Piece, 2> pieces_;
+  std::size_t current_ = 0;
+  bool is_sending_ = false;
+};
+
+/// One buffer's worth. Blocks.
+Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes);
+
+/// A new buffer that will have these values.
+template <class T>
+Result<Buffer> create_filled(Arena& arena, Uploads& uploads, std::span<const T> values, const char* purpose) {
+  Result<Buffer> buffer = arena.create_buffer(values.size_bytes(), MemoryKind::kDevice, purpose);
+  if (!buffer.ok()) return buffer;
+  if (Status status = uploads.add(buffer.value(), std::as_bytes(values)); !status.ok()) return status.error();
+  return buffer;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,48 @@
+#include "device/required_limits.h"
+
+#include <array>
+
+namespace medial_vk {
+namespace {
+
+using Limits = VkPhysicalDeviceLimits;
+
+// A test runs every kind of job and compares with what its programs bind (tests/faults/tiny_limits_test.cpp). Kernels
+// bind 14 storage buffers at most, but no device stops between 8 and 16.
+constexpr std::array kRequired = {
+    RequiredLimit{"maxPerStageDescriptorStorageBuffers", 16,
+                  [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorStorageBuffers; }},
+    RequiredLimit{"maxDescriptorSetStorageBuffers", 16,
+                  [](Limits& l) -> std::uint32_t& { return l.maxDescriptorSetStorageBuffers; }},
+    RequiredLimit{"maxPerStageDescriptorSampledImages", 3,
+                  [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorSampledImages; }},
+    RequiredLimit{"maxPerStageResources", 19, [](Limits& l) -> std::uint32_t& { return l.maxPerStageResources; }},
+    RequiredLimit{"maxPushConstantsSize", 128, [](Limits& l) -> std::uint32_t& { return l.maxPushConstantsSize; }},
+    // 256 lanes gather the contacts of a top cell, or resolve a query that a walk gave up.
+    RequiredLimit{"maxComputeWorkGroupInvocations", 256,
+                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupInvocations; }},
+    RequiredLimit{"maxComputeWorkGroupSize[0]", 256,
+                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupSize[0]; }},
+    RequiredLimit{"maxComputeSharedMemorySize", 16384,
+                  [](Limits& l) -> std::uint32_t& { return l.maxComputeSharedMemorySize; }},
+    // Dispatches sized on the device have rows of 32,768 groups (shaders/shared/prepare.glsl).
+    RequiredLimit{"maxComputeWorkGroupCount[0]", 32768,
+                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[0]; }},
+    RequiredLimit{"maxComputeWorkGroupCount[1]", 65535,
+                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[1]; }},
+};
+
+}  // namespace
+
+std::span<const RequiredLimit> required_limits() { return kRequired; }
+
+std::string limit_too_low(VkPhysicalDeviceLimits limits) {
+  for (const RequiredLimit& limit : kRequired) {
+    if (limit.of(limits) >= limit.needed) continue;
+    return std::string("its ") + limit.name + " is " + std::to_string(limit.of(limits)) + ", " +
+           std::to_string(limit.needed) + " are needed";
+  }
+  return {};
+}
+
+}  // namespace medial_vk

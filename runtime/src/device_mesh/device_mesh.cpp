@@ -1,0 +1,246 @@
+#include "device_mesh/device_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/point_math.h"
+#include "device/context_impl.h"
+#include "device_mesh/clusters.h"
+#include "device_mesh/device_tree.h"
+#include "device_mesh/open_edges.h"
+
+namespace medial_vk {
+namespace {
+
+static_assert(gpu::kStackSize == Bvh::kMaxDepth);
+
+Uploader through(Uploads& uploads) {
+  return [&uploads](const Buffer& buffer, std::span<const std::byte> bytes) { return uploads.add(buffer, bytes); };
+}
+
+constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr std::uint32_t kTrianglesOfCluster = 16;
+
+}  // namespace
+
+/// Before anything is built. The triangles are the largest of the buffers that grow with the mesh.
+Status DeviceMesh::check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
+  constexpr std::size_t kBytes = kTexelsPerTriangle * sizeof(Texel);
+  const std::string mesh = "the mesh has " + std::to_string(triangles) + " triangles, ";
+  if (triangles > kMostTriangles) {
+    return Error{ErrorCode::kOutOfMemory, mesh + "the device code addresses " + std::to_string(kMostTriangles)};
+  }
+  const std::size_t in_storage = limits.maxStorageBufferRange / kBytes;
+  const std::size_t in_texels = limits.maxTexelBufferElements / kTexelsPerTriangle;
+  if (triangles <= std::max(in_storage, in_texels)) return {};
+  return Error{ErrorCode::kOutOfMemory, mesh + "this device takes " + std::to_string(std::max(in_storage, in_texels)) +
+                                            " at most: of " + std::to_string(kBytes) + " bytes each, its kernels see " +
+                                            std::to_string(limits.maxStorageBufferRange) +
+                                            " in a buffer (maxStorageBufferRange), or " +
+                                            std::to_string(limits.maxTexelBufferElements) + " texels of " +
+                                            std::to_string(sizeof(Texel)) + " bytes (maxTexelBufferElements)"};
+}
+
+Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh) {
+  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
+  Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
+  if (!bvh.ok()) return bvh.error();
+  DeviceMesh device(context);
+  device.own_bvh_ = std::make_shared<Bvh>(std::move(bvh).value());
+  device.bvh_ = device.own_bvh_;
+  Uploads uploads(context);
+  if (Status status = device.upload_whole(uploads, context.limits, mesh, {}); !status.ok()) return status.error();
+  if (Status status = uploads.finish(); !status.ok()) return status.error();
+  return device;
+}
+
+Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index) {
+  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
+  if (!index.is_of(mesh)) return Error{ErrorCode::kUsage, "the index is that of another mesh"};
+  DeviceMesh device(context);
+  device.bvh_ = index.bvh_;
+  const MeshLinks& links = *index.links_;
+  device.uploads_ = std::make_unique<Uploads>(context);
+  Uploads& uploads = *device.uploads_;
+  if (Status status = device.upload_whole(uploads, context.limits, mesh, links.spreads); !status.ok())
+    return status.error();
+  if (Status status = device.upload_all_links(through(uploads), mesh, links); !status.ok()) return status.error();
+  if (Status status = uploads.flush(); !status.ok()) return status.error();
+  return device;
+}
+
+Status DeviceMesh::finish_uploads() {
+  if (uploads_ == nullptr) return {};
+  const std::unique_ptr<Uploads> uploads = std::move(uploads_);
+  return uploads->finish();
+}
+
+Status DeviceMesh::upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                                std::span<const float> spreads) {
+  order = bvh_->order();
+  triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (Status status = measure(mesh); !status.ok()) return status;
+  return upload_mesh(through(uploads), limits, mesh, spreads);
+}
+
+Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
+  Uploads uploads(context);
+  if (Status status = update(context, mesh, through(uploads)); !status.ok()) return status;
+  intact = false;  // also if that throws
+  Status there = uploads.finish();
+  intact = there.ok();
+  return there;
+}
+
+Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader) {
+  if (linked_vertices_ != 0 && mesh.vertices.size() != linked_vertices_) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
+                                              " vertices, the one on the device " + std::to_string(linked_vertices_)};
+  }
+  const bool was_intact = intact;
+  intact = false;
+  if (own_bvh_ == nullptr) own_bvh_ = std::make_shared<Bvh>(*bvh_);  // a MeshIndex does not move
+  bvh_ = own_bvh_;
+  if (Status status = own_bvh_->refit(mesh); !status.ok()) {
+    intact = was_intact && status.error().code == ErrorCode::kInvalidMesh;
+    return status;
+  }
+  if (Status status = measure(mesh); !status.ok()) return status;
+  const bool linked = linked_vertices_ != 0;
+  const MeshLinks links = linked ? make_mesh_links(mesh, order) : MeshLinks{};
+  if (Status status = upload_mesh(uploader, context.limits, mesh, links.spreads); !status.ok()) return status;
+  if (linked) {
+    if (Status status = upload_all_links(uploader, mesh, links); !status.ok()) return status;
+  }
+  intact = true;
+  return {};
+}
+
+VkDeviceSize DeviceMesh::update_bytes() const {
+  VkDeviceSize sum = 0;
+  for (const Buffer* b : {&triangles, &tree, &triangle_info, &triangle_links, &corner_cones, &clusters, &open_edges})
+    sum += b->size;
+  return sum;
+}
+
+/// What is known of the mesh as a whole. Error: it has no extent.
+Status DeviceMesh::measure(const MeshView& mesh) {
+  const BvhBox& box = bvh_->nodes()[0].box;
+  const Point sides = box.upper - box.lower;
+  const double side = std::max({sides[0], sides[1], sides[2]});
+  if (!(side > 0) || !std::isfinite(side)) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
+  }
+  lower = box.lower;
+  upper = box.upper;
+  longest = side;
+  closed = mesh.closed;
+  has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(),
+                                                     [](std::uint8_t f) { return (f & kTrustedNormal) != 0; });
+  return {};
+}
+
+Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                               std::span<const float> spreads) {
+  const std::vector<Texel> tree_data = make_tree_texels(*bvh_, {lower, longest});
+  node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
+  // Links of vertices are a texel each.
+  use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), mesh.vertices.size()}) <=
+               limits.maxTexelBufferElements;
+  if (Status status = upload_triangles(uploader, mesh, spreads); !status.ok()) return status;
+  Status status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats,
+                              tree, tree_texels);
+  if (!status.ok()) return status;
+  return fill(uploader, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
+}
+
+Status DeviceMesh::upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads) {
+  const std::vector<Texel> made = make_triangle_texels(*bvh_, {lower, longest}, mesh.flags, spreads);
+  return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
+}
+
+/// To a buffer that is created if there is none yet, or too small a one.
+Status DeviceMesh::fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind,
+                        const char* purpose, Buffer& buffer) {
+  if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
+    Result<Buffer> created = arena_.create_buffer(bytes.size(), kind, purpose);
+    if (!created.ok()) return created.error();
+    buffer = created.value();
+  }
+  return uploader(buffer, bytes);
+}
+
+/// The same with a view. It is of a buffer that is never read where kernels read storage.
+Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose,
+                               VkFormat format, Buffer& buffer, VkBufferView& view) {
+  const MemoryKind kind = use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
+  const VkBuffer before = buffer.handle;
+  if (Status status = fill(uploader, bytes, kind, purpose, buffer); !status.ok()) return status;
+  if (view != VK_NULL_HANDLE && buffer.handle == before) return {};
+  if (use_texels) return create_view(buffer, format, view);
+  Result<Buffer> unused = arena_.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+  if (!unused.ok()) return unused.error();
+  return create_view(unused.value(), format, view);
+}
+
+Status DeviceMesh::create_view(const Buffer& buffer, VkFormat format, VkBufferView& view) {
+  Result<VkBufferView> created = arena_.create_texel_view(buffer, format);
+  if (!created.ok()) return created.error();
+  view = created.value();
+  return {};
+}
+
+Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
+  Uploads uploads(context);
+  const MeshLinks links = make_mesh_links(mesh, order);
+  if (Status status = upload_triangles(through(uploads), mesh, links.spreads); !status.ok()) return status;
+  if (Status status = upload_all_links(through(uploads), mesh, links); !status.ok()) return status;
+  return uploads.finish();
+}
+
+Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {
+  if (Status status = upload_links(uploader, links); !status.ok()) return status;
+  if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
+  if (Status status = upload_open_edges(uploader, mesh); !status.ok()) return status;
+  linked_vertices_ = mesh.vertices.size();
+  return {};
+}
+
+Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links) {
+  static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
+  has_untrusted = has_untrusted || std::ranges::any_of(links.links, [](const gpu::TriangleLinks& l) {
+                    return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
+                  });
+  Status status = fill_texels(uploader, std::as_bytes(std::span(links.links)), "what triangles share with neighbours",
+                              VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
+  if (!status.ok()) return status;
+  return fill_texels(uploader, std::as_bytes(std::span(links.corners)), "spokes to vertices", kFloats, corner_cones,
+                     corner_texels);
+}
+
+Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mesh) {
+  static_assert(sizeof(gpu::Cluster) == 6 * sizeof(Texel));  // kTexelsPerCluster
+  static_assert(6 * kMostClusters <= 65536);                 // the least maxTexelBufferElements that Vulkan allows
+  const std::vector<gpu::Cluster> made =
+      make_clusters(*bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
+  cluster_count = static_cast<std::uint32_t>(made.size());
+  most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
+  cluster_radius = median_radius(made);
+  const VkBuffer before = clusters.handle;
+  Status status =
+      fill(uploader, std::as_bytes(std::span(made)), MemoryKind::kTexels, "clusters of triangles", clusters);
+  if (!status.ok() || (cluster_texels != VK_NULL_HANDLE && clusters.handle == before)) return status;
+  return create_view(clusters, kFloats, cluster_texels);
+}
+
+Status DeviceMesh::upload_open_edges(const Uploader& uploader, const MeshView& mesh) {
+  OpenEdges edges;
+  if (!mesh.closed) edges = find_open_edges(mesh, {lower, longest}, gpu::kMostOpenEdges);
+  open_edge_count = edges.count;
+  if (edges.listed.empty()) edges.listed.resize(1);
+  return fill(uploader, std::as_bytes(std::span(edges.listed)), MemoryKind::kDevice, "open edges", open_edges);
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,144 @@
+// A mesh on the device: float, scaled to the unit box, with the tree that finds its triangles.
+#pragma once
+
+#include <volk.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "commands/memory.h"
+#include "commands/uploads.h"
+#include "device_mesh/mesh_links.h"
+#include "device_mesh/unit_transform.h"
+#include "medial_vk/bvh.h"
+#include "medial_vk/context.h"
+#include "medial_vk/mesh_index.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+#include "tree_types.h"
+
+namespace medial_vk {
+
+/// Where the bytes for a buffer of the device go: there at once, or into memory from which a recorded job copies them.
+using Uploader = std::function<Status(const Buffer& buffer, std::span<const std::byte> bytes)>;
+
+/// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
+/// Kernels address triangles by leaf position.
+struct DeviceMesh {
+  DeviceMesh(DeviceMesh&&) noexcept = default;
+  DeviceMesh& operator=(DeviceMesh&&) = delete;  // what is under way to its buffers would have to be waited for
+  /// Triangles in a leaf of the device's tree, at most.
+  static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
+  /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 looks at its share of all
+  /// triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535 iterations.
+  static constexpr std::uint32_t kMostTriangles = 8'000'000;
+
+  /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
+  static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
+
+  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
+  /// kOutOfMemory.
+  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
+  /// The same, and add_links(), with what has been made of `mesh` before. All of it is on its way to the device:
+  /// finish_uploads() comes before the first use.
+  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index);
+  /// Errors: kOutOfMemory, kInternal (device lost).
+  Status finish_uploads();
+
+  /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
+  /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
+  /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with what is known
+  /// of the mesh as a whole (closed, open_edge_count and so on) must be recorded anew. Errors: kInvalidMesh (another
+  /// number of triangles or vertices, an index out of range, a coordinate that is not finite: all stays as it was; no
+  /// extent: not intact until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
+  Status update(Context::Impl& context, const MeshView& mesh);
+  /// The same with an uploader of the caller's: the device need not be idle if that is not at once.
+  Status update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader);
+  /// Bytes of all buffers that an update fills.
+  VkDeviceSize update_bytes() const;
+
+  /// Adds what the certified extraction asks besides triangles: clusters of them, open edges, and for the dismissal by
+  /// pairs edges and vertices. `mesh` as given to create(). Error: kOutOfMemory.
+  Status add_links(Context::Impl& context, const MeshView& mesh);
+
+  /// Where kernels bind `texels`, one of the buffers here that have a view, as storage.
+  BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
+
+  /// Of the Bvh whose leaf order `order` is.
+  const std::vector<BvhNode>& tree_nodes() const { return bvh_->nodes(); }
+
+  /// Of device memory that it holds.
+  VkDeviceSize bytes() const { return arena_.bytes(); }
+
+  UnitTransform transform() const { return {lower, longest}; }
+  Point to_unit(const Point& p) const { return transform()(p); }
+  Point to_input(const std::array<float, 3>& p) const { return transform().inverse(p); }
+
+  /// Four texels per triangle, by leaf position (shaders/shared/closest_point.glsl).
+  Buffer triangles;
+  VkBufferView triangle_texels = VK_NULL_HANDLE;
+  /// Boxes and moments, twelve texels per inner node (shaders/shared/tree.glsl).
+  Buffer tree;
+  VkBufferView tree_texels = VK_NULL_HANDLE;
+  /// Index into MeshView::triangles, one word per leaf position.
+  Buffer triangle_info;
+  /// gpu::TriangleLinks by leaf position, as two texels of integers, and caps of spokes by vertex
+  /// (runtime/src/mesh_links.h); null until add_links().
+  Buffer triangle_links;
+  VkBufferView link_texels = VK_NULL_HANDLE;
+  Buffer corner_cones;
+  VkBufferView corner_texels = VK_NULL_HANDLE;
+  /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links(). So few that every device allows the
+  /// view.
+  static constexpr std::uint32_t kMostClusters = 8192;
+  Buffer clusters;
+  VkBufferView cluster_texels = VK_NULL_HANDLE;
+  /// gpu::OpenEdge; at least one, which may not count; null until add_links().
+  Buffer open_edges;
+  /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
+  /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
+  bool use_texels = true;
+  bool intact = true;  // false after an update that failed half-way: the device may hold parts of both meshes
+  bool closed = false;
+  bool has_untrusted = true;  // some triangle's normal proves nothing
+  std::uint32_t triangle_count = 0;
+  std::uint32_t node_count = 0;  // inner nodes of the tree
+  std::uint32_t cluster_count = 0, most_in_cluster = 0;
+  std::uint32_t open_edge_count = 0;  // of all, listed or not (gpu::kMostOpenEdges)
+  float cluster_radius = 0;           // median, in the unit box
+  Point lower = {0, 0, 0};            // of the box around all triangles, input units
+  Point upper = {0, 0, 0};
+  double longest = 0;                // longest side of that box
+  std::vector<std::uint32_t> order;  // triangle_info on the host
+
+ private:
+  explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
+  Status upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                      std::span<const float> spreads);
+  Status measure(const MeshView& mesh);
+  Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
+                     std::span<const float> spreads);
+  Status upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads);
+  Status upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links);
+  Status upload_links(const Uploader& uploader, const MeshLinks& links);
+  Status upload_open_edges(const Uploader& uploader, const MeshView& mesh);
+  Status upload_clusters(const Uploader& uploader, const MeshView& mesh);
+  Status fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind, const char* purpose,
+              Buffer& buffer);
+  Status fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
+                     Buffer& buffer, VkBufferView& view);
+  Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
+
+  Arena arena_;
+  std::unique_ptr<Uploads> uploads_;  // under way, into buffers of the arena; or null
+  std::shared_ptr<const Bvh> bvh_;    // input units; a MeshIndex may share it
+  std::shared_ptr<Bvh> own_bvh_;      // the same if none does, or null
+  std::size_t linked_vertices_ = 0;   // vertices of the mesh in add_links()
+};
+
+}  // namespace medial_vk

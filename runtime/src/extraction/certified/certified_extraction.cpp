@@ -1,0 +1,183 @@
+// The main job, chunk by chunk: ranges of top cells go through the recorded pipeline; a range that needs more memory
+// than there is runs again in halves.
+#include "extraction/certified/certified_extraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/commands.h"
+#include "device/context_impl.h"
+#include "device_mesh/device_mesh.h"
+#include "extraction/certified/certified_pipeline.h"
+#include "extraction/common/extraction_result.h"
+#include "extraction/common/result_download.h"
+
+namespace medial_vk {
+namespace {
+
+void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, ExtractionCounters& sum) {
+  for (std::size_t level = 0; level < sum.levels.size(); ++level) {
+    const std::uint32_t* s = &c[gpu::kStatistics + gpu::kStatisticsPerLevel * level];
+    sum.levels[level].visited += s[gpu::kVisitedCount];
+    sum.levels[level].kept += s[gpu::kKeptCount];
+    sum.levels[level].contacts += s[gpu::kContactCount];
+    sum.levels[level].found += s[gpu::kFoundCount];
+    sum.levels[level].lines += s[gpu::kLineCount];
+    sum.levels[level].cluster_tests += s[gpu::kClusterTestCount];
+    const auto in_two_words = [s](std::uint32_t low) { return s[low] + (std::uint64_t{s[low + 1]} << 32); };
+    sum.levels[level].triangle_tests += in_two_words(gpu::kTestCount);
+    sum.levels[level].node_tests += in_two_words(gpu::kNodeTestCount);
+  }
+  sum.found += c[gpu::kFound];
+  sum.undecided += c[gpu::kUndecided];
+  sum.queries += c[gpu::kQueries];
+}
+
+class CertifiedRun {
+ public:
+  CertifiedRun(Context::Impl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, StopWatch& watch,
+               Extraction& extraction)
+      : mesh_(mesh),
+        pipeline_(pipeline),
+        watch_(watch),
+        extraction_(extraction),
+        search_(context),
+        collection_(context),
+        download_(context) {}
+  CertifiedRun(const CertifiedRun&) = delete;
+  CertifiedRun& operator=(const CertifiedRun&) = delete;
+  /// After an error one part may be under way without the other.
+  ~CertifiedRun() {
+    for (Commands* part : {&search_, &collection_}) part->drain();
+  }
+
+  Status run() {
+    const std::uint32_t total = pipeline_.top_cells();
+    std::uint32_t size = std::min({kFirstChunk, pipeline_.likely_chunk(), pipeline_.largest_chunk()});
+    for (std::uint32_t first = 0; first < total;) {
+      watch_.set_done(double(first) / total);
+      if (watch_.stopped()) return StopWatch::error();
+      const std::uint32_t count = std::min(size, total - first);
+      Result<Fill> fill = run_chunk(first, count);
+      if (!fill.ok()) return fill.error();
+      if (fill.value().overflow) {
+        if (!fill.value().too_few_rounds && count == 1) return too_small();
+        ++extraction_.counters.retries;
+      } else {
+        first += count;
+      }
+      size = next_size(count, fill.value());
+    }
+    return take_points();
+  }
+
+ private:
+  // Small enough that progress moves and an interruption is heard, large enough to keep a device busy.
+  static constexpr std::uint32_t kFirstChunk = 1024, kLargestChunk = 4096;
+
+  // How full the fullest buffer has been: 1 is full.
+  struct Fill {
+    double share = 0;
+    bool overflow = false;
+    bool too_few_rounds = false;  // the overflow was none of a buffer
+  };
+
+  std::uint32_t next_size(std::uint32_t count, const Fill& fill) const {
+    if (fill.too_few_rounds) return count;
+    const double factor = std::clamp(pipeline_.aim() / std::max(fill.share, 1e-3), 0.1, fill.overflow ? 0.5 : 2.0);
+    return std::clamp(static_cast<std::uint32_t>(count * factor), 1u,
+                      std::min(kLargestChunk, pipeline_.largest_chunk()));
+  }
+
+  static Error too_small() {
+    return {ErrorCode::kOutOfMemory,
+            "the contacts of a single top cell do not fit the memory budget; raise --memory or the resolution"};
+  }
+
+  // The host takes the points of the chunk before while the device is at work.
+  Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
+    if (Status submitted = submit(first, count); !submitted.ok()) return submitted.error();
+    if (Status taken = take_points(); !taken.ok()) return taken.error();
+    for (Commands* part : {&search_, &collection_}) {
+      if (Status done = part->wait([&] { watch_.stopped(); }); !done.ok()) return done.error();
+      Result<std::vector<StageTime>> times = part->recorder().stage_times();
+      if (!times.ok()) return times.error();
+      add_times(times.value(), extraction_.device_times);  // chunks that are run again cost time too
+    }
+    if (watch_.stopped()) return StopWatch::error();
+    const auto counters = pipeline_.read_counters();
+    const std::uint32_t overflow = counters[gpu::kOverflow];
+    const Fill fill{counters[gpu::kUtilisation] / 1024.0, overflow != 0, overflow == gpu::kTooFewRounds};
+    if (fill.too_few_rounds) pipeline_.add_rounds();
+    if (fill.overflow) return fill;
+    add_counters(counters, extraction_.counters);
+    Status started =
+        download_.start(pipeline_.result(), counters[gpu::kFound], pipeline_.undecided(), counters[gpu::kUndecided]);
+    if (!started.ok()) return started.error();
+    if (download_.is_shared()) {
+      if (Status taken = take_points(); !taken.ok()) return taken.error();
+    }
+    return fill;
+  }
+
+  // In two parts: only the second writes where points of the chunk before may still be read.
+  Status submit(std::uint32_t first, std::uint32_t count) {
+    for (Commands* part : {&search_, &collection_})
+      if (Status begun = part->begin(); !begun.ok()) return begun;
+    Status recorded = pipeline_.record(search_.recorder(), collection_.recorder(), first, count);
+    if (!recorded.ok()) return recorded;
+    if (Status submitted = search_.submit(nullptr, nullptr); !submitted.ok()) return submitted;
+    return collection_.submit(download_.before_next(), nullptr);
+  }
+
+  Status take_points() {
+    const Result<bool> there = download_.finish();
+    if (!there.ok()) return there.error();
+    if (!there.value()) return {};
+    std::vector<MedialSphere>& spheres = extraction_.spheres;
+    const std::size_t needed = spheres.size() + download_.points().size();
+    if (needed > spheres.capacity()) spheres.reserve(std::max(needed, 2 * spheres.capacity()));
+    for (const gpu::FoundPoint& p : download_.points()) spheres.push_back(to_input_units(p, mesh_));
+    for (const gpu::UndecidedCell& u : download_.undecided()) extraction_.undecided.push_back(to_input_units(u, mesh_));
+    return {};
+  }
+
+  const DeviceMesh& mesh_;
+  CertifiedPipeline& pipeline_;
+  StopWatch& watch_;
+  Extraction& extraction_;
+  Commands search_, collection_;
+  ResultDownload download_;
+};
+
+}  // namespace
+
+Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view, const MeshIndex& index,
+                                     const ExtractionParameters& parameters, StopWatch& watch) {
+  Result<const StopWord*> stop = watch.make_word(context);
+  if (!stop.ok()) return stop.error();
+  Result<DeviceMesh> mesh = DeviceMesh::create(context, view, index);
+  if (!mesh.ok()) return mesh.error();
+  if (watch.stopped()) return StopWatch::error();
+  Extraction extraction;
+  extraction.grid = make_grid(mesh.value(), parameters.resolution);
+  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size, *stop.value());
+  if (!pipeline.ok()) return pipeline.error();
+  extraction.counters.levels.resize(pipeline.value().level_count());
+  for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)
+    extraction.counters.levels[level].cell_size = pipeline.value().cell_size(level);
+  const auto record_one = [&](Recorder& r) { return pipeline.value().record(r, 0, 1); };
+  if (Status made = make_programs(context, record_one); !made.ok()) return made.error();
+  if (Status there = mesh.value().finish_uploads(); !there.ok()) return there.error();
+  CertifiedRun run(context, mesh.value(), pipeline.value(), watch, extraction);
+  if (Status s = run.run(); !s.ok()) return s.error();
+  ExtractionCounters& c = extraction.counters;
+  c.narrowing_steps = pipeline.value().narrowing_steps();
+  const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+  c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
+  sort_by_voxel(extraction.spheres);
+  sort_by_voxel(extraction.undecided);
+  return extraction;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,20 @@
+#include "extraction/common/check_parameters.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace medial_vk {
+
+Status check_parameters(const ExtractionParameters& p) {
+  const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
+  if (p.resolution < 1 || p.resolution > 4096) return usage("resolution must be 1 to 4096 voxels");
+  if (!(p.object_angle > 0 && p.object_angle < std::acos(0.0))) return usage("object angle must be in (0, pi/2)");
+  if (!(p.radius >= 0 && p.radius < 1)) return usage("radius threshold must be in [0, 1)");
+  if (!(p.epsilon >= 1e-3 && p.epsilon <= 0.5)) return usage("epsilon must be in [0.001, 0.5] voxels");
+  if (!(p.deep_angle > 0 && p.deep_angle < std::acos(0.0))) return usage("deep angle must be in (0, pi/2)");
+  if (p.extra_levels > 10) return usage("extra levels must be at most 10");
+  return {};
+}
+
+}  // namespace medial_vk

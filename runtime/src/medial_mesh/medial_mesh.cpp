@@ -1,0 +1,118 @@
+#include "medial_mesh/medial_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/point_ops.h"
+#include "medial_mesh/collapse.h"
+#include "medial_mesh/mesh_topology_counts.h"
+#include "sheets/voxel_graph.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+class Builder {
+ public:
+  Builder(const VoxelGraph& graph, const MedialMeshParameters& parameters)
+      : graph_(graph), parameters_(parameters), hosts_(graph.size(), kNone) {
+    for (std::uint32_t place = 0; place < graph.size(); ++place) find_leader(place);
+  }
+
+  Result<MedialMesh> run() {
+    Result<BallUnion> grown = measure_ball_union(grown_balls(), {parameters_.threads, true});
+    if (!grown) return grown.error();
+    const DualComplex surface = collapse_to_surface(grown.value().complex, rule());
+    host_hidden(surface.vertices);
+    MedialMesh mesh;
+    for (const auto& [a, b, c] : surface.triangles) {
+      mesh.triangles.push_back({graph_.index(a), graph_.index(b), graph_.index(c)});
+    }
+    for (const auto& [a, b] : surface.edges) mesh.edges.push_back({graph_.index(a), graph_.index(b)});
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      if (hosts_[place] == kNone) continue;
+      mesh.edges.push_back({graph_.index(place), graph_.index(hosts_[place])});
+      ++mesh.topology.hosted_points;
+    }
+    return mesh;
+  }
+
+ private:
+  double squared_distance(std::uint32_t a, std::uint32_t b) const {
+    const Point d = graph_.sphere(a).centre - graph_.sphere(b).centre;
+    return dot(d, d);
+  }
+
+  /// Points that crowd at the wall between two voxels are one point of the medial surface twice, in an order along the
+  /// normal that says nothing. The first of them that leads itself stands for them.
+  void find_leader(std::uint32_t place) {
+    const double reach = 2 * parameters_.epsilon;
+    for (const std::uint32_t other : graph_.neighbours(place)) {
+      if (other > place) return;
+      if (hosts_[other] != kNone || squared_distance(place, other) > reach * reach) continue;
+      hosts_[place] = other;
+      return;
+    }
+  }
+
+  /// By place. All powers change by the same, so that the power diagram is that of the balls themselves.
+  std::vector<Ball> grown_balls() const {
+    std::vector<Ball> balls;
+    balls.reserve(graph_.size());
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      const MedialSphere& sphere = graph_.sphere(place);
+      // A ball without a radius is no part of the complex.
+      const double radius = hosts_[place] == kNone ? std::hypot(sphere.radius, parameters_.growth) : 0;
+      balls.push_back({sphere.centre, radius});
+    }
+    return balls;
+  }
+
+  CollapseRule rule() const {
+    return {[this](std::uint32_t a, std::uint32_t b) { return squared_distance(a, b); },
+            [this](std::uint32_t a, std::uint32_t b) { return graph_.touch(a, b); }};
+  }
+
+  /// A ball without a piece of the union: the one in whose piece its centre is bears it.
+  void host_hidden(const std::vector<std::uint32_t>& vertices) {
+    for (std::uint32_t place = 0, n = 0; place < graph_.size(); ++place) {
+      while (n < vertices.size() && vertices[n] < place) ++n;
+      const bool is_vertex = n < vertices.size() && vertices[n] == place;
+      if (!is_vertex && hosts_[place] == kNone) hosts_[place] = vertex_of_least_power(place, vertices);
+    }
+  }
+
+  std::uint32_t vertex_of_least_power(std::uint32_t place, const std::vector<std::uint32_t>& vertices) const {
+    std::uint32_t host = kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t vertex : vertices) {
+      const double radius = graph_.sphere(vertex).radius;
+      const double power = squared_distance(place, vertex) - radius * radius;
+      if (power >= least) continue;
+      least = power;
+      host = vertex;
+    }
+    return host;
+  }
+
+  const VoxelGraph& graph_;
+  const MedialMeshParameters& parameters_;
+  std::vector<std::uint32_t>
+      hosts_;  // by place: the point that stands for it, or none if it is a vertex of the complex
+};
+
+}  // namespace
+
+Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
+                                    const MedialMeshParameters& parameters) {
+  const VoxelGraph graph(spheres);
+  Result<MedialMesh> mesh = Builder(graph, parameters).run();
+  if (!mesh) return mesh;
+  if (const Status status = complete_medial_mesh(spheres.size(), sheets, mesh.value()); !status) return status.error();
+  return mesh;
+}
+
+}  // namespace medial_vk

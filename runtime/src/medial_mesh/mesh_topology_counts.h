@@ -1,0 +1,14 @@
+// What follows from the edges and triangles of a medial mesh.
+#pragma once
+
+#include <cstddef>
+
+#include "medial_mesh/medial_mesh.h"
+
+namespace medial_vk {
+
+/// Sorts triangles and edges and fills in the rest of `mesh` but for its hosted points, of which it takes the number.
+/// Precondition: the sides of the triangles are edges. Error: kOutOfMemory.
+[[nodiscard]] Status complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh);
+
+}  // namespace medial_vk

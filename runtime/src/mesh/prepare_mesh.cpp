@@ -1,0 +1,173 @@
+// From any triangles to a mesh with a defined inside, and an account of what that took.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "base/point_ops.h"
+#include "medial_vk/prepare.h"
+#include "mesh/clean_mesh.h"
+#include "mesh/inspect_mesh.h"
+#include "mesh/self_intersections.h"
+#include "mesh/sidedness.h"
+
+namespace medial_vk {
+namespace {
+
+Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
+
+/// Of a coordinate: areas, and what decides whether there are any, are products of two lengths, and squares of these.
+constexpr double kLargest = 1e70;
+/// Of a coordinate, over the longest side: rounding a centre to a double then moves it by 2e-7 of that side at most, a
+/// tenth of what the certificate allows.
+constexpr double kFarthest = 0x1p30;
+
+Status check_input(const Mesh& mesh) {
+  constexpr std::size_t kMostTriangles = 0xffffffffu / 3;  // corners are numbered with 32 bits
+  if (mesh.triangles.empty()) return invalid("the mesh has no triangles");
+  if (mesh.triangles.size() > kMostTriangles || mesh.vertices.size() >= 0xffffffffu) {
+    return invalid(fmt::format("the mesh has {} vertices and {} triangles, more than 32-bit indices reach",
+                               mesh.vertices.size(), mesh.triangles.size()));
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    for (const double x : mesh.vertices[i]) {
+      if (!std::isfinite(x)) return invalid(fmt::format("vertex {} has the coordinate {}", i, x));
+    }
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v >= mesh.vertices.size()) {
+        return invalid(fmt::format("face {} uses vertex {} of {}", i, v, mesh.vertices.size()));
+      }
+      for (const double x : mesh.vertices[v]) {
+        if (!(std::fabs(x) <= kLargest)) {
+          return invalid(
+              fmt::format("vertex {} has the coordinate {:g}; up to {:g} can be worked with", v, x, kLargest));
+        }
+      }
+    }
+  }
+  return {};
+}
+
+/// The longest term that is computed is of the fifth power of a length (the moments of WindingTree); with the extent in
+/// this range, and features down to 1e-11 of it, none over- or underflows.
+Status check_extent(const MeshReport& report) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, report.upper[k] - report.lower[k]);
+  if (!(longest >= 1e-50 && longest <= 1e50)) {
+    return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be worked with", longest));
+  }
+  double farthest = 0;
+  for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
+  if (farthest <= kFarthest * longest) return {};
+  return invalid(
+      fmt::format("the mesh is {:g} units long and lies {:g} from the origin, where its points can hardly be "
+                  "told apart (double precision); move it closer",
+                  longest, farthest));
+}
+
+/// A normal is relied on only if it is known this well, in radians: far below the angles that matter, far above the
+/// rounding of a triangle of ordinary shape.
+constexpr double kNormalAccuracy = 1e-7;
+
+bool has_accurate_normal(const Mesh& mesh, const Triangle& t) {
+  double shorter = 0;
+  const Point area = double_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], shorter);
+  return length(area) * kNormalAccuracy > kAreaRounding * shorter;
+}
+
+void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const SelfIntersections& intersections,
+               const Sidedness& sides) {
+  MeshReport& report = prepared.report;
+  // The tree's winding numbers are good to this; where the sides are not clear, nothing is relied on.
+  const float margin = report.closed ? 0.0f : 0.03f;
+  prepared.flags.assign(prepared.mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < prepared.flags.size(); ++i) {
+    const float beside = sides.beside[i];
+    if (beside >= 1) ++report.faces_within;
+    if (beside < -margin) ++report.faces_without;
+    const Triangle& t = prepared.mesh.triangles[i];
+    if (!intersections.known || intersections.crossed[i]) continue;
+    prepared.flags[i] = kUncrossed;
+    if (!regular[t[0]] || !regular[t[1]] || !regular[t[2]]) continue;
+    if (!(beside >= margin && beside < 1 - margin) || !has_accurate_normal(prepared.mesh, t)) continue;
+    prepared.flags[i] |= kTrustedNormal;
+    ++report.trusted_triangles;
+  }
+}
+
+/// Only what certainly encloses nothing is refused.
+Status check_enclosure(const MeshReport& report, const Volumes& volumes, const Sidedness& sides) {
+  if (report.closed) {
+    if (volumes.parts > volumes.parts_rounding) return {};
+    return invalid("the mesh encloses nothing: it is closed, but its volume is 0");
+  }
+  if (!sides.known) return {};
+  constexpr float kClear = 0.01f;  // well above the error of the winding numbers; a flat sheet has 0
+  for (const float beside : sides.beside) {
+    if (beside > kClear) return {};
+  }
+  return invalid(fmt::format(
+      "the mesh encloses nothing: with {} open edges, the winding number reaches 1/2 behind none of its {} triangles",
+      report.open_edges, report.triangles));
+}
+
+Result<PreparedMesh> prepare(Mesh mesh) {
+  if (const Status status = check_input(mesh); !status) return status.error();
+  PreparedMesh prepared;
+  const std::size_t given = mesh.triangles.size();
+  prepared.mesh = std::move(mesh);
+  clean_mesh(prepared);
+  Mesh& clean = prepared.mesh;
+  MeshReport& report = prepared.report;
+  if (clean.triangles.empty()) return invalid(fmt::format("no triangle has an area (of {})", given));
+  report.vertices = clean.vertices.size();
+  report.triangles = clean.triangles.size();
+  measure_box(clean, report);
+  if (const Status status = check_extent(report); !status) return status.error();
+
+  MeshTopology topology(clean);
+  const SurfaceParts parts = find_parts(clean, topology);
+  report.components = parts.components;
+  report.minority_faces = make_patches_consistent(clean, topology);
+  std::vector<bool> regular = inspect_topology(clean, topology, report);
+  Point centre;
+  for (int k = 0; k < 3; ++k) centre[k] = report.lower[k] + (report.upper[k] - report.lower[k]) / 2;
+  Volumes volumes = measure_volumes(clean, parts, centre);
+  if (report.closed && volumes.whole < 0) {
+    for (std::uint32_t t = 0; t < clean.triangles.size(); ++t) turn_triangle(clean, topology, t);
+    report.inside_out = true;
+  }
+
+  TriangleTree tree(clean);
+  const SelfIntersections intersections = find_self_intersections(clean, tree);
+  report.intersecting_faces = intersections.count;
+  report.intersections_known = intersections.known;
+  const Sidedness sides = decide_sides(clean, topology, tree, parts, report.closed, intersections);
+  report.sides_known = sides.known;
+  report.reoriented_components = sides.turned_components;
+  report.reoriented_faces =
+      report.minority_faces + sides.turned_faces + (report.inside_out ? report.triangles : std::uint64_t{0});
+
+  if (sides.turned_faces > 0) regular = inspect_topology(clean, topology, report);
+  if (sides.turned_faces > 0 || report.inside_out) volumes = measure_volumes(clean, parts, centre);
+  report.signed_volume = volumes.whole;
+  if (const Status status = check_enclosure(report, volumes, sides); !status) return status.error();
+  set_flags(prepared, regular, intersections, sides);
+  write_assumptions(report);
+  return prepared;
+}
+
+}  // namespace
+
+Result<PreparedMesh> prepare_mesh(Mesh mesh) {
+  try {
+    return prepare(std::move(mesh));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "not enough memory to prepare the mesh"};
+  }
+}
+
+}  // namespace medial_vk

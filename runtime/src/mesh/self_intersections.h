@@ -1,0 +1,30 @@
+// Which triangles of a mesh meet others where they should not.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/mesh.h"
+#include "mesh/triangle_tree.h"
+
+namespace medial_vk {
+
+struct SelfIntersections {
+  std::vector<bool> crossed;  ///< By triangle of the mesh.
+  std::uint64_t count = 0;
+  bool known = true;  ///< False: too many pairs to look at, `crossed` is not complete.
+};
+
+/// A triangle counts as crossed unless double arithmetic proves, against rounding, that it is disjoint from every other
+/// triangle but for the vertices they share by index. Touching counts; so does folding back onto a neighbour.
+/// The work is bounded by a number of pairs, not by a clock, so that the result is always the same.
+SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree);
+
+/// The tests below it, for two triangles that share no, one, or two vertices: true only if proven.
+bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b);
+/// (apex, a1, a2) and (apex, b1, b2) meet at the apex only.
+bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2, const Point& b1, const Point& b2);
+/// (p, q, a) and (p, q, b) meet at their common side only.
+bool certainly_meet_at_side(const Point& p, const Point& q, const Point& a, const Point& b);
+
+}  // namespace medial_vk

@@ -1,0 +1,215 @@
+#include "mesh/sidedness.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/parallel_for.h"
+#include "base/point_ops.h"
+#include "mesh/winding_number.h"
+#include "mesh/winding_step.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+class SideFinder {
+ public:
+  SideFinder(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
+             const SelfIntersections& intersections)
+      : mesh_(mesh), topology_(topology), tree_(tree), parts_(parts), closed_(closed), intersections_(intersections) {
+    sides_.beside.assign(mesh.triangles.size(), kUnknown);
+    place_of_.resize(mesh.triangles.size());
+    for (std::uint32_t place = 0; place < tree.order.size(); ++place) place_of_[tree.order[place]] = place;
+    area_.resize(mesh.triangles.size());
+    for (std::size_t place = 0; place < area_.size(); ++place) {
+      const auto& c = tree.corners[place];
+      area_[tree.order[place]] = length(cross(c[1] - c[0], c[2] - c[0])) / 2;
+    }
+  }
+
+  Sidedness run() {
+    // Components that may be evaluated patch by patch.
+    std::vector<bool> is_simple(parts_.components, closed_ && intersections_.known);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (intersections_.crossed[t]) is_simple[parts_.component_of[t]] = false;
+    }
+    evaluate_patches(is_simple);
+    std::vector<std::uint32_t> rest;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) rest.push_back(t);
+    }
+    if (rest.empty()) return std::move(sides_);
+    evaluate(rest);
+    if (turn_components(rest)) evaluate(rest);
+    return std::move(sides_);
+  }
+
+ private:
+  /// One value per patch, beside its largest triangle: the one that is farthest from everything, as a rule.
+  void evaluate_patches(const std::vector<bool>& is_simple) {
+    std::vector<std::uint32_t> largest(parts_.patches, kNone);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) continue;
+      std::uint32_t& best = largest[parts_.patch_of[t]];
+      if (best == kNone || area_[t] > area_[best]) best = t;
+    }
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t t : largest) {
+      if (t != kNone) places.push_back(place_of_[t]);
+    }
+    std::sort(places.begin(), places.end());
+    const std::vector<float> found = evaluate_closed(places);
+    std::vector<float> value(parts_.patches, kUnknown);
+    for (std::size_t i = 0; i < places.size(); ++i) value[parts_.patch_of[tree_.order[places[i]]]] = found[i];
+    std::vector<bool> counted(parts_.components, false);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_simple[parts_.component_of[t]]) continue;
+      const float w = value[parts_.patch_of[t]];
+      sides_.beside[t] = std::abs(w);
+      if (w >= 0) continue;
+      turn(t);
+      if (!counted[parts_.component_of[t]]) ++sides_.turned_components;
+      counted[parts_.component_of[t]] = true;
+    }
+  }
+
+  /// Where patches are large and close to each other, a value from the tree takes a look at every triangle. So most are
+  /// those of their neighbours in the tree, and what lies between.
+  std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& places) const {
+    std::vector<std::optional<int>> step(places.size());
+    parallel_for(places.size(), 16, [&](std::size_t i) {
+      std::uint64_t cost = 0;
+      if (i > 0) step[i] = winding_step(tree_, places[i - 1], places[i], cost);
+    });
+    std::vector<float> value(places.size());
+    const WindingTree winding(tree_);
+    parallel_for(places.size(), 16, [&](std::size_t i) {
+      if (!step[i]) value[i] = half_integer(winding.beside(places[i]));
+    });
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (step[i]) value[i] = value[i - 1] + static_cast<float>(*step[i]);
+    }
+    return value;
+  }
+
+  /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.
+  static float half_integer(double w) { return static_cast<float>(std::floor(w) + 0.5); }
+
+  /// Where all groups of triangles overlap, one value takes a look at every triangle, and all of them the square of
+  /// their number. So each block of the tree has an allowance, which it spends evenly over its triangles; those left
+  /// over stay unknown. A block's work does not depend on other blocks, nor the result on the number of threads.
+  void evaluate(const std::vector<std::uint32_t>& triangles) {
+    const WindingTree winding(tree_);
+    std::vector<bool> wanted(mesh_.triangles.size(), false);
+    for (const std::uint32_t t : triangles) wanted[t] = true;
+    const std::size_t places = tree_.order.size();
+    // At most so many blocks: the last look of each may exceed its allowance by all triangles.
+    constexpr std::size_t kMostBlocks = 1024;
+    const std::size_t block = std::max<std::size_t>(256, (places + kMostBlocks - 1) / kMostBlocks);
+    const std::size_t blocks = (places + block - 1) / block;
+    // Looks at a triangle, some seconds in all and more for larger meshes. Ordinary meshes take 70 to 500 a value.
+    constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
+    const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
+    std::atomic<bool> complete = true;
+    parallel_for(blocks, 1, [&](std::size_t i) {
+      if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, places), allowance)) complete = false;
+    });
+    sides_.known = sides_.known && complete;
+  }
+
+  /// By place: neighbours in the tree take the same way through it. False if the allowance was used up.
+  bool evaluate_block(const WindingTree& winding, const std::vector<bool>& wanted, std::size_t first, std::size_t last,
+                      std::uint64_t allowance) {
+    std::uint64_t cost = 0;
+    constexpr std::size_t kPasses = 16;
+    for (std::size_t pass = 0; pass < kPasses; ++pass) {
+      for (std::size_t place = first + pass; place < last; place += kPasses) {
+        const std::uint32_t t = tree_.order[place];
+        if (!wanted[t]) continue;
+        if (cost > allowance) return false;
+        const double w = winding.beside(static_cast<std::uint32_t>(place), cost);
+        // A crossed triangle has no one value.
+        sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
+      }
+    }
+    return true;
+  }
+
+  bool turn_components(const std::vector<std::uint32_t>& triangles) {
+    // Half a percent of the surface of a sphere is no side; a sheet in the plane has 0 on both.
+    constexpr float kClear = 0.05f;
+    struct Vote {
+      double area = 0, for_it = 0, against = 0;
+    };
+    std::vector<Vote> votes(parts_.components);
+    for (const std::uint32_t t : triangles) {
+      Vote& vote = votes[parts_.component_of[t]];
+      if (std::isnan(sides_.beside[t])) continue;
+      vote.area += area_[t];
+      if (sides_.beside[t] > kClear) vote.for_it += area_[t];
+      if (sides_.beside[t] < -kClear) vote.against += area_[t];
+    }
+    std::vector<std::vector<std::uint32_t>> members(parts_.components);
+    const auto suspect = [&](const Vote& v) { return v.against > 2 * v.for_it && 2 * v.against > v.area; };
+    for (const std::uint32_t t : triangles) {
+      if (suspect(votes[parts_.component_of[t]])) members[parts_.component_of[t]].push_back(t);
+    }
+    bool any = false;
+    for (const auto& component : members) {
+      if (component.empty() || !is_inside_out_by_itself(component)) continue;
+      for (const std::uint32_t t : component) turn(t);
+      ++sides_.turned_components;
+      any = true;
+    }
+    return any;
+  }
+
+  /// The sum over up to 64 of its triangles of the winding number beside them, of this component alone, by area.
+  bool is_inside_out_by_itself(const std::vector<std::uint32_t>& component) const {
+    const std::size_t step = std::max<std::size_t>(1, component.size() / 64);
+    const std::size_t samples = (component.size() + step - 1) / step;
+    std::vector<double> found(samples, 0);
+    parallel_for(samples, 4, [&](std::size_t i) {
+      const std::uint32_t at = component[i * step];
+      const auto& c = tree_.corners[place_of_[at]];
+      const Point centroid = c[0] + (1.0 / 3) * ((c[1] - c[0]) + (c[2] - c[0]));
+      for (const std::uint32_t t : component) {
+        if (t != at) found[i] += triangle_winding(tree_.corners[place_of_[t]], centroid);
+      }
+      found[i] *= area_[at];
+    });
+    double sum = 0;
+    for (const double w : found) sum += w;
+    return sum < 0;
+  }
+
+  void turn(std::uint32_t t) {
+    turn_triangle(mesh_, topology_, t);
+    std::swap(tree_.corners[place_of_[t]][1], tree_.corners[place_of_[t]][2]);
+    ++sides_.turned_faces;
+  }
+
+  Mesh& mesh_;
+  MeshTopology& topology_;
+  TriangleTree& tree_;
+  const SurfaceParts& parts_;
+  const bool closed_;
+  const SelfIntersections& intersections_;
+  std::vector<std::uint32_t> place_of_;
+  std::vector<double> area_;
+  Sidedness sides_;
+};
+
+}  // namespace
+
+Sidedness decide_sides(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
+                       const SelfIntersections& intersections) {
+  return SideFinder(mesh, topology, tree, parts, closed, intersections).run();
+}
+
+}  // namespace medial_vk

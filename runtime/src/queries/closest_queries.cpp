@@ -1,0 +1,146 @@
+// Closest points: few or scattered ones by a walk for each, many by packets of neighbours.
+#include <algorithm>
+
+#include "base/point_math.h"
+#include "base/point_order.h"
+#include "queries/scene_impl.h"
+
+namespace medial_vk {
+namespace {
+
+// From so many points on, neighbours along a space-filling curve are near enough for packets, and sorting them pays
+// (docs/performance.md).
+constexpr std::size_t kLeastSorted = 4096;
+
+}  // namespace
+
+Status Scene::Impl::read_closest(const ClosestQueries& asked, std::size_t first, std::size_t count,
+                                 std::span<const std::byte* const, 2> items, std::span<ClosestPoint> out) const {
+  const auto* nearest = reinterpret_cast<const Texel*>(items[0]);
+  const auto* hits = reinterpret_cast<const std::uint32_t*>(items[1]);
+  const UnitTransform transform = mesh.transform();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (hits[i] == kNoHit) return Error{ErrorCode::kInternal, "the device found no nearest triangle"};
+    const std::size_t index = asked.index(first + i);
+    ClosestPoint& result = out[index];
+    result.point = transform.inverse({nearest[i][0], nearest[i][1], nearest[i][2]});
+    result.distance = length(result.point - asked.points[index]);
+    result.triangle = mesh.order[hits[i] & 0xffffffu];
+    result.feature = static_cast<Feature>(hits[i] >> 24);
+  }
+  return {};
+}
+
+Status Scene::Impl::closest(const ClosestQueries& asked, std::span<ClosestPoint> out) {
+  const bool in_packets = asked.group_size != 0;
+  Arena arena(*context);
+  Buffer table;
+  if (in_packets) {
+    Uploads uploads(*context);
+    Result<Buffer> filled = create_filled(arena, uploads, asked.slots, "slots of packets");
+    if (!filled.ok()) return filled.error();
+    if (Status there = uploads.finish(); !there.ok()) return there;
+    table = filled.value();
+  }
+  QuerySet set;
+  set.count = asked.points.size();
+  set.group_size = std::max(1u, asked.group_size);
+  set.batch = std::size_t{kBatch / set.group_size} * set.group_size;
+  set.item_bytes = {16, 4};
+  set.write = [&](std::size_t first, std::span<Texel> texels) -> Status {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      const std::size_t index = asked.index(first + i);
+      Status status = write_query(index, asked.points[index], kAnyDistance, texels[i]);
+      if (!status.ok()) return status;
+    }
+    return {};
+  };
+  set.record = [&](Recorder& r, std::uint32_t count, const Buffer& at, std::span<const Buffer, 2> items) {
+    if (in_packets) {
+      packets->closest(r, {.groups = count / asked.group_size, .group_size = asked.group_size}, table.range(),
+                       at.range(), items[0].range(), items[1].range(), TreeQueries::Ties::kIndex);
+    } else {
+      queries->closest(r, QueryCount::of(count), at.range(), items[0].range(), items[1].range(),
+                       TreeQueries::Ties::kIndex);
+    }
+  };
+  set.read = [&](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) {
+    return read_closest(asked, first, count, items, out);
+  };
+  return answer(set);
+}
+
+Status Scene::Impl::closest_points(std::span<const Point> points, std::span<ClosestPoint> out) {
+  if (Status ready = usable(); !ready.ok()) return ready;
+  ClosestQueries asked;
+  asked.points = points;
+  std::vector<std::uint32_t> order, slots;
+  if (points.size() >= kLeastSorted) {
+    order = order_along_curve(points);
+    asked.order = order;
+    asked.group_size = packets->shape().slots();
+    slots = make_slots(packets->shape(), asked.group_size);
+    asked.slots = slots;
+  }
+  return closest(asked, out);
+}
+
+Status Scene::Impl::closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size,
+                                             std::span<ClosestPoint> out) {
+  if (Status ready = usable(); !ready.ok()) return ready;
+  if (points.empty()) return {};
+  const std::vector<std::uint32_t> slots = make_slots(packets->shape(), points.first(group_size));
+  ClosestQueries asked;
+  asked.points = points;
+  asked.group_size = group_size;
+  asked.slots = slots;
+  return closest(asked, out);
+}
+
+namespace {
+
+Status check_groups(std::size_t points, std::uint32_t group_size) {
+  if (group_size > 0 && group_size <= kBatch && points % group_size == 0) return {};
+  return Error{ErrorCode::kUsage, std::to_string(points) + " points are no groups of " + std::to_string(group_size) +
+                                      " (1 to " + std::to_string(kBatch) + ")"};
+}
+
+Status check_room(std::size_t points, std::size_t room) {
+  if (points == room) return {};
+  return Error{ErrorCode::kUsage,
+               std::to_string(points) + " points have room for " + std::to_string(room) + " results"};
+}
+
+}  // namespace
+
+Status Scene::closest_points(std::span<const Point> points, std::span<ClosestPoint> out) {
+  if (Status status = check_room(points.size(), out.size()); !status.ok()) return status;
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points(points, out); });
+}
+
+Status Scene::closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size,
+                                       std::span<ClosestPoint> out) {
+  if (Status status = check_groups(points.size(), group_size); !status.ok()) return status;
+  if (Status status = check_room(points.size(), out.size()); !status.ok()) return status;
+  return catch_out_of_memory(kAnswering, [&] { return impl_->closest_points_of_groups(points, group_size, out); });
+}
+
+Result<std::vector<ClosestPoint>> Scene::closest_points(std::span<const Point> points) {
+  return catch_out_of_memory(kAnswering, [&]() -> Result<std::vector<ClosestPoint>> {
+    std::vector<ClosestPoint> out(points.size());
+    if (Status status = closest_points(points, out); !status.ok()) return status.error();
+    return out;
+  });
+}
+
+Result<std::vector<ClosestPoint>> Scene::closest_points_of_groups(std::span<const Point> points,
+                                                                  std::uint32_t group_size) {
+  if (Status status = check_groups(points.size(), group_size); !status.ok()) return status.error();
+  return catch_out_of_memory(kAnswering, [&]() -> Result<std::vector<ClosestPoint>> {
+    std::vector<ClosestPoint> out(points.size());
+    if (Status status = closest_points_of_groups(points, group_size, out); !status.ok()) return status.error();
+    return out;
+  });
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,85 @@
+// Queries that the host gives and whose answers it takes, batch by batch.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "commands/commands.h"
+#include "commands/memory.h"
+#include "device_mesh/device_tree.h"
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// What is asked. A query is a texel; an answer is one item or two, in a buffer each.
+struct QuerySet {
+  static constexpr std::array<std::uint32_t, 2> kMostItemBytes = {16, 4};
+
+  std::size_t count = 0;
+  std::size_t batch = 0;         // queries of a submission: a multiple of group_size, at most the capacity
+  std::uint32_t group_size = 1;  // the last batch is padded to a multiple of this, with queries to pass over
+  std::array<std::uint32_t, 2> item_bytes = {0, 0};
+  /// Queries [first, first + out.size()). Error: one of them cannot be asked.
+  std::function<Status(std::size_t first, std::span<Texel> out)> write;
+  /// Records the kernels for `count` queries, padding included, with a barrier behind the last.
+  std::function<void(Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items)> record;
+  /// Answers of [first, first + count). Error: one is missing.
+  std::function<Status(std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items)> read;
+};
+
+/// Two batches are under way at a time, or one where the device is the host's processors. While the device computes
+/// one, the host reads the one before and writes the next; where the device has a queue for transfers, they go down and
+/// up meanwhile, if there is more than one. Buffers are kept, for two batches if there ever were two: some 25 MiB each
+/// of 262,144 queries (lavapipe: 16). Fresh memory would cost as much as the queries.
+class QueryBatches {
+ public:
+  /// Of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same speed: nothing
+  /// is copied, as far as it can be mapped.
+  QueryBatches(Context::Impl& context, std::uint32_t capacity, bool shares_memory)
+      : context_(&context), capacity_(capacity), shares_memory_(shares_memory) {}
+
+  /// Blocks until all are answered; on errors too, nothing is under way then. Errors: kOutOfMemory, kInternal (device
+  /// lost; batches or items that are too large), and those of `write` and `read`.
+  Status run(const QuerySet& queries);
+
+ private:
+  /// What a batch needs from its first query on to its last answer.
+  struct Place {
+    explicit Place(Context::Impl& context);
+    Arena on_device, for_upload, for_download;  // blocks of an arena grow: each kind by itself takes what it needs
+    Buffer asked;
+    std::array<Buffer, 2> items;
+    Buffer upload, download;  // none where the host uses the others
+    bool is_shared = false;
+    bool is_apart = false;  // transfers are, on their queue: of the run that is under way
+    Semaphore uploaded, computed;
+    // One after the other; without transfers apart all is in the middle one, and the rest not used.
+    Commands upload_commands, compute, download_commands;
+    enum class State { kFree, kAsked, kDownloading } state = State::kFree;
+    std::size_t first = 0, count = 0;
+    std::uint32_t padded = 0;
+  };
+  Status check(const QuerySet& queries) const;
+  Result<Place*> place(std::size_t number);
+  Status create_buffers(Place& place) const;
+  void start_over() noexcept;
+  Status run_all(const QuerySet& queries);
+  Status ask(const QuerySet& queries, Place& place) const;
+  Status write(const QuerySet& queries, const Place& place) const;
+  void record_download(const QuerySet& queries, const Place& place, Recorder& r) const;
+  Status submit_download(const QuerySet& queries, Place& place) const;
+  Status complete(const QuerySet& queries, Place& place) const;
+  std::size_t at_once() const { return shares_memory_ ? 1 : places_.size(); }
+
+  Context::Impl* context_;
+  std::uint32_t capacity_;
+  bool shares_memory_;
+  std::array<std::unique_ptr<Place>, 2> places_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,210 @@
+#include "sheets/absorb_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "base/point_ops.h"
+#include "sheets/rim.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+class Absorption {
+ public:
+  Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+             std::vector<std::uint32_t>& piece_of)
+      : graph_(graph),
+        voxel_size_(voxel_size),
+        parameters_(parameters),
+        piece_of_(piece_of),
+        nearest_(graph.size(), kNone),
+        is_small_(graph.size()) {
+    for (std::uint32_t place = 0; place < graph.size(); ++place) {
+      if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
+      places_[piece_of[place]].push_back(place);
+    }
+  }
+
+  Absorbed run() {
+    const std::vector<std::uint32_t> before = piece_of_;
+    judge_pieces();
+    set_small_pieces_free();
+    hand_out(front_of_free_places());
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      if (is_free(place)) unite(place, before[place]);
+    }
+    return count(before);
+  }
+
+ private:
+  void judge_pieces() {
+    parallel_for(places_.size(), 16, [&](std::size_t piece) { judge(places_[piece]); });
+  }
+
+  void judge(std::span<const std::uint32_t> piece) {
+    const std::uint8_t small = is_small(piece) ? 1 : 0;
+    for (const std::uint32_t place : piece) is_small_[place] = small;
+  }
+
+  /// Those that touch others.
+  void set_small_pieces_free() {
+    std::vector<std::uint8_t> goes(places_.size());
+    parallel_for(places_.size(), 16, [&](std::size_t piece) {
+      const auto touches = [&](std::uint32_t place) { return is_at_border(place); };
+      goes[piece] = is_small_[places_[piece].front()] && std::ranges::any_of(places_[piece], touches) ? 1 : 0;
+    });
+    for (std::size_t piece = 0; piece < goes.size(); ++piece) {
+      if (!goes[piece]) continue;
+      for (const std::uint32_t place : places_[piece]) piece_of_[place] = kNone;
+    }
+  }
+
+  bool is_small(std::span<const std::uint32_t> piece) {
+    const auto ends = [&](std::uint32_t place) { return is_at_border(place) || is_rim(graph_, place); };
+    if (std::ranges::none_of(piece, ends)) return false;  // around a cavity, of any width
+    if (piece.size() < parameters_.absorb_fragments) return true;
+    double radii = 0;
+    for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
+    const double diameter = 2 * radii / static_cast<double>(piece.size());
+    // Edges lie somewhere in their voxels: the piece is at least as wide as it is deep on both sides. Between them
+    // there may be a voxel more: where that is wide enough for these balls, the grid cannot tell what is narrow.
+    if (voxel_size_ >= parameters_.width * diameter) return false;
+    return 2 * greatest_depth(piece) < parameters_.width * diameter;
+  }
+
+  bool is_at_border(std::uint32_t place) const {
+    return std::ranges::any_of(graph_.neighbours(place),
+                               [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
+  }
+
+  /// Of the widest strip that fits, half the width: voxel by voxel from borders and rims inwards, with the nearest
+  /// point of these that a point heard of from those before it, the distance of the farthest.
+  double greatest_depth(std::span<const std::uint32_t> piece) {
+    const std::uint32_t own = piece_of_[piece.front()];
+    std::vector<std::uint32_t> front;
+    std::ranges::copy_if(piece, std::back_inserter(front),
+                         [&](std::uint32_t place) { return is_at_border(place) || is_rim(graph_, place); });
+    for (const std::uint32_t place : front) nearest_[place] = place;
+    std::vector<std::uint32_t> reached;
+    double depth = 0;
+    while (!front.empty()) {
+      reached.clear();
+      for (const std::uint32_t place : front) {
+        for (const std::uint32_t other : graph_.neighbours(place)) {
+          if (piece_of_[other] != own) continue;
+          if (nearest_[other] == kNone) reached.push_back(other);
+          if (nearest_[other] == kNone || distance(other, nearest_[place]) < distance(other, nearest_[other])) {
+            nearest_[other] = nearest_[place];
+          }
+        }
+      }
+      for (const std::uint32_t place : front) depth = std::max(depth, distance(place, nearest_[place]));
+      front.swap(reached);
+    }
+    return depth;
+  }
+
+  double distance(std::uint32_t a, std::uint32_t b) const {
+    return length(graph_.sphere(a).centre - graph_.sphere(b).centre);
+  }
+
+  bool is_free(std::uint32_t place) const { return piece_of_[place] == kNone; }
+
+  std::vector<std::uint32_t> front_of_free_places() const {
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
+      const auto around = graph_.neighbours(place);
+      if (is_free(place) && !std::ranges::all_of(around, [&](std::uint32_t other) { return is_free(other); })) {
+        front.push_back(place);
+      }
+    }
+    return front;
+  }
+
+  /// Layer by layer: those of one layer do not see each other's pieces.
+  void hand_out(std::vector<std::uint32_t> front) {
+    std::vector<std::uint32_t> pieces, next;
+    while (!front.empty()) {
+      pieces.clear();
+      for (const std::uint32_t place : front) pieces.push_back(piece_around(place));
+      for (std::size_t i = 0; i < front.size(); ++i) piece_of_[front[i]] = pieces[i];
+      next.clear();
+      for (const std::uint32_t place : front) {
+        std::ranges::copy_if(graph_.neighbours(place), std::back_inserter(next),
+                             [&](std::uint32_t other) { return is_free(other); });
+      }
+      std::ranges::sort(next);
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      front.swap(next);
+    }
+  }
+
+  /// Of most of the voxels around; of equals, the first. Precondition: not all of these are free.
+  std::uint32_t piece_around(std::uint32_t place) const {
+    std::array<std::uint32_t, 26> pieces;
+    std::size_t count = 0;
+    for (const std::uint32_t other : graph_.neighbours(place)) {
+      if (!is_free(other)) pieces[count++] = piece_of_[other];
+    }
+    std::sort(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(count));
+    std::size_t most = 0;
+    std::uint32_t best = kNone;
+    for (std::size_t first = 0, i = 0; i < count; ++i) {
+      if (pieces[i] != pieces[first]) first = i;
+      if (i + 1 - first <= most) continue;
+      most = i + 1 - first;
+      best = pieces[i];
+    }
+    return best;
+  }
+
+  /// All free places that hang together with this one become a piece, which is judged in its turn.
+  void unite(std::uint32_t place, std::uint32_t piece) {
+    std::vector<std::uint32_t> united = {place};
+    piece_of_[place] = piece;
+    for (std::size_t i = 0; i < united.size(); ++i) {
+      nearest_[united[i]] = kNone;
+      for (const std::uint32_t other : graph_.neighbours(united[i])) {
+        if (!is_free(other)) continue;
+        piece_of_[other] = piece;
+        united.push_back(other);
+      }
+    }
+    judge(united);
+  }
+
+  Absorbed count(const std::vector<std::uint32_t>& before) {
+    Absorbed absorbed;
+    absorbed.is_small = std::move(is_small_);
+    std::vector<bool> is_left(places_.size());
+    for (std::size_t place = 0; place < before.size(); ++place) {
+      if (piece_of_[place] != before[place]) ++absorbed.points;
+      is_left[piece_of_[place]] = true;
+    }
+    absorbed.pieces = static_cast<std::uint64_t>(std::ranges::count(is_left, false));
+    return absorbed;
+  }
+
+  const VoxelGraph& graph_;
+  double voxel_size_;
+  const SheetParameters& parameters_;
+  std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
+  std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
+  std::vector<std::uint32_t> nearest_;  // by place: the nearest place at the edge of its piece, once measured
+  std::vector<std::uint8_t> is_small_;  // by place
+};
+
+}  // namespace
+
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+                       std::vector<std::uint32_t>& piece_of) {
+  return Absorption(graph, voxel_size, parameters, piece_of).run();
+}
+
+}  // namespace medial_vk

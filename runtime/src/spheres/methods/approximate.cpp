@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "spheres/cover/cover_family.h"
+#include "spheres/methods/approximate.h"
+#include "spheres/methods/best_method.h"
+#include "spheres/methods/dilation.h"
+#include "spheres/methods/prefixes.h"
+#include "spheres/methods/source_method.h"
+
+namespace medial_vk {
+namespace {
+
+Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
+
+/// Balls inside the solid, whatever the contract: the others begin with these.
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+                                 const SphereProgress& progress) {
+  switch (request.method) {
+    case SphereMethod::kSource:
+      return source_spheres(solid, request, backend, context, progress);
+    case SphereMethod::kBest:
+      break;
+  }
+  return best_spheres(solid, request, backend, context, progress);
+}
+
+/// The set as the contract wants it.
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereRequest& request,
+                                const SphereProgress& progress) {
+  switch (request.contract) {
+    case SphereContract::kInside:
+      break;
+    case SphereContract::kCover:
+      return cover_solid(solid, std::move(inside), request.threads, progress);
+    case SphereContract::kBalanced:
+      return dilate_to_boundary(solid, std::move(inside), request.threads);
+  }
+  return inside;
+}
+
+Status check_request(const Solid& solid, const SphereRequest& request) {
+  const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
+  if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
+    return usage("an error is a share below 1, and a gap a length; neither is negative");
+  }
+  if (request.error > 0 && !solid.has_volume()) {
+    return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
+  }
+  // Balls inside stay off the boundary by rounding.
+  if (request.max_gap > 0 && request.max_gap < 16 * solid.rounding()) {
+    return usage("so small a gap is below the rounding of distances");
+  }
+  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+    return usage("balls that cover leave no gap; give an error, or how many");
+  }
+  const bool is_best = request.method == SphereMethod::kBest;
+  if (request.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
+    return usage("balanced balls need a mesh without open edges; take the contract inside, or the method source");
+  }
+  const bool has_goal = request.error > 0 || request.max_gap > 0;
+  if (has_goal && request.contract != SphereContract::kInside && !is_best) {
+    return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
+  }
+  return {};
+}
+
+/// Balls inside that covers of `count` balls begin with: more, by the next number that covers are searched for.
+Result<SphereSet> cover_starts(const Solid& solid, const SphereRequest& request, std::size_t count, Backend backend,
+                               Context* context, const SphereProgress& progress) {
+  SphereRequest start = request;
+  start.contract = SphereContract::kInside;
+  start.error = 0;
+  start.count = cover_top(count);
+  return best_spheres(solid, start, backend, context, progress);
+}
+
+/// A cover that adds no more than the error: by the numbers that covers are searched for, one after the other, then by
+/// fewer.
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+                                  const SphereProgress& progress) {
+  const std::size_t most = request.count > 0 ? request.count : kMostBalls;
+  const double volume = (1 + request.error) * solid.volume();
+  std::map<std::size_t, std::vector<Ball>> starts;
+  CoverFamily family(solid, starts, request.threads, progress);
+  for (std::size_t top = 1;; top = cover_top(top + 1)) {
+    const std::size_t count = std::min(top, most);
+    Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+    if (!inside) return inside.error();
+    starts = std::move(inside.value().stages);  // the same as before, and one more
+    if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
+    if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
+  }
+}
+
+/// The smaller levels of a cover, and itself.
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                            SphereSet cover, Backend backend, Context* context,
+                                            const SphereProgress& progress) {
+  std::vector<SphereSet> levels;
+  if (const std::size_t next = cover.balls.size() / 2; all_levels && next > 0) {
+    const Result<SphereSet> inside = cover_starts(solid, request, next, backend, context, progress);
+    if (!inside) return inside.error();
+    Result<std::vector<SphereSet>> smaller =
+        cover_by_counts(solid, inside.value().stages, level_counts(next), request.threads, progress);
+    if (!smaller) return smaller.error();
+    levels = std::move(smaller).value();
+  }
+  levels.push_back(std::move(cover));
+  return levels;
+}
+
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                           Backend backend, Context* context, const SphereProgress& progress) {
+  const std::size_t count = request.count;
+  if (request.error > 0) {
+    Result<SphereSet> cover = cover_for_error(solid, request, backend, context, progress);
+    if (!cover) return cover.error();
+    return levels_below(solid, request, all_levels, std::move(cover).value(), backend, context, progress);
+  }
+  if (count == 0) return usage("say how many balls shall cover the solid");
+  const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+  if (!inside) return inside.error();
+  const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
+  return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
+}
+
+/// Every level is what the method has when it has so many balls.
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                             Backend backend, Context* context, const SphereProgress& progress) {
+  Result<SphereSet> found = best_spheres(solid, request, backend, context, progress);
+  if (found && all_levels && (request.error > 0 || request.max_gap > 0)) {
+    // Only now it is known which numbers the levels have.
+    SphereRequest again = request;
+    again.count = found.value().balls.size();
+    again.error = again.max_gap = 0;
+    found = best_spheres(solid, again, backend, context, progress);
+  }
+  if (!found) return found.error();
+  SphereSet& last = found.value();
+  std::vector<SphereSet> levels;
+  for (auto& [count, balls] : last.stages) {
+    if (all_levels && count < last.balls.size()) levels.push_back({std::move(balls)});
+  }
+  levels.push_back({std::move(last.balls)});
+  return levels;
+}
+
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                         Backend backend, Context* context, const SphereProgress& progress) {
+  if (Status status = check_request(solid, request); !status) return status.error();
+  if (request.contract == SphereContract::kCover && request.method == SphereMethod::kBest) {
+    return best_covers(solid, request, all_levels, backend, context, progress);
+  }
+  if (request.contract == SphereContract::kBalanced && request.method == SphereMethod::kBest) {
+    return best_balanced(solid, request, all_levels, backend, context, progress);
+  }
+  Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
+  if (!inside) return inside.error();
+  const std::vector<Ball>& balls = inside.value().balls;
+  const std::vector<std::size_t> counts =
+      all_levels && !balls.empty() ? level_counts(balls.size()) : std::vector<std::size_t>{balls.size()};
+  std::vector<SphereSet> levels;
+  for (const std::size_t count : counts) {
+    const auto end = balls.begin() + static_cast<std::ptrdiff_t>(count);
+    Result<SphereSet> level = keep_contract(solid, {std::vector<Ball>(balls.begin(), end)}, request, progress);
+    if (!level) return level.error();
+    levels.push_back(std::move(level).value());
+  }
+  return levels;
+}
+
+/// No exception leaves here.
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereRequest& request, bool all_levels,
+                                              Backend backend, Context* context, const SphereProgress& progress) {
+  try {
+    return levels_of(solid, request, all_levels, backend, context, progress);
+  } catch (const Stopped&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
+  }
+}
+
+}  // namespace
+
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest& request, Backend backend,
+                                         Context* context, const SphereProgress& progress) {
+  Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, backend, context, progress);
+  if (!levels) return levels.error();
+  SphereSet last = std::move(levels.value().back());
+  return last;
+}
+
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereRequest& request, Backend backend,
+                                                     Context* context, const SphereProgress& progress) {
+  return guarded_levels(solid, request, true, backend, context, progress);
+}
+
+}  // namespace medial_vk

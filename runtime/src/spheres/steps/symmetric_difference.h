@@ -1,0 +1,44 @@
+// What a ball adds to the volume between a solid and a union of balls.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "medial_vk/queries.h"
+#include "spheres/steps/solid_lines.h"
+
+namespace medial_vk {
+
+/// vol(U \ solid) + vol(solid \ U), estimated along lines. What is added up while balls come and move is the estimate
+/// for the balls that there are then: it does not drift. For one thread.
+class SymmetricDifference {
+ public:
+  /// Of a closed mesh. Throws std::bad_alloc.
+  explicit SymmetricDifference(const Solid& solid);
+
+  /// Of no balls: that of the solid.
+  double of_none() const { return lines_.volume(); }
+
+  /// Of a union of these balls, one more than of `others`: the volume of what only this one holds outside the solid,
+  /// less that inside. Mesh units cubed.
+  double change(const Ball& ball, std::span<const Ball> others);
+
+ private:
+  using Stretch = SolidLines::Stretch;
+  /// What a plane of lines cuts out of a ball.
+  struct Disc {
+    double across, along;  // its centre
+    double squared;        // of its radius; not positive: nothing
+  };
+  static Disc slice(const Ball& ball, std::size_t axis, std::size_t across, double off);
+  double change_along(const Ball& ball, std::span<const Ball> others, std::size_t axis);
+  static std::ptrdiff_t first_line(const SolidLines::Bundle& bundle, std::size_t k, double from);
+  void find_left(const Disc& ball, double x);
+  void take_away(const Stretch& taken);
+
+  SolidLines lines_;
+  std::vector<Disc> in_row_;          // of the other balls
+  std::vector<Stretch> left_, next_;  // of a line: what the ball alone holds
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,53 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+// Invocations that walk together wait for the one that has most to ask. So lines and groups of flux samples are asked
+// in another order: in blocks of 1024, those that ask most contacts first, those that ask none last. Every answer goes
+// to a place of its own, so that the order changes nothing else, and equals may come in any. Of flux samples (its second
+// task) it counts the distances, for all groups together; who asks for lines counts them there.
+#include "certified/step.glsl"
+
+layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
+layout(set = 0, binding = 1) readonly buffer Work { uint work[]; };  // contacts that an item asks
+layout(set = 0, binding = 2) writeonly buffer Order { uint order[]; };
+
+const uint kClasses = 128u;
+shared uint places[kClasses];
+
+// Eight classes for every power of two, most first.
+uint class_of(uint contacts) {
+  uint power = uint(max(findMSB(contacts), 0));
+  uint rising = min(1u + 8u * power + (contacts << 3u >> power & 7u), kClasses - 1u);
+  return kClasses - 1u - (contacts == 0u ? 0u : rising);
+}
+
+void main() {
+  uint lane = gl_LocalInvocationID.x;
+  uint block = kSortedPerLane * (invocation_index() - lane);
+  uint all = counters[step.items_counter] * step.items_multiplier;
+  uint left = all - min(all, step.first_item + block);
+  uint items = min(left, kSortedPerLane * gl_WorkGroupSize.x);
+  for (uint c = lane; c < kClasses; c += gl_WorkGroupSize.x) places[c] = 0u;
+  barrier();
+  // Eight invocations go through a run of items: where they are one vector, those of a class stay in their order.
+  uint first = kSortedPerLane * (lane & ~7u) + (lane & 7u);
+  uint place[kSortedPerLane];  // class and, above it, number in the class
+  uint contacts = 0u;
+  for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u) {
+    contacts += work[block + i];
+    uint c = class_of(work[block + i]);
+    place[k] = c + kClasses * atomicAdd(places[c], 1u);
+  }
+  if (step.second_task != 0u) COUNT_TESTS(kFluxGroup * contacts);
+  barrier();
+  if (lane == 0u) {
+    uint sum = 0u;
+    for (uint c = 0u; c < kClasses; ++c) {
+      uint number = places[c];
+      places[c] = sum;
+      sum += number;
+    }
+  }
+  barrier();
+  for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u)
+    order[block + places[place[k] % kClasses] + place[k] / kClasses] = block + i;
+}

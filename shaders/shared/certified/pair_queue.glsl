@@ -1,0 +1,114 @@
+// The pairs of a cell's carriers, those of the nearest first, in an order that does not depend on the device. Pairs that
+// pass the cheap tests are queued, so that all lanes have work in the dear ones. All lanes call what is here.
+//
+// Loops are tested at their ends where their bodies are dear: a CPU runs a body for all lanes before it asks whether any
+// of them wanted that.
+#ifndef MEDIAL_VK_PAIR_QUEUE_GLSL
+#define MEDIAL_VK_PAIR_QUEUE_GLSL
+#include "certified/aim.glsl"
+#include "certified/carrier_pairs.glsl"
+
+const uint kQueueSize = 256u;  // a power of two, above kLanes + 3 kLanes^2
+shared uint queue[kQueueSize];  // two slots of carriers, modulo its size
+// The same in all lanes: where the queue begins and ends, and the next block of pairs: of a row with an earlier one, or
+// with itself.
+uint queue_head, queue_tail, next_row, next_other_row;
+
+Aim best_aim;  // of the pairs that this lane has queued: the one that ties nearest to the boundary
+
+void start_pairs() {
+  queue_head = 0u;
+  queue_tail = 0u;
+  next_row = 0u;
+  next_other_row = 0u;
+  best_aim = Aim(vec4(0.0, 0.0, 0.0, kNoAim), vec4(0.0));
+}
+
+bool has_more_blocks() { return next_row < row_count(kept_count); }
+
+// The carriers of a row of carrier_order, one to each lane; lanes beyond the end hold the last one.
+Carrier load_row(uint row, out uint slot) {
+  slot = carrier_order[min(kLanes * row + gl_LocalInvocationID.x, kept_count - 1u)];
+  return load_carrier(slot);
+}
+
+// Which partners of this lane's carrier, (lane + r) % 8 of the other row for bit r, may turn enough with it? Within a
+// row each pair is met once: at distances 1 to 3, and at 4 from the first half.
+uint turning_partners(Carrier mine, Carrier row, float theta) {
+  uint lane = gl_LocalInvocationID.x;
+  bool is_same_row = next_row == next_other_row;
+  bool exists = kLanes * next_row + lane < kept_count;
+  uint mask = 0u;
+  for (uint r = is_same_row ? 1u : 0u; r < (is_same_row ? 5u : kLanes); ++r) {
+    uint k = (lane + r) % kLanes;
+    Carrier other = CARRIER_OF_LANE(row, carrier_order, kept_count, kLanes * next_other_row, k);
+    bool is_pair = !is_same_row || r < 4u || lane < 4u;
+    bool is_other = kLanes * next_other_row + k < kept_count, turns = can_turn(mine, other, theta);
+    mask |= is_pair && exists && is_other && turns ? 1u << r : 0u;
+  }
+  return mask;
+}
+
+// Those of them that no third carrier beats.
+uint unbeaten_partners(uint mask, Carrier mine, Carrier row, Carrier nearest_row, Box box) {
+  uint unbeaten = 0u;
+  for (; mask != 0u; mask &= mask - 1u) {
+    uint r = uint(findLSB(mask));
+    uint k = (gl_LocalInvocationID.x + r) % kLanes;
+    Carrier other = CARRIER_OF_LANE(row, carrier_order, kept_count, kLanes * next_other_row, k);
+    if (is_beaten(mine, other, nearest_row, box)) continue;
+    unbeaten |= 1u << r;
+    Aim aim = aim_between(mine.nearest, other.nearest, step.half_side);
+    if (aim.base.w < best_aim.base.w) best_aim = aim;
+  }
+  return unbeaten;
+}
+
+// Queues the survivors of one block.
+void queue_block(Carrier nearest_row, float theta, Box box) {
+  uint lane = gl_LocalInvocationID.x, slot, other_slot;
+  Carrier mine = load_row(next_row, slot);
+  Carrier row = load_row(next_other_row, other_slot);
+  uint mask = unbeaten_partners(turning_partners(mine, row, theta), mine, row, nearest_row, box);
+  uvec2 place = count_lanes(uint(bitCount(mask)));
+  for (uint at = queue_tail + place.x; mask != 0u; mask &= mask - 1u) {
+    uint other = kLanes * next_other_row + (lane + uint(findLSB(mask))) % kLanes;
+    queue[at++ % kQueueSize] = slot << 16 | carrier_order[other];
+  }
+  queue_tail += place.y;
+  bool is_last = next_other_row == next_row;
+  next_row += is_last ? 1u : 0u;
+  next_other_row = is_last ? 0u : next_other_row + 1u;
+  synchronize();
+}
+
+// Queues pairs until there is one for every lane, or there are no more. Below the finest level, where cells are few and
+// hard, until the sixteen nearest carriers have been paired too: the aims are the better.
+void fill_queue(float theta, Box box) {
+  uint slot;
+  Carrier nearest_row = load_row(0u, slot);
+  for (;;) {
+    queue_block(nearest_row, theta, box);
+    bool enough = queue_tail - queue_head >= kLanes && (step.depth == 0u || next_row >= 2u);
+    if (enough || !has_more_blocks()) break;
+  }
+}
+
+// Each lane takes a pair; false: there is none for it.
+bool take_pair(out Carrier a, out Carrier b) {
+  uint at = queue_head + gl_LocalInvocationID.x;
+  bool exists = at < queue_tail;
+  uint pair = exists ? queue[at % kQueueSize] : 0u;
+  a = load_carrier(pair >> 16);
+  b = load_carrier(pair & 0xffffu);
+  queue_head = min(queue_head + kLanes, queue_tail);
+  return exists;
+}
+
+// Is it time to take pairs, rather than to queue more?
+bool has_enough_queued() {
+  uint queued = queue_tail - queue_head;
+  return queued >= kLanes || (queued > 0u && !has_more_blocks());
+}
+
+#endif

@@ -1,0 +1,72 @@
+#include "cli/options/declarations.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace medial_vk::cli {
+namespace {
+
+/// Insertions, deletions and replacements that turn one word into the other, or `limit` if they are not fewer.
+std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t limit) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    std::size_t least = row[0];
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+      least = std::min(least, row[j + 1]);
+    }
+    if (least >= limit) return limit;  // rows never get smaller
+  }
+  return std::min(row.back(), limit);
+}
+
+/// "; did you mean --resolution?" if there is an option close to the unknown one, else nothing.
+std::string suggestion(const CLI::App& app, const std::string& unknown) {
+  const std::string name = unknown.substr(0, unknown.find('='));
+  std::string best;
+  std::size_t best_distance = 4;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& known : option->get_lnames()) {
+      const std::string full = "--" + known;
+      const std::size_t distance = edit_distance(name, full, best_distance);
+      if (distance < best_distance) {
+        best_distance = distance;
+        best = known;
+      }
+    }
+  }
+  return best.empty() ? "" : fmt::format("; did you mean --{}?", best);
+}
+
+Status check_extras(const CLI::App& app, const char* one_only) {
+  std::vector<std::string> extras = app.remaining();
+  std::erase(extras, "--");  // CLI11 counts the mark itself.
+  for (const std::string& extra : extras) {
+    if (extra.size() > 1 && extra[0] == '-') {
+      return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
+    }
+  }
+  if (!extras.empty()) return usage_error(fmt::format("unexpected '{}': {}", extras[0], one_only));
+  return {};
+}
+
+}  // namespace
+
+Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const char* one_only) {
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::Error& error) {
+    // A misspelt option is the likelier cause of whatever else is wrong.
+    if (Status extras = check_extras(app, one_only); !extras) return extras;
+    return usage_error(error.what());
+  }
+  return check_extras(app, one_only);
+}
+
+}  // namespace medial_vk::cli

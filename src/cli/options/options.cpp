@@ -1,0 +1,198 @@
+#include "cli/options/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "cli/options/declarations.h"
+#include "cli/options/output_names.h"
+#include "cli/options/parse_number.h"
+
+namespace medial_vk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void declare(CLI::App& app, Options& options) {
+  ExtractionParameters& parameters = options.parameters;
+  Declarations add(app);
+  add.text("MESH", "file", options.mesh);
+  add.text("-o,--output", "file", options.output);
+  add.flag("--ascii", options.ascii);
+  add.flag("--mesh-spheres", options.mesh_spheres);
+  add.flag("--gpu-instancing", options.gpu_instancing);
+  add.whole("--sphere-detail", 0, kGreatestSphereDetail, "", options.sphere_detail);
+  add.text("--report", "file", options.report);
+  add.text("--picture", "file", options.picture);
+  add.view("--view", options.view);
+  add.up("--up", options.look.view.up);
+  add.size("--size", options.look.size);
+  add.choice<PictureShow>(
+      "--show", {{"points", PictureShow::kPoints}, {"balls", PictureShow::kBalls}, {"both", PictureShow::kBoth}},
+      options.look.show);
+  add.choice<PictureColour>(
+      "--colour",
+      {{"angle", PictureColour::kAngle}, {"radius", PictureColour::kRadius}, {"sheet", PictureColour::kSheet}},
+      options.look.colour);
+  add.text("--html", "file", options.html);
+  add.text("--medial-mesh", "file", options.medial_mesh);
+  add.text("--sheet-curve", "file", options.sheet_curve);
+  add.text("--ball-volumes", "file", options.ball_volumes);
+
+  add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
+  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
+  add.real("--radius", {0, 1}, " of the longest side", parameters.radius);
+  add.real("--epsilon", {1e-3, 0.5}, " of the voxel side", parameters.epsilon);
+  add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, parameters.mode);
+  add.whole("--extra-levels", 0, 8, " levels", parameters.extra_levels);
+  add.flag("--simplify", options.simplify);
+  add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);
+  add.whole("--seed", 0, UINT64_MAX, "", options.seed);
+
+  add.real("--sheet-angle", {0, 90}, " degrees", options.sheets.angle);
+  add.real("--sheet-crease", {0, 180}, " degrees", options.sheets.crease);
+  add.real("--sheet-border", {0, 180}, " degrees", options.sheets.border);
+  add.real("--sheet-width", {0, 1}, " of the balls' diameter", options.sheets.width);
+  add.whole("--absorb-fragments", 0, UINT32_MAX, " points", options.sheets.absorb_fragments);
+  add.real("--keep-volume", {0, 1, false}, " of the volume", options.keep_volume);
+  add.flag("--keep-topology", options.keep_topology);
+
+  add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
+  add.text("--device", "index or name", options.device);
+  add.memory("--memory", parameters.memory_budget);
+  add.whole("--threads", 0, 1024, " threads", options.threads);
+
+  add.flag("--check", options.check);
+  add.flag("--kernel-times", parameters.kernel_times);
+  add.flag("-q,--quiet", options.quiet);
+  add.flag("-v,--verbose", options.verbose);
+  add.action("--list-devices", Action::kListDevices, options.action);
+  add.action("--version", Action::kVersion, options.action);
+  add.action("-h,--help", Action::kHelp, options.action);
+}
+
+Status check_files_differ(const Options& options) {
+  const NamedOutput outputs[] = {{"--output", &options.output},
+                                 {"--report", &options.report},
+                                 {"--picture", &options.picture},
+                                 {"--html", &options.html},
+                                 {"--medial-mesh", &options.medial_mesh},
+                                 {"--sheet-curve", &options.sheet_curve},
+                                 {"--ball-volumes", &options.ball_volumes}};
+  return check_outputs_differ(outputs, options.mesh);
+}
+
+/// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
+std::string default_output(const Options& options) {
+  const std::string stem = options.mesh == "-" ? "stdin" : fs::path(options.mesh).stem().string();
+  return stem + (options.mesh_spheres ? ".spheres.ply" : ".medial.ply");
+}
+
+/// Options about balls need a format that has balls.
+Status check_ball_options(const Options& options) {
+  const bool is_glb = options.format == MedialFormat::kGlb;
+  if (options.mesh_spheres && !is_glb && options.format != MedialFormat::kPly) {
+    return usage_error("--mesh-spheres makes a mesh: use it with .ply or .glb");
+  }
+  if (options.gpu_instancing && (!is_glb || options.mesh_spheres)) {
+    return usage_error("--gpu-instancing is for .glb without --mesh-spheres");
+  }
+  if (options.sphere_detail && !is_glb && !options.mesh_spheres) {
+    return usage_error("--sphere-detail is for balls of triangles: use it with .glb or --mesh-spheres");
+  }
+  return {};
+}
+
+/// Options about the picture need a picture.
+Status check_picture_options(const Options& options) {
+  const PictureOptions usual;
+  const PictureOptions& look = options.look;
+  const std::pair<const char*, bool> given[] = {{"--view", options.view != ViewChoice()},
+                                                {"--size", look.size != usual.size},
+                                                {"--show", look.show != usual.show},
+                                                {"--colour", look.colour != usual.colour}};
+  for (const auto& [name, is_given] : given) {
+    if (is_given && options.picture.empty()) {
+      return usage_error(fmt::format("{} is about the picture: use it with --picture FILE.png", name));
+    }
+  }
+  if (look.view.up != usual.view.up && options.picture.empty() && options.html.empty()) {
+    return usage_error("--up is about picture and page: use it with --picture FILE.png or --html FILE.html");
+  }
+  return {};
+}
+
+Status complete_files(Options& options) {
+  if (options.mesh.empty()) return usage_error("no MESH given");
+  if (options.output.empty()) options.output = default_output(options);
+  if (options.output != "-") {
+    const Result<MedialFormat> format = medial_format_of(options.output);
+    if (!format) return usage_error("--output: " + format.error().message);
+    options.format = format.value();
+  }
+  if (Status status = check_ball_options(options); !status) return status;
+  if (!may_end_in(options.picture, ".png")) {
+    return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  if (Status status = check_picture_options(options); !status) return status;
+  options.look.view = view_of(options.view, options.look.view.up);
+  if (!may_end_in(options.html, ".html")) {
+    return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
+  }
+  if (!may_end_in(options.sheet_curve, ".csv") && !may_end_in(options.sheet_curve, ".svg")) {
+    return usage_error(fmt::format("--sheet-curve: '{}' ends in neither .csv nor .svg", options.sheet_curve));
+  }
+  if (!may_end_in(options.ball_volumes, ".csv")) {
+    return usage_error(fmt::format("--ball-volumes: '{}' does not end in .csv", options.ball_volumes));
+  }
+  if (options.keep_topology && options.keep_volume == 0) {
+    return usage_error(
+        "--keep-topology is about the sheets that --keep-volume removes: use it with --keep-volume SHARE");
+  }
+  if (!may_end_in(options.medial_mesh, ".ply") && !may_end_in(options.medial_mesh, ".ma")) {
+    return usage_error(fmt::format("--medial-mesh: '{}' ends in neither .ply nor .ma", options.medial_mesh));
+  }
+  return check_files_differ(options);
+}
+
+Status check_combinations(const Options& options) {
+  if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
+  if (options.backend == Backend::kCpu && !options.device.empty()) {
+    return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
+  }
+  return {};
+}
+
+}  // namespace
+
+/// The application writes to `options`, so the two stay together and in place.
+struct OptionParser::Declared {
+  ReusableApp app;
+  Options options;
+};
+
+OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
+  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.allow_extras();   // Reported here, with a suggestion.
+  declare(declared_->app, declared_->options);
+}
+
+OptionParser::~OptionParser() = default;
+
+Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
+  declared_->app.forget();
+  Options& options = declared_->options = Options();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) return status.error();
+  if (Status status = check_combinations(options); !status) return status.error();
+  if (options.action != Action::kExtract) return options;
+  if (Status status = complete_files(options); !status) return status.error();
+  return options;
+}
+
+Result<Options> parse_options(const std::vector<std::string>& arguments) { return OptionParser().parse(arguments); }
+
+}  // namespace medial_vk::cli

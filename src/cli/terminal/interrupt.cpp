@@ -1,0 +1,57 @@
+#include "cli/terminal/interrupt.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <string_view>
+
+#include "medial_vk/result.h"
+
+namespace medial_vk::cli {
+namespace {
+
+std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+
+/// What a handler may call: write() and _exit().
+[[noreturn]] void end_at_once() {
+  constexpr std::string_view kMessage = "\nmedial-vk: interrupted; nothing was written\n";
+  // On a terminal below the line on which the shell has shown ^C.
+  const std::string_view message = kMessage.substr(on_terminal ? 0 : 1);
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(static_cast<int>(ErrorCode::kInterrupted));
+}
+
+extern "C" void request_stop(int) {
+  // In this order, and in the other one where work begins: one of the two sees the other, on whatever thread.
+  stop_requested = true;
+  if (may_end_at_once) end_at_once();
+  // From now on either signal kills. signal() is safe in a handler.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+}  // namespace
+
+void install_interrupt_handlers() {
+  on_terminal = ::isatty(STDERR_FILENO) == 1;
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;  // Reads and writes under way go on; the flag is seen between them.
+  for (const int signal : {SIGINT, SIGTERM}) {
+    // A shell that starts a job in the background, and nohup, ignore signals on purpose: leave it so.
+    struct sigaction before = {};
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a failed write, exit code 6.
+}
+
+bool interrupted() { return stop_requested; }
+
+EndAtOnce::EndAtOnce() { may_end_at_once = true; }
+EndAtOnce::~EndAtOnce() { may_end_at_once = false; }
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,29 @@
+// Tables for people: columns as wide as their longest cell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cpu_reference/certificate.h"
+#include "medial_vk/context.h"
+#include "medial_vk/result.h"
+#include "output/report/run_record.h"
+
+namespace medial_vk::cli {
+
+struct Column {
+  std::string title;
+  bool to_the_right = false;  ///< For numbers.
+};
+
+/// One line per row, no blanks at the ends of lines.
+std::string format_table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
+
+std::string device_table(const std::vector<DeviceDescription>& devices);
+/// The conditions, then the first failure of each that failed.
+std::string certificate_table(const reference::Certificate& certificate);
+/// What --check comes to: ok, or kCheckFailed.
+Status verdict(const reference::Certificate& certificate);
+std::string level_table(const ExtractionCounters& counters);
+
+}  // namespace medial_vk::cli

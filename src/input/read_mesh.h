@@ -1,0 +1,24 @@
+// From a file to triangles.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "medial_vk/mesh.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// No file is read beyond this: streams may have no end. The largest mesh that a device takes, 8 million triangles, is
+/// half as long in the wordiest format (text STL).
+inline constexpr std::uint64_t kMostFileBytes = 4ull << 30;
+
+/// Reads OBJ, PLY, STL or OFF, by content where it is clear and else by extension; "-" is standard input.
+/// Errors: kInvalidMesh with file name and line, face or byte; also if there are more than `most_bytes`.
+Result<Mesh> read_mesh(const std::string& path, std::uint64_t most_bytes = kMostFileBytes);
+
+/// The same from the bytes of a file; `name` is used in messages, and its extension where the content is not clear.
+Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name);
+
+}  // namespace medial_vk

@@ -1,0 +1,20 @@
+// The analytic solids by name, each in a generic position: what recall is measured on, and dismissal tested on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "medial_vk/mesh.h"
+
+namespace medial_vk::test {
+
+struct NamedSolid {
+  std::string name;
+  Mesh (*make)();  ///< Turned, so that no face of it is parallel to a face of a voxel.
+  /// All that is salient is next to one point, as in a sphere: samples climb past corners to get there.
+  bool salient_at_a_point = false;
+};
+
+const std::vector<NamedSolid>& analytic_solids();
+
+}  // namespace medial_vk::test

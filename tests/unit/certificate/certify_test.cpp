@@ -1,0 +1,158 @@
+// The certificate in double: what passes, what is repaired, what is dropped.
+#include "medial_vk/certify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::uint32_t kResolution = 40;
+constexpr double kLongest = 4;
+
+/// A slab 4 x 4 x 1 at an offset: the middle of its thickness is its main medial sheet, object angle pi/2.
+class CertifyTest : public testing::TestWithParam<double> {
+ protected:
+  CertifyTest() : offset_(GetParam()), mesh_(test::make_box({4, 4, 1})) {
+    test::translate(mesh_, {offset_, -offset_, offset_});
+    bvh_ = Bvh::build({mesh_.vertices, mesh_.triangles, {}, true}).value();
+    parameters_.resolution = kResolution;
+    extraction_.grid.origin = bvh_.nodes()[0].box.lower;
+    extraction_.grid.voxel_size = kLongest / kResolution;
+    extraction_.grid.size = {kResolution, kResolution, kResolution / 4};
+  }
+
+  /// A sphere near (x, y, z) of the slab, with the spokes of its middle.
+  MedialSphere sphere_at(double x, double y, double z) const {
+    MedialSphere s;
+    s.centre = {offset_ + x, -offset_ + y, offset_ + z};
+    s.radius = std::min(z, 1 - z) * (1 + 1e-6);  // too large, as a float may be
+    const float down = z <= 0.5 ? -1.0f : 1.0f;
+    s.spoke_a = {0, 0, down};
+    s.spoke_b = {0, 0, -down};
+    s.object_angle = 1.5f;
+    for (int k = 0; k < 3; ++k) {
+      const double cell = (s.centre[k] - extraction_.grid.origin[k]) / extraction_.grid.voxel_size;
+      s.voxel[k] = static_cast<std::uint32_t>(std::floor(cell));
+    }
+    return s;
+  }
+  void add(const MedialSphere& s) {
+    extraction_.spheres.push_back(s);
+    ++extraction_.counters.found;
+  }
+  CertifyReport certify(unsigned threads = 1) {
+    return certify_spheres(bvh_, parameters_, kLongest, extraction_, threads);
+  }
+  double epsilon() const { return parameters_.epsilon * extraction_.grid.voxel_size; }
+
+  double offset_;
+  Mesh mesh_;
+  Bvh bvh_;
+  ExtractionParameters parameters_;
+  Extraction extraction_;
+};
+
+TEST_P(CertifyTest, MakesNumbersExact) {
+  add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));
+  EXPECT_EQ(certify().passed, 1u);
+  const MedialSphere& s = extraction_.spheres.at(0);
+  const double distance = s.centre[2] - offset_;
+  EXPECT_LE(s.radius, distance);
+  EXPECT_GE(s.radius, distance - 1e-12 * (kLongest + std::abs(offset_)));
+  EXPECT_EQ(s.spoke_a, (std::array<float, 3>{0, 0, -1}));
+  EXPECT_FLOAT_EQ(s.object_angle, static_cast<float>(std::numbers::pi / 2));
+}
+
+TEST_P(CertifyTest, LetsOneSphereOfAVoxelPass) {
+  add(sphere_at(2.03, 1.97, 0.5 - 0.1 * epsilon()));
+  add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));
+  ASSERT_EQ(extraction_.spheres[0].voxel, extraction_.spheres[1].voxel);
+  const CertifyReport report = certify();
+  EXPECT_EQ(report.passed, 1u);
+  EXPECT_EQ(report.rejected, 1u);
+}
+
+// The device takes the upper face for the nearest; the lower one is, by a hair.
+TEST_P(CertifyTest, SwapsTheSpokesOfATie) {
+  MedialSphere s = sphere_at(2.03, 1.97, 0.5 - 1e-4 * epsilon());
+  std::swap(s.spoke_a, s.spoke_b);
+  add(s);
+  EXPECT_EQ(certify().passed, 1u);
+  EXPECT_EQ(extraction_.spheres.at(0).spoke_a, (std::array<float, 3>{0, 0, -1}));
+  EXPECT_EQ(extraction_.spheres.at(0).spoke_b, (std::array<float, 3>{0, 0, 1}));
+}
+
+TEST_P(CertifyTest, RepairsSpokeB) {
+  MedialSphere s = sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon());
+  s.spoke_b = {1, 0, 0};  // half a unit from the boundary
+  add(s);
+  EXPECT_EQ(certify().passed, 1u);
+  EXPECT_EQ(extraction_.spheres.at(0).spoke_b, (std::array<float, 3>{0, 0, 1}));
+}
+
+TEST_P(CertifyTest, DropsWhatFailsAndKeepsTheOrder) {
+  add(sphere_at(1.03, 1.97, 0.5 - 0.2 * epsilon()));
+  add(sphere_at(1.53, 1.97, 0.5 - 3 * epsilon()));  // grown by epsilon it still fits
+  MedialSphere elsewhere = sphere_at(2.03, 1.97, 0.5 - 0.2 * epsilon());
+  elsewhere.voxel[1] += 1;
+  add(elsewhere);
+  add(sphere_at(2.53, 1.97, 0.0));  // on the boundary
+  add(sphere_at(3.03, 1.97, 0.5 - 0.2 * epsilon()));
+  extraction_.counters.undecided = 10;
+  const CertifyReport report = certify();
+  EXPECT_EQ(report.passed, 2u);
+  EXPECT_EQ(report.rejected, 3u);
+  ASSERT_EQ(extraction_.spheres.size(), 2u);
+  EXPECT_LT(extraction_.spheres[0].voxel[0], extraction_.spheres[1].voxel[0]);
+  EXPECT_EQ(extraction_.counters.found, 2u);
+  EXPECT_EQ(extraction_.counters.undecided, 13u);
+}
+
+// On the sheet that leaves an edge of the slab at 45 degrees the object angle is pi/4.
+TEST_P(CertifyTest, AsksForAngleOrRadius) {
+  const double depth = 0.3 - 0.1 * epsilon();
+  MedialSphere s = sphere_at(0.3, 1.97, depth);
+  s.spoke_b = {-1, 0, 0};
+  add(s);
+  parameters_.object_angle = 0.7;
+  Extraction original = extraction_;
+  EXPECT_EQ(certify().passed, 1u);
+  EXPECT_NEAR(extraction_.spheres.at(0).object_angle, std::numbers::pi / 4, 1e-6);
+  extraction_ = original;
+  parameters_.object_angle = 0.8;
+  EXPECT_EQ(certify().rejected, 1u);
+  extraction_ = original;
+  parameters_.radius = 0.25 / kLongest;
+  EXPECT_EQ(certify().passed, 1u);
+  extraction_ = original;
+  parameters_.radius = 0.35 / kLongest;
+  EXPECT_EQ(certify().rejected, 1u);
+}
+
+TEST_P(CertifyTest, DoesNotDependOnTheNumberOfThreads) {
+  for (int i = 0; i < 50; ++i) add(sphere_at(0.62 + 0.05 * i, 1.97, 0.5 - (i % 7 == 0 ? 3 : 0.1) * epsilon()));
+  const Extraction original = extraction_;
+  certify(1);
+  const Extraction one = extraction_;
+  EXPECT_LT(one.spheres.size(), 50u);
+  for (const unsigned threads : {2u, 3u, 7u, 100u}) {
+    extraction_ = original;
+    certify(threads);
+    ASSERT_EQ(extraction_.spheres.size(), one.spheres.size());
+    for (std::size_t i = 0; i < one.spheres.size(); ++i) {
+      EXPECT_EQ(extraction_.spheres[i].centre, one.spheres[i].centre);
+      EXPECT_EQ(extraction_.spheres[i].radius, one.spheres[i].radius);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtTheOriginAndFarAway, CertifyTest, testing::Values(0.0, 1e5));
+
+}  // namespace
+}  // namespace medial_vk

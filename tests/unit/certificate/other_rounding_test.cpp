@@ -1,0 +1,210 @@
+// Devices may round divisions, roots and angles otherwise than lavapipe, and need not have denormal numbers,
+// infinities, NaN and a sign of zero. Kernels whose SPIR-V is rewritten so that results are off by what Vulkan allows,
+// or so that these numbers do not come up, still prove and find the same: slacks are made for the first
+// (docs/theory.md, "Rounding"), and nothing may rest on the second.
+#include "support/other_rounding.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <set>
+
+#include "commands/commands.h"
+#include "commands/recorder.h"
+#include "device/context_impl.h"
+#include "device/embedded_shaders.h"
+#include "make_specials_spirv.h"
+#include "support/device/device.h"
+#include "support/device/device_test.h"
+#include "support/extraction.h"
+#include "support/other_specials.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using Rewrite = std::function<std::vector<std::uint32_t>(std::span<const std::uint32_t>)>;
+
+// All kernels of the runtime, rewritten.
+class OtherKernels {
+ public:
+  explicit OtherKernels(const Rewrite& rewrite) {
+    for (const EmbeddedShader& shader : embedded_shaders()) words_.push_back(rewrite(shader.words));
+    for (std::size_t i = 0; i < words_.size(); ++i) shaders_.push_back({embedded_shaders()[i].name, words_[i]});
+  }
+  std::span<const EmbeddedShader> shaders() const { return shaders_; }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> words_;
+  std::vector<EmbeddedShader> shaders_;
+};
+
+// Clearly salient points of `here` in voxels that `there` has dismissed. (A point nearer to a face, or to the
+// threshold, may stand for a medial point in the next voxel, or for one below the threshold.)
+std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionParameters& parameters) {
+  std::set<std::array<std::uint32_t, 3>> kept;
+  for (const MedialSphere& s : there.spheres) kept.insert(s.voxel);
+  for (const UndecidedVoxel& u : there.undecided) kept.insert(u.voxel);
+  std::size_t lost = 0;
+  for (const MedialSphere& s : here.spheres) {
+    const bool clear = static_cast<double>(s.object_angle) >= parameters.object_angle + 0.05 &&
+                       test::depth_in_voxel(here.grid, test::to_eigen(s.centre)) >= 0.05;
+    lost += clear && !kept.contains(s.voxel);
+  }
+  return lost;
+}
+
+bool same_bytes(const Extraction& a, const Extraction& b) {
+  return a.spheres.size() == b.spheres.size() &&
+         std::memcmp(a.spheres.data(), b.spheres.data(), a.spheres.size() * sizeof(MedialSphere)) == 0;
+}
+
+// Extracts by the kernels as they are and rewritten. True if both gave the same bytes.
+bool agree(Mesh solid, const ExtractionParameters& parameters, const Rewrite& rewrite) {
+  const PreparedMesh mesh = test::prepare(std::move(solid));
+  Context context = test::make_context();
+  const Extraction plain = test::extract_on_device(context, mesh, parameters).extraction;
+  const OtherKernels kernels(rewrite);
+  Context other_context = test::make_context();
+  other_context.impl().extra_shaders = kernels.shaders();
+  const CertifiedExtraction other = test::extract_on_device(other_context, mesh, parameters);
+  EXPECT_GT(plain.spheres.size(), 500u);
+  EXPECT_TRUE(test::passes_certificate(mesh, other.extraction, parameters));
+  EXPECT_LE(other.certify.rejected, plain.spheres.size() / 100);
+  EXPECT_EQ(count_lost(plain, other.extraction, parameters), 0u);
+  EXPECT_EQ(count_lost(other.extraction, plain, parameters), 0u);
+  // No more voxels stay undecided than a handful at thresholds.
+  EXPECT_LE(other.extraction.undecided.size(), plain.undecided.size() + plain.spheres.size() / 100);
+  return same_bytes(plain, other.extraction);
+}
+
+Mesh turned(Mesh solid) {
+  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
+  return solid;
+}
+
+Mesh open_torus() {
+  Mesh solid = test::make_torus(1.0, 0.4, 24, 48, 0.5);
+  solid.triangles.resize(solid.triangles.size() - 40);
+  return solid;
+}
+
+class OtherRoundingTest : public testing::TestWithParam<float> {
+ protected:
+  // Division: 2.5 units in the last place. Roots: those of 1 / inversesqrt, 2 more. Angles: 4,096.
+  test::OtherRounding rounding() const { return {GetParam() * 2.4e-7f, GetParam() * 4e-7f, GetParam() * 2.4e-4f}; }
+
+  void expect_the_same(Mesh solid, std::uint32_t resolution) {
+    ExtractionParameters parameters;
+    parameters.resolution = resolution;
+    const Rewrite rewrite = [&](auto words) { return test::round_otherwise(words, rounding()); };
+    EXPECT_FALSE(agree(std::move(solid), parameters, rewrite)) << "the kernels round as they did";
+  }
+};
+
+TEST_P(OtherRoundingTest, ASolidWithCorners) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(turned(test::make_l_shape(1.0, 0.4, 0.5)), 30);
+}
+
+TEST_P(OtherRoundingTest, ARoundSolidOfSmallTriangles) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(turned(test::make_torus(1.0, 0.4, 80, 160, 0.5)), 65);
+}
+
+TEST_P(OtherRoundingTest, AnOpenMesh) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(open_torus(), 33);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothWays, OtherRoundingTest, testing::Values(1.0f, -1.0f),
+                         [](const auto& sign) { return sign.param > 0 ? "larger" : "smaller"; });
+
+// ---- Numbers that devices need not have
+
+using MakeSpecials = test::DeviceTest;
+
+std::vector<float> make_specials(Context::Impl& context, std::span<const std::uint32_t> words) {
+  const EmbeddedShader shader = {"make_specials", words};
+  context.extra_shaders = {&shader, 1};
+  constexpr std::uint32_t kCount = 12;
+  Arena arena(context);
+  const Buffer output = arena.create_buffer(kCount * sizeof(float), MemoryKind::kReadback, "a test").value();
+  const ProgramKey program = {.shader = "make_specials",
+                              .storage_buffers = 1,
+                              .texel_buffers = 0,
+                              .push_constant_bytes = 3 * sizeof(float),
+                              .workgroup_size = 1,
+                              .constants = {}};
+  const auto ran = run_commands(context, [&](Recorder& recorder) {
+    const BufferRange buffers[] = {output.range()};
+    const float zero_tiny_huge[] = {0.0f, 0x1p-126f, 0x1p126f};
+    recorder.dispatch(program, buffers, {}, bytes_of(zero_tiny_huge), 1);
+    recorder.barrier_to_host();
+    return recorder.status();
+  });
+  EXPECT_TRUE(ran.ok());
+  const auto* values = static_cast<const float*>(output.mapped);
+  return {values, values + kCount};
+}
+
+TEST_F(MakeSpecials, AreThereAndAreReplaced) {
+  const std::vector<float> plain = make_specials(context_->impl(), kMakeSpecialsSpirv);
+  EXPECT_TRUE(std::isinf(plain[0]));
+  EXPECT_TRUE(std::isnan(plain[1]));
+  EXPECT_TRUE(std::isinf(plain[10]));
+  Context other = test::make_context();
+  const std::vector<std::uint32_t> words = test::replace_specials(kMakeSpecialsSpirv, {-0.0f, 7.0f});
+  const std::vector<float> found = make_specials(other.impl(), words);
+  const std::vector<float> expected = {7, 7, 7, 7, 0, 0, 0x1p125f, 0x1p126f, 0x1p-126f, 1, 7, 7};
+  EXPECT_EQ(found, expected);
+  for (const std::size_t zero : {4, 5}) EXPECT_TRUE(std::signbit(found[zero]));
+}
+
+class OtherSpecialsTest : public testing::TestWithParam<test::OtherSpecials> {
+ protected:
+  void expect_the_same(Mesh solid, std::uint32_t resolution, Mode mode = Mode::kCertified) {
+    ExtractionParameters parameters;
+    parameters.resolution = resolution;
+    parameters.mode = mode;
+    const Rewrite rewrite = [&](auto words) { return test::replace_specials(words, GetParam()); };
+    agree(std::move(solid), parameters, rewrite);
+  }
+};
+
+TEST_P(OtherSpecialsTest, ASolidAlongTheAxes) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(test::make_l_shape(1.0, 0.4, 0.5), 22);
+}
+
+TEST_P(OtherSpecialsTest, ASolidWithCorners) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(turned(test::make_l_shape(1.0, 0.4, 0.5)), 30);
+}
+
+TEST_P(OtherSpecialsTest, ARoundSolidOfSmallTriangles) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(turned(test::make_torus(1.0, 0.4, 40, 80, 0.5)), 50);
+}
+
+TEST_P(OtherSpecialsTest, AnOpenMesh) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(open_torus(), 33);
+}
+
+TEST_P(OtherSpecialsTest, ThePublishedSearch) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  expect_the_same(test::make_l_shape(1.0, 0.4, 0.5), 24, Mode::kThesis);
+}
+
+INSTANTIATE_TEST_SUITE_P(, OtherSpecialsTest,
+                         testing::Values(test::OtherSpecials{-0.0f, 0.0f}, test::OtherSpecials{0.0f, 1e30f},
+                                         test::OtherSpecials{-0.0f, -1e30f}),
+                         [](const auto& specials) {
+                           return specials.param.special == 0 ? "zero" : specials.param.special > 0 ? "large" : "low";
+                         });
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,252 @@
+// The report: every documented key is there, with the right type.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/extract/summary.h"
+#include "cli/terminal/tables.h"
+#include "output/report/report_json.h"
+
+namespace medial_vk {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+RunRecord some_record() {
+  RunRecord record;
+  record.input = "part.stl";
+  record.output = "part.medial.ply";
+  record.parameters.radius = 0.1;
+  record.mesh.triangles = 12;
+  record.mesh.closed = true;
+  record.mesh.assumptions = {"Two holes were left open."};
+  record.mesh.upper = {2, 1, 1};
+  record.longest_side = 2;
+  record.grid = {{0, 0, 0}, 0.0125, {160, 80, 80}};
+  record.counters.levels = {{0.1, 1000, 200, 5000, 0}, {0.05, 1600, 300, 3000, 250}};
+  record.counters.found = 250;
+  record.counters.undecided = 3;
+  record.certify = {249, 1};
+  record.points = 249;
+  record.radii = Range{0.01, 0.5};
+  record.host_times = {{"read", 0.01}, {"extract", 2.0}};
+  record.device_times = {{"dismiss cells", 1.5}};
+  record.device = DeviceDescription{0, "Some GPU", "discrete", "driver 1.2", 0, 8ull << 30, true, ""};
+  return record;
+}
+
+TEST(ReportJson, HoldsEveryDocumentedKey) {
+  const json report = json::parse(report_json(some_record()));
+  for (const char* key :
+       {"format", "program",  "version",     "input",           "output",  "parameters", "mesh",      "grid",
+        "voxels", "levels",   "queries",     "narrowing_steps", "retries", "points",     "per_point", "sheets",
+        "orders", "grouping", "medial_mesh", "seconds",         "device",  "certificate"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
+                          "simplify", "perturb", "seed", "memory_bytes"}) {
+    EXPECT_TRUE(report["parameters"].contains(key)) << key;
+  }
+  for (const char* key : {"vertices",
+                          "triangles",
+                          "components",
+                          "closed",
+                          "degenerate_dropped",
+                          "duplicates_dropped",
+                          "open_edges",
+                          "non_manifold_edges",
+                          "inconsistent_edges",
+                          "non_manifold_vertices",
+                          "reoriented_faces",
+                          "intersecting_faces",
+                          "intersections_known",
+                          "sides_known",
+                          "signed_volume",
+                          "lower",
+                          "upper",
+                          "longest_side",
+                          "assumptions",
+                          "merged_vertices",
+                          "unused_vertices",
+                          "fallback_polygons"}) {
+    EXPECT_TRUE(report["mesh"].contains(key)) << key;
+  }
+  EXPECT_EQ(report["parameters"]["mode"], "certified");
+  EXPECT_EQ(report["mesh"]["assumptions"][0], "Two holes were left open.");
+  EXPECT_EQ(report["grid"]["size"], json::array({160, 80, 80}));
+  EXPECT_EQ(report["voxels"]["found"], 250);
+  EXPECT_EQ(report["voxels"]["rejected"], 1);
+  EXPECT_EQ(report["levels"][1]["contacts"], 3000);
+  EXPECT_EQ(report["points"]["radius"]["greatest"], 0.5);
+  EXPECT_TRUE(report["points"]["object_angle"].is_null());
+  EXPECT_EQ(report["seconds"]["host"][1]["stage"], "extract");
+  EXPECT_EQ(report["seconds"]["device"][0]["seconds"], 1.5);
+  EXPECT_EQ(report["device"]["name"], "Some GPU");
+  EXPECT_TRUE(report["certificate"].is_null());
+}
+
+TEST(ReportJson, SaysWhatAPointCosts) {
+  RunRecord record = some_record();
+  EXPECT_EQ(json::parse(report_json(record))["per_point"]["lines"], 0);
+  record.counters.levels[0].cluster_tests = 500;
+  record.counters.levels[1].node_tests = 750;
+  record.counters.levels[0].triangle_tests = 1000;
+  record.counters.levels[1].triangle_tests = 24000;
+  record.counters.levels[1].lines = 750;
+  record.counters.narrowing_steps = 4;
+  record.counters.queries = 125;
+  const json cost = json::parse(report_json(record))["per_point"];
+  EXPECT_EQ(cost["queries"], 0.5);
+  EXPECT_EQ(cost["triangle_tests"], 100);
+  EXPECT_EQ(cost["cluster_tests"], 2);
+  EXPECT_EQ(cost["node_tests"], 3);
+  EXPECT_EQ(cost["lines"], 3);
+  EXPECT_EQ(cost["narrowing_steps"], 12);
+  record.counters.found = 0;
+  EXPECT_TRUE(json::parse(report_json(record))["per_point"].is_null());
+}
+
+TEST(ReportJson, SheetsAndMedialMesh) {
+  RunRecord record = some_record();
+  Sheet sheet;
+  sheet.points = 200;
+  sheet.area = 1.5;
+  sheet.mean_radius = 0.2;
+  sheet.mean_object_angle = 1.1;
+  record.sheets.sheets = {sheet, sheet};
+  record.sheets.sheets[1].significance = 0.25;
+  record.sheets.fragments = 3;
+  record.sheets.absorbed_points = 17;
+  json report = json::parse(report_json(record));
+  ASSERT_EQ(report["sheets"].size(), 2u);
+  EXPECT_EQ(report["sheets"][1]["id"], 1);
+  EXPECT_EQ(report["sheets"][0]["points"], 200);
+  EXPECT_EQ(report["sheets"][0]["area"], 1.5);
+  EXPECT_EQ(report["sheets"][0]["mean_radius"], 0.2);
+  EXPECT_EQ(report["sheets"][0]["mean_object_angle"], 1.1);
+  EXPECT_TRUE(report["sheets"][0]["significance"].is_null());
+  EXPECT_TRUE(report["sheets"][0]["rank"].is_null());
+  EXPECT_EQ(report["sheets"][1]["rank"], 1);
+  EXPECT_EQ(report["sheets"][1]["significance"], 0.25);
+  EXPECT_EQ(report["grouping"]["fragments"]["sheets"], 3);
+  EXPECT_EQ(report["grouping"]["absorbed"]["points"], 17);
+  EXPECT_EQ(report["grouping"]["sheet_angle"], 5.7);
+  EXPECT_TRUE(report["medial_mesh"].is_null());
+
+  record.medial_mesh = MedialTopology{{1, 2, 0}, -1, 20, 3, 4, 5};
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["medial_mesh"]["tunnels"], 2);
+  EXPECT_EQ(report["medial_mesh"]["euler_characteristic"], -1);
+  EXPECT_EQ(report["medial_mesh"]["hosted_points"], 5);
+  EXPECT_TRUE(report["medial_mesh"]["solid"]["euler_characteristic"].is_null());
+  record.euler_characteristic = 0;
+  EXPECT_EQ(json::parse(report_json(record))["medial_mesh"]["solid"]["euler_characteristic"], 0);
+  EXPECT_THAT(cli::summary(record, {}),
+              HasSubstr("1 component, 2 tunnels, 0 cavities, Euler characteristic -1 (of the solid: 0)"));
+}
+
+TEST(ReportJson, UnionAndRemoval) {
+  RunRecord record = some_record();
+  json report = json::parse(report_json(record));
+  EXPECT_TRUE(report["union"].is_null());
+  EXPECT_TRUE(report["removal"].is_null());
+
+  record.mesh.closed = true;
+  record.mesh.signed_volume = 8;
+  record.ball_union = UnionRecord{6, 12, {1, 2, 3}};
+  record.removal = SheetRemoval{{2, 0}, {0.75, 0.5}, {1, 3}};
+  record.keep_volume = 0.5;
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["union"],
+            json({{"volume", 6.0}, {"area", 12.0}, {"components", 1}, {"tunnels", 2}, {"cavities", 3}}));
+  EXPECT_EQ(report["removal"]["removed"], json({2, 0}));
+  EXPECT_EQ(report["removal"]["kept"], json({1, 3}));
+  EXPECT_EQ(report["removal"]["volume_left"], json({0.75, 0.5}));
+  EXPECT_EQ(report["removal"]["keep_topology"], false);
+  EXPECT_TRUE(report["orders"].is_null());
+  record.by_significance = SheetRemoval{{2, 0, 3}, {0.75, 0.5, 0.25}, {1}};
+  record.orders_end_at = 0.2;
+  report = json::parse(report_json(record));
+  EXPECT_EQ(report["orders"]["least_volume"], 0.2);
+  EXPECT_EQ(report["orders"]["significance"],
+            json({{"kept", {1}}, {"removed", {2, 0, 3}}, {"volume_left", {0.75, 0.5, 0.25}}}));
+  EXPECT_TRUE(report["orders"]["topology"].is_null());
+  const std::string text = cli::summary(record, {});
+  EXPECT_THAT(text, HasSubstr("6, 75.00 % of the solid; 1 component, 2 tunnels, 3 cavities"));
+  EXPECT_THAT(text, HasSubstr("2 of 4 sheets, 50.00 % of the volume"));
+}
+
+TEST(ReportJson, CertificateAndCpu) {
+  RunRecord record = some_record();
+  record.backend = Backend::kCpu;
+  record.device.reset();
+  record.parameters.mode = Mode::kThesis;
+  record.certificate.emplace();
+  record.certificate->lines = {{"radius <= exact distance", 249, 1, 1e-9, "longest sides", "ball 17: too big"}};
+  const json report = json::parse(report_json(record));
+  EXPECT_TRUE(report["device"].is_null());
+  EXPECT_EQ(report["parameters"]["backend"], "cpu");
+  EXPECT_EQ(report["parameters"]["samples"], json::array({400, 200, 100, 50}));
+  EXPECT_EQ(report["certificate"]["passed"], false);
+  EXPECT_EQ(report["certificate"]["conditions"][0]["failed"], 1);
+}
+
+TEST(ReportJson, NamesThatAreNoUtf8AreNoError) {
+  RunRecord record = some_record();
+  record.input = "caf\xe9.obj";
+  EXPECT_TRUE(json::accept(report_json(record)));
+}
+
+TEST(ReportTables, ColumnsAreAligned) {
+  const std::string table = cli::format_table({{"name"}, {"count", true}}, {{"a", "1"}, {"longer", "1,000"}});
+  EXPECT_EQ(table,
+            "name    count\n"
+            "a           1\n"
+            "longer  1,000\n");
+}
+
+TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
+  DeviceDescription good, poor;
+  good.name = "Some GPU";
+  good.usable = true;
+  good.memory_bytes = 8ull << 30;
+  poor.index = 1;
+  poor.name = "Old GPU";
+  poor.why_not = "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed";
+  const std::string table = cli::device_table({good, poor});
+  EXPECT_THAT(table, HasSubstr("8.0 GiB"));
+  EXPECT_THAT(table, HasSubstr("yes\n"));
+  EXPECT_THAT(table, HasSubstr("no: its maxPerStageDescriptorStorageBuffers is 4, 16 are needed\n"));
+}
+
+TEST(ReportTables, CertificateNamesTheFirstFailure) {
+  reference::Certificate certificate;
+  certificate.lines = {{"centre inside", 10, 0, 0, "", ""}, {"radius", 10, 2, 0.5, "voxels", "ball 3 at (1, 2, 3)"}};
+  const std::string table = cli::certificate_table(certificate);
+  EXPECT_THAT(table, HasSubstr("condition"));
+  EXPECT_THAT(table, HasSubstr("0.5 voxels"));
+  EXPECT_THAT(table, HasSubstr("first failure: ball 3 at (1, 2, 3)"));
+
+  const Status verdict = cli::verdict(certificate);
+  ASSERT_FALSE(verdict.ok());
+  EXPECT_EQ(static_cast<int>(verdict.error().code), 7);
+  certificate.lines.pop_back();
+  EXPECT_TRUE(cli::verdict(certificate).ok());
+}
+
+TEST(ReportSummary, SaysWhatMatters) {
+  const RunRecord record = some_record();
+  const OutputFile files[] = {{"part.medial.ply", std::string(17000, 0)}, {"a.png", "abc"}, {"-", "ab"}};
+  const std::string text = cli::opening(record) + cli::summary(record, files);
+  for (const char* part : {"part.stl", "12 triangles", "closed", "Two holes were left open.", "Some GPU", "249",
+                           "250 found", "3 undecided", "0.01 to 0.5", "extract 2.00 s", "part.medial.ply (17.0 kB)",
+                           "a.png (3 B)", "standard output (2 B)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(cli::details(record), HasSubstr("dismiss cells"));
+}
+
+}  // namespace
+}  // namespace medial_vk

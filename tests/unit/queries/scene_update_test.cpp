@@ -1,0 +1,154 @@
+// A mesh on the device that follows moving vertices: the same answers as from a mesh that is created anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "base/spiral.h"
+#include "commands/commands.h"
+#include "commands/uploads.h"
+#include "device/context_impl.h"
+#include "device_mesh/device_mesh.h"
+#include "device_mesh/device_tree.h"
+#include "medial_vk/queries.h"
+#include "queries/tree_queries.h"
+#include "support/device/device_test.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+class SceneUpdate : public test::DeviceTest {
+ protected:
+  struct Nearest {
+    Texel point;
+    std::uint32_t triangle, feature;
+    bool operator==(const Nearest&) const = default;
+  };
+
+  /// By `queries`, made for `mesh` before or after it was updated; ties go to the smallest index.
+  std::vector<Nearest> closest(const TreeQueries& queries, const DeviceMesh& mesh, const std::vector<Point>& points) {
+    Context::Impl& context = context_->impl();
+    const auto count = static_cast<std::uint32_t>(points.size());
+    std::vector<Texel> texels;
+    for (const Point& p : points) {
+      const Point u = mesh.to_unit(p);
+      texels.push_back({static_cast<float>(u[0]), static_cast<float>(u[1]), static_cast<float>(u[2]), 3.4e38f});
+    }
+    Arena arena(context);
+    const Buffer asked = arena.create_buffer(count * 16, MemoryKind::kDevice, "a test").value();
+    const Buffer nearest = arena.create_buffer(count * 16, MemoryKind::kDevice, "a test").value();
+    const Buffer hits = arena.create_buffer(count * 4, MemoryKind::kDevice, "a test").value();
+    const Buffer readback = arena.create_buffer(count * 20, MemoryKind::kReadback, "a test").value();
+    EXPECT_TRUE(upload(context, asked, std::as_bytes(std::span<const Texel>(texels))).ok());
+    EXPECT_TRUE(run_commands(context, [&](Recorder& r) {
+                  queries.closest(r, QueryCount::of(count), asked.range(), nearest.range(), hits.range(),
+                                  TreeQueries::Ties::kIndex);
+                  r.copy(nearest, 0, readback, 0, count * 16);
+                  r.copy(hits, 0, readback, count * 16, count * 4);
+                  r.barrier_to_host();
+                  return r.status();
+                }).ok());
+    std::vector<Nearest> out(count);
+    const auto* bytes = static_cast<const std::byte*>(readback.mapped);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::uint32_t hit = 0;
+      std::memcpy(&out[i].point, bytes + 16 * i, 16);
+      std::memcpy(&hit, bytes + 16 * count + 4 * i, 4);
+      out[i].triangle = mesh.order[hit & 0xffffffu];
+      out[i].feature = hit >> 24;
+    }
+    return out;
+  }
+};
+
+std::vector<Point> points_around(const Point& centre) {
+  std::vector<Point> points;
+  for (const double radius : {0.3, 1.0, 2.5}) {
+    for (const Point& d : spiral_points(200)) {
+      points.push_back({centre[0] + radius * d[0], centre[1] + radius * d[1], centre[2] + radius * d[2]});
+    }
+  }
+  return points;
+}
+
+TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
+  Context::Impl& context = context_->impl();
+  const Mesh before = test::make_turned_torus(), after = test::bent(before);
+  for (const bool texels : {true, false}) {
+    SCOPED_TRACE(texels);
+    if (!texels) context.limits.maxTexelBufferElements = 1000;
+    DeviceMesh moved = DeviceMesh::create(context, test::view_of(before)).value();
+    const TreeQueries queries = TreeQueries::create(context, moved, 1024).value();
+    const auto first = closest(queries, moved, points_around({0, 0, 0}));
+    ASSERT_TRUE(moved.update(context, test::view_of(after)).ok());
+
+    const DeviceMesh fresh = DeviceMesh::create(context, test::view_of(after)).value();
+    const TreeQueries fresh_queries = TreeQueries::create(context, fresh, 1024).value();
+    EXPECT_EQ(moved.lower, fresh.lower);
+    EXPECT_EQ(moved.upper, fresh.upper);
+    EXPECT_EQ(moved.longest, fresh.longest);
+    const std::vector<Point> points = points_around({7, 0, 0});
+    EXPECT_TRUE(closest(queries, moved, points) == closest(fresh_queries, fresh, points));
+
+    ASSERT_TRUE(moved.update(context, test::view_of(before)).ok());
+    EXPECT_TRUE(closest(queries, moved, points_around({0, 0, 0})) == first);
+  }
+}
+
+TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
+  Context::Impl& context = context_->impl();
+  const Mesh mesh = test::make_turned_torus();
+  DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  const TreeQueries queries = TreeQueries::create(context, device, 1024).value();
+  const std::vector<Point> points = points_around({0, 0, 0});
+  const auto before = closest(queries, device, points);
+  Mesh wrong = test::bent(mesh);
+  wrong.triangles.pop_back();
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().code, ErrorCode::kInvalidMesh);
+  wrong = test::bent(mesh);
+  wrong.vertices[5][0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
+            "vertex 5 has a coordinate that is not finite");
+  EXPECT_TRUE(closest(queries, device, points) == before);
+
+  ASSERT_TRUE(device.add_links(context, test::view_of(mesh)).ok());
+  wrong = test::bent(mesh);
+  wrong.vertices.push_back({0, 0, 0});
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
+            "the mesh has 1801 vertices, the one on the device 1800");
+  ASSERT_TRUE(device.update(context, test::view_of(test::bent(mesh))).ok());
+
+  wrong = mesh;
+  std::fill(wrong.vertices.begin(), wrong.vertices.end(), Point{1, 1, 1});
+  EXPECT_EQ(device.update(context, test::view_of(wrong)).error().message,
+            "the mesh has no extent, or one too large for a double");
+}
+
+// The public call: points that are answered one by one, and thousands that are answered by packets.
+TEST_F(SceneUpdate, ScenesAnswerAsNewOnes) {
+  const Mesh mesh = test::make_turned_torus(), moved = test::bent(mesh);
+  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
+  ASSERT_TRUE(scene.update(test::view_of(moved)).ok());
+  Scene fresh = Scene::create(*context_, test::view_of(moved)).value();
+  for (const std::size_t count : {100u, 6000u}) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = 0.37 * static_cast<double>(i);
+      points.push_back({7 + 2 * std::sin(t), 1.3 * std::cos(1.7 * t), 0.9 * std::sin(2.3 * t)});
+    }
+    const auto updated = scene.closest_points(points), expected = fresh.closest_points(points);
+    ASSERT_TRUE(updated.ok() && expected.ok());
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_NEAR(updated.value()[i].distance, expected.value()[i].distance, 4 * 2e-6 * 7) << i;
+  }
+  Mesh smaller = mesh;
+  smaller.triangles.pop_back();
+  EXPECT_EQ(scene.update(test::view_of(smaller)).error().code, ErrorCode::kInvalidMesh);
+}
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,190 @@
+// Spheres for several geometries: who gets how many, levels of one length, places in the frame of the link.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/point_ops.h"
+#include "medial_vk/prepare.h"
+#include "robots/fit_parts.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::HasSubstr;
+
+class FitParts : public testing::Test {
+ protected:
+  FitParts() {
+    parts_.push_back(box_part("a", "box", {2, 1, 0.7}));
+    parts_.push_back(box_part("a", "small", {0.2, 0.1, 0.07}));
+    Part ball;
+    ball.link = "b";
+    ball.name = "primitive0";
+    ball.pose = make_pose({1, 2, 3}, {0.1, 0.2, 0.3});
+    ball.ball = Ball{{0, 0, 0}, 0.25};
+    parts_.push_back(ball);
+    goals_.request.method = SphereMethod::kSource;
+  }
+
+  static Part box_part(const std::string& link, const std::string& name, const Point& size) {
+    Part part = single_part(link, prepare_mesh(test::make_box(size)).value());
+    part.name = name;
+    part.pose = make_pose({5, 0, 0}, {0.3, 0.2, 0.1});
+    return part;
+  }
+
+  Result<std::vector<PartFit>> fit() const { return fit_parts(parts_, goals_, Backend::kCpu, nullptr); }
+
+  std::vector<Part> parts_;
+  FitGoals goals_;
+};
+
+TEST_F(FitParts, ABallIsItself) {
+  goals_.total = 40;
+  const Result<std::vector<PartFit>> fits = fit();
+  ASSERT_TRUE(fits.ok()) << fits.error().message;
+  const PartFit& ball = fits.value()[2];
+  ASSERT_EQ(ball.levels.back().size(), 1u);
+  EXPECT_EQ(ball.levels.back()[0].centre, (Point{1, 2, 3}));
+  EXPECT_EQ(ball.levels.back()[0].radius, 0.25);
+  EXPECT_EQ(ball.wanted, 1u);
+}
+
+TEST_F(FitParts, TheLargerGetsMore) {
+  goals_.count_per_link = 60;
+  const Result<std::vector<PartFit>> fits = fit();
+  ASSERT_TRUE(fits.ok()) << fits.error().message;
+  EXPECT_EQ(fits.value()[0].wanted + fits.value()[1].wanted, 60u);
+  EXPECT_GT(fits.value()[0].wanted, 5 * fits.value()[1].wanted);
+  EXPECT_NEAR(*fits.value()[0].solid_volume, 1.4, 1e-12);
+  EXPECT_LT(*fits.value()[0].spheres_volume, 1.4);
+}
+
+TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 12;
+  std::vector<PartFit> before;
+  for (const std::size_t total : {3u, 8u, 21u, 22u, 40u}) {
+    goals_.total = total;
+    const std::vector<PartFit> fits = std::move(fit().value());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_GE(fits[i].wanted, before[i].wanted) << total;
+      EXPECT_GE(*fits[i].spheres_volume, *before[i].spheres_volume * (1 - 1e-12)) << total;
+    }
+    before = fits;
+  }
+}
+
+TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
+  Geometry cylinder;
+  cylinder.kind = GeometryKind::kCylinder;
+  cylinder.size = {0.5, 2, 0};
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 12;
+  goals_.request.count = 4;
+  for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
+    goals_.request.contract = contract;
+    const bool cover = contract == SphereContract::kCover;
+    const FacetSide side = cover ? FacetSide::kCircumscribed : FacetSide::kInscribed;
+    Part part = single_part("c", prepare_mesh(make_primitive(cylinder, side)).value());
+    part.volume = primitive_volume(cylinder);
+    parts_ = {part};
+    const PartFit fitted = std::move(fit().value().front());
+    EXPECT_TRUE(fitted.of_shape);
+    EXPECT_EQ(*fitted.solid_volume, primitive_volume(cylinder));
+    const VolumeError& volume = fitted.measures->volume;
+    EXPECT_EQ(volume.standard_error, 0);
+    EXPECT_EQ(volume.solid, primitive_volume(cylinder));
+    EXPECT_EQ(volume.uncovered, cover ? 0 : volume.solid - volume.balls);
+    EXPECT_EQ(volume.outside, cover ? volume.balls - volume.solid : 0);
+    EXPECT_GT(volume.uncovered + volume.outside, 0);
+  }
+}
+
+TEST_F(FitParts, SpheresStandInTheFrameOfTheLink) {
+  goals_.count_per_link = 60;
+  const std::vector<PartFit> fits = fit().value();
+  const Pose& pose = parts_[0].pose;
+  for (const Ball& ball : fits[0].levels.back()) {
+    const Point moved = ball.centre - pose.shift;
+    Point local = {0, 0, 0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t row = 0; row < 3; ++row) local[axis] += pose.rotation[row][axis] * moved[row];
+    }
+    const Point size = {2, 1, 0.7};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(local[axis], ball.radius - 1e-15);
+      EXPECT_LE(local[axis], size[axis] - ball.radius + 1e-15);
+    }
+  }
+}
+
+TEST_F(FitParts, AllPartsHaveAsManyLevels) {
+  goals_.total = 50;
+  goals_.levels = true;
+  const std::vector<PartFit> fits = fit().value();
+  EXPECT_GT(fits[0].levels.size(), 3u);
+  for (const PartFit& part : fits) {
+    EXPECT_EQ(part.levels.size(), fits[0].levels.size());
+    EXPECT_EQ(part.reach.size(), fits[0].levels.size());
+    EXPECT_EQ(part.levels.front().size(), 1u);
+  }
+}
+
+TEST_F(FitParts, FaultsNameLinkAndPart) {
+  goals_.count_per_link = 1;
+  EXPECT_EQ(fit().error().message, "the link \"a\" has 2 geometries, each of which needs a sphere; 1 is too few");
+  goals_.count_per_link = 0;
+  goals_.request.max_gap = 0.1;
+  EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": the method source knows no greatest gap"));
+  EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
+}
+
+TEST_F(FitParts, StopsWhenAsked) {
+  goals_.total = 50;
+  const Result<std::vector<PartFit>> fits =
+      fit_parts(parts_, goals_, Backend::kCpu, nullptr, [](FitStage, const Part&, double) { return false; });
+  ASSERT_FALSE(fits.ok());
+  EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
+}
+
+/// Wherever it is: at every so many-th question.
+TEST_F(FitParts, StopsWhereverItIsAsked) {
+  goals_.request.method = SphereMethod::kBest;
+  goals_.request.resolution = 20;
+  goals_.check = true;
+  const std::vector<Part> one = {parts_[0]};
+  for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover, SphereContract::kBalanced}) {
+    goals_.request.contract = contract;
+    goals_.check = contract != SphereContract::kBalanced;
+    goals_.count_per_link = 6;
+    const auto run = [&](std::size_t most, std::size_t& asked) {
+      asked = 0;
+      return fit_parts(one, goals_, Backend::kCpu, nullptr,
+                       [&](FitStage, const Part&, double) { return asked++ < most; });
+    };
+    std::size_t all = 0, asked = 0;
+    ASSERT_TRUE(run(~std::size_t{0}, all).ok());
+    ASSERT_GT(all, 100u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t most = all / 2 * k / 4;  // how many there are depends on the threads a little
+      const Result<std::vector<PartFit>> fits = run(most, asked);
+      ASSERT_FALSE(fits.ok()) << most << " of " << all;
+      EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
+      EXPECT_LE(asked, most + 16);  // others may have asked meanwhile
+    }
+  }
+}
+
+TEST_F(FitParts, FarFromTheOriginOfTheLinkIsRefused) {
+  goals_.count_per_link = 10;
+  parts_ = {parts_[0]};
+  parts_[0].pose = make_pose({1e6, 0, 0}, {0.3, 0, 0});
+  EXPECT_TRUE(fit().ok());
+  parts_[0].pose = make_pose({1e18, 0, 0}, {0.3, 0, 0});
+  EXPECT_EQ(fit().error().code, ErrorCode::kInvalidMesh);
+  EXPECT_THAT(fit().error().message, HasSubstr("so far from the origin of its link"));
+}
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,254 @@
+// The solids of a robot: primitives as meshes on the right side, poses with their rounding, files that are found.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "base/point_ops.h"
+#include "medial_vk/prepare.h"
+#include "robots/parts.h"
+#include "robots/share_out.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Geometry primitive(GeometryKind kind, const Point& size) {
+  Geometry geometry;
+  geometry.kind = kind;
+  geometry.size = size;
+  return geometry;
+}
+
+/// Distance to the axis segment of a cylinder or capsule minus its radius; of a cylinder beside its lids only.
+double outside_by(const Geometry& geometry, const Point& p) {
+  const double half = geometry.size[1] / 2;
+  const double over = geometry.kind == GeometryKind::kCapsule ? std::max(std::fabs(p[2]) - half, 0.0) : 0.0;
+  return std::sqrt(p[0] * p[0] + p[1] * p[1] + over * over) - geometry.size[0];
+}
+
+class Curved : public testing::TestWithParam<Geometry> {};
+
+TEST_P(Curved, MeshesAreWithinOrAround) {
+  const Geometry geometry = GetParam();
+  for (const FacetSide side : {FacetSide::kInscribed, FacetSide::kCircumscribed}) {
+    Result<PreparedMesh> prepared = prepare_mesh(make_primitive(geometry, side));
+    ASSERT_TRUE(prepared.ok());
+    const MeshReport& report = prepared.value().report;
+    EXPECT_TRUE(report.closed);
+    EXPECT_EQ(report.reoriented_faces, 0u);
+    EXPECT_EQ(report.intersecting_faces, 0u);
+    EXPECT_EQ(report.degenerate_dropped, 0u);
+    const bool inside = side == FacetSide::kInscribed;
+    EXPECT_EQ(inside, report.signed_volume < primitive_volume(geometry));
+    EXPECT_NEAR(report.signed_volume / primitive_volume(geometry), 1, 0.004);
+    const double deepest = facet_share(geometry.kind) * geometry.size[0];
+    for (const Triangle& t : prepared.value().mesh.triangles) {
+      const std::vector<Point>& v = prepared.value().mesh.vertices;
+      const Point middle = 1.0 / 3 * (v[t[0]] + v[t[1]] + v[t[2]]);
+      const bool is_lid =
+          geometry.kind == GeometryKind::kCylinder && v[t[0]][2] == v[t[1]][2] && v[t[1]][2] == v[t[2]][2];
+      for (const Point& p : {v[t[0]], v[t[1]], v[t[2]], middle, 0.5 * (v[t[0]] + v[t[1]]), 0.5 * (v[t[1]] + v[t[2]])}) {
+        if (inside) {
+          EXPECT_LE(outside_by(geometry, p), 0);
+        }
+        if (is_lid) continue;
+        if (inside) {
+          EXPECT_GE(outside_by(geometry, p), -1.001 * deepest);
+        } else {
+          EXPECT_GE(outside_by(geometry, p), -1e-15);
+          EXPECT_LE(outside_by(geometry, p), 1.01 * deepest);
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Primitives, Curved,
+                         testing::Values(primitive(GeometryKind::kCylinder, {0.3, 1, 0}),
+                                         primitive(GeometryKind::kCylinder, {7, 0.01, 0}),
+                                         primitive(GeometryKind::kCapsule, {0.3, 1, 0}),
+                                         primitive(GeometryKind::kCapsule, {0.01, 20, 0})));
+
+TEST(Parts, BoxesAreExact) {
+  const Geometry box = primitive(GeometryKind::kBox, {1, 2, 3});
+  Result<PreparedMesh> prepared = prepare_mesh(make_primitive(box, FacetSide::kInscribed));
+  ASSERT_TRUE(prepared.ok());
+  EXPECT_EQ(prepared.value().report.lower, (Point{-0.5, -1, -1.5}));
+  EXPECT_EQ(prepared.value().report.upper, (Point{0.5, 1, 1.5}));
+  EXPECT_EQ(prepared.value().report.signed_volume, 6);
+  EXPECT_EQ(prepared.value().report.reoriented_faces, 0u);
+  EXPECT_EQ(facet_share(GeometryKind::kBox), 0);
+}
+
+TEST(Parts, PlacingABallAllowsForRounding) {
+  Part part;
+  const Ball ball = {{0.1, 0.2, 0.3}, 0.05};
+  EXPECT_EQ(place(part, ball, -1).radius, 0.05);
+  EXPECT_EQ(place(part, ball, -1).centre, ball.centre);
+  part.pose = make_pose({1, 2, 3}, {0.3, -0.2, 0.7});
+  const Ball inside = place(part, ball, -1), around = place(part, ball, 1);
+  EXPECT_LT(inside.radius, 0.05);
+  EXPECT_GT(around.radius, 0.05);
+  EXPECT_NEAR(inside.radius, 0.05, 1e-14);
+  EXPECT_NEAR(around.radius, 0.05, 1e-14);
+  EXPECT_EQ(place(part, ball, 0).radius, 0.05);
+  EXPECT_EQ(place(part, {{0.1, 0.2, 0.3}, 0}, -1).radius, 0);
+  // The same in extended precision is within what was allowed.
+  const long double cr = std::cos(0.3L), sr = std::sin(0.3L), cp = std::cos(-0.2L), sp = std::sin(-0.2L),
+                    cy = std::cos(0.7L), sy = std::sin(0.7L);
+  const long double x = 0.1, y = 0.2, z = 0.3;
+  const long double y1 = cr * y - sr * z, z1 = sr * y + cr * z;
+  const long double x2 = cp * x + sp * z1, z2 = -sp * x + cp * z1;
+  const long double dx = cy * x2 - sy * y1 + 1 - inside.centre[0], dy = sy * x2 + cy * y1 + 2 - inside.centre[1],
+                    dz = z2 + 3 - inside.centre[2];
+  // The angles of the pose are doubles, those here are not: another 1e-16.
+  EXPECT_LE(static_cast<double>(std::sqrt(dx * dx + dy * dy + dz * dz)), ball.radius - inside.radius + 1e-16);
+}
+
+class RobotFiles : public testing::Test {
+ protected:
+  RobotFiles() {
+    folder_ = fs::temp_directory_path() / ("medial-vk-robot-" + std::to_string(::getpid()));
+    fs::create_directories(folder_ / "arm/urdf");
+    fs::create_directories(folder_ / "arm/meshes");
+    write("arm/meshes/box.obj", test::to_obj(test::make_box({1, 2, 3})));
+  }
+  ~RobotFiles() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string found(const std::string& uri, const std::vector<std::string>& packages = {}) const {
+    const Result<MeshPlaces> places = mesh_places(path("arm/urdf/arm.urdf"), packages);
+    if (!places) return places.error().message;
+    const Result<std::string> file = find_mesh(uri, places.value());
+    return file ? fs::weakly_canonical(file.value()).string() : file.error().message;
+  }
+
+  Result<std::vector<Part>> load(const Geometry& geometry) const {
+    Robot robot;
+    robot.links.push_back({"link", {geometry}, {}});
+    const Result<MeshPlaces> places = mesh_places(path("arm/urdf/arm.urdf"), {});
+    return load_parts(robot, false, FacetSide::kInscribed, places.value(), "arm.urdf");
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(RobotFiles, MeshesAreFoundWhereverTheyMayBe) {
+  const std::string box = fs::weakly_canonical(path("arm/meshes/box.obj")).string();
+  EXPECT_EQ(found("../meshes/box.obj"), box);
+  EXPECT_EQ(found("file://" + box), box);
+  EXPECT_EQ(found(box), box);
+  EXPECT_EQ(found("package://arm/meshes/box.obj"), box);
+  EXPECT_EQ(found("package://other/meshes/box.obj", {"other=" + path("arm")}), box);
+  EXPECT_THAT(found("package://other/meshes/box.obj"), HasSubstr("--package other=FOLDER"));
+  ::setenv("ROS_PACKAGE_PATH", (path("none") + ":" + path("")).c_str(), 1);
+  EXPECT_EQ(found("package://arm/meshes/box.obj"), box);
+  ::unsetenv("ROS_PACKAGE_PATH");
+}
+
+TEST_F(RobotFiles, WhatIsNotFoundIsNamed) {
+  EXPECT_THAT(found("../meshes/none.obj"), HasSubstr("none.obj\" is not there"));
+  EXPECT_THAT(found("package://arm"), HasSubstr("\"package://arm\" is a folder"));
+  EXPECT_THAT(found("package://"), HasSubstr("names no package"));
+  EXPECT_THAT(found("package://../x.obj"), HasSubstr("names no package"));
+  EXPECT_THAT(found("http://host/x.obj"), HasSubstr("neither package:// nor file:///"));
+  EXPECT_THAT(found("x.obj", {"nosign"}), HasSubstr("NAME=FOLDER"));
+}
+
+TEST_F(RobotFiles, ScalesAreApplied) {
+  Geometry geometry;
+  geometry.mesh = "../meshes/box.obj";
+  geometry.scale = {2, -1, 0.5};
+  const Result<std::vector<Part>> parts = load(geometry);
+  ASSERT_TRUE(parts.ok()) << parts.error().message;
+  const Part& part = parts.value().front();
+  EXPECT_EQ(part.name, "../meshes/box.obj");
+  EXPECT_EQ(part.mesh.report.lower, (Point{0, -2, 0}));
+  EXPECT_EQ(part.mesh.report.upper, (Point{2, 0, 1.5}));
+  EXPECT_NEAR(part.mesh.report.signed_volume, 6, 1e-12);
+  EXPECT_FALSE(part.mesh.report.inside_out);
+}
+
+TEST_F(RobotFiles, FaultsNameLinkAndFile) {
+  Geometry geometry;
+  geometry.line = 7;
+  geometry.mesh = "../meshes/none.obj";
+  EXPECT_THAT(load(geometry).error().message, HasSubstr("arm.urdf:7: link \"link\": the mesh"));
+  write("arm/meshes/part.dae", "<COLLADA/>");
+  geometry.mesh = "../meshes/part.dae";
+  EXPECT_THAT(load(geometry).error().message, HasSubstr("COLLADA"));
+  write("arm/meshes/bad.obj", "v 1 2\n");
+  geometry.mesh = "../meshes/bad.obj";
+  EXPECT_THAT(load(geometry).error().message, HasSubstr("bad.obj:1"));
+  geometry.mesh = "../meshes/box.obj";
+  geometry.scale = {1e300, 1e300, 1e300};
+  EXPECT_FALSE(load(geometry).ok());
+  const Result<MeshPlaces> places = mesh_places("a.urdf", {});
+  Robot robot;
+  robot.links.push_back({"link", {}, {}});
+  EXPECT_THAT(load_parts(robot, false, FacetSide::kInscribed, places.value(), "a.urdf").error().message,
+              HasSubstr("no link has a <collision>; try --visual"));
+}
+
+TEST(ShareOut, GivesWhereItCoversMost) {
+  const NeedCurve large = {{8, 4, 2, 1, 0.5}, false}, small = {{0.8, 0.4, 0.2, 0.1, 0.05}, false}, ball = {{}, true};
+  const std::vector<NeedCurve> curves = {small, ball, large};
+  EXPECT_THAT(share_out(curves, 3), ElementsAre(1, 1, 1));
+  EXPECT_THAT(share_out(curves, 4), ElementsAre(1, 1, 2));
+  EXPECT_THAT(share_out(curves, 6), ElementsAre(1, 1, 4));
+  const std::vector<std::size_t> many = share_out(curves, 100);
+  EXPECT_EQ(many[1], 1u);
+  EXPECT_EQ(many[0] + many[2], 99u);
+  EXPECT_GT(many[2], many[0]);
+  EXPECT_GT(many[0], 10u);
+}
+
+TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
+  const NeedCurve late = {{10, 10, 0}, false}, early = {{10, 9, 8}, false};
+  EXPECT_THAT(share_out(std::vector<NeedCurve>{early, late}, 4), ElementsAre(1, 3));
+  const NeedCurve ball = {{}, true};
+  EXPECT_THAT(share_out(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
+  const NeedCurve ends = {{3, 2, 1}, false, true};
+  EXPECT_THAT(share_out(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
+}
+
+TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
+  // Bumpy curves, as they are.
+  std::vector<NeedCurve> curves(4);
+  for (std::size_t part = 0; part < curves.size(); ++part) {
+    double error = 3.0 + 5.0 * static_cast<double>(part);
+    for (std::size_t k = 1; k <= 400; ++k) {
+      curves[part].uncovered.push_back(error);
+      const double share = 0.9 / static_cast<double>(k) * ((k * 7 + part * 3) % 5 == 0 ? 1.9 : 0.4);
+      error *= 1 - share;
+    }
+  }
+  std::vector<std::size_t> before(curves.size(), 0);
+  for (std::size_t total = curves.size(); total < 600; ++total) {
+    const std::vector<std::size_t> counts = share_out(curves, total);
+    std::size_t sum = 0;
+    for (std::size_t part = 0; part < counts.size(); ++part) {
+      EXPECT_GE(counts[part], before[part]) << total;
+      sum += counts[part];
+    }
+    EXPECT_EQ(sum, total);
+    before = counts;
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk
