@@ -60,7 +60,7 @@ class Subject {
     if (!prepared.ok()) give_up(name_ + ": " + prepared.error().message);
     mesh_ = std::move(prepared).value();
     parameters_.resolution = resolution;
-    parameters_.kernel_times = true;
+    parameters_.measurements.kernel_times = true;
     first_ = extract();
   }
 
@@ -76,11 +76,11 @@ class Subject {
     const Result<Extraction> made = extract_medial_spheres(*context_, mesh_.view(), parameters_);
     if (!made.ok()) give_up(name_ + ": " + made.error().message);
     Run run;
-    for (const StageTime& stage : made.value().device_times) {
+    for (const StageTime& stage : made.value().measurements.device_times) {
       run.seconds[kernel_of(stage.stage)] += stage.seconds;
       run.seconds[kAll] += stage.seconds;
     }
-    for (const auto& level : made.value().counters.levels) {
+    for (const auto& level : made.value().measurements.counters.levels) {
       run.distances += static_cast<double>(level.triangle_tests);
     }
     return run;
@@ -89,7 +89,7 @@ class Subject {
   Context* context_;
   std::string name_;
   PreparedMesh mesh_;
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
   Run first_;
   std::vector<Run> runs_;
 };

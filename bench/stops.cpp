@@ -40,7 +40,7 @@ struct Latencies {
 };
 
 /// Seconds of a run, `most` at most.
-double time_run(Context& context, const MeshView& mesh, const ExtractionParameters& parameters, double most) {
+double time_run(Context& context, const MeshView& mesh, const ExtractionOptions& parameters, double most) {
   const Clock::time_point begin = Clock::now();
   const auto seconds = [&] { return Seconds(Clock::now() - begin).count(); };
   const Result<Extraction> ran =
@@ -49,8 +49,7 @@ double time_run(Context& context, const MeshView& mesh, const ExtractionParamete
   return std::min(seconds(), most);
 }
 
-Latencies measure(Context& context, const MeshView& mesh, const ExtractionParameters& parameters, int count,
-                  double most) {
+Latencies measure(Context& context, const MeshView& mesh, const ExtractionOptions& parameters, int count, double most) {
   Latencies out;
   for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, parameters, most);  // the first one compiles
   for (int i = 0; i < count; ++i) {
@@ -81,7 +80,7 @@ Latencies measure(Context& context, const MeshView& mesh, const ExtractionParame
 int main(int argc, char** argv) {
   int count = 50;
   double seconds = 60;
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   std::vector<std::string> meshes;
   CLI::App app("How long an extraction takes to stop");
   app.add_option("--stops", count, "stops for each mesh");

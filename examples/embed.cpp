@@ -14,7 +14,7 @@ int print_medial_spheres(const medial_vk::MeshView& mesh) {
     std::cerr << context.error().message << '\n';
     return static_cast<int>(context.error().code);
   }
-  medial_vk::ExtractionParameters parameters;
+  medial_vk::ExtractionOptions parameters;
   parameters.resolution = 40;  // voxels along the longest side
   const auto extraction = medial_vk::extract_medial_spheres(context.value(), mesh, parameters);
   if (!extraction) {

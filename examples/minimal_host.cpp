@@ -125,7 +125,7 @@ int main() {
   check(vkCreateCommandPool(host.device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
   {
     medial_vk::Context context = take(medial_vk::Context::adopt(host));
-    medial_vk::ExtractionParameters parameters;
+    medial_vk::ExtractionOptions parameters;
     parameters.resolution = 40;
     parameters.memory_budget = 256u << 20;
     auto job = take(medial_vk::ExtractionJob::create(context, mesh, parameters));

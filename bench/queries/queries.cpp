@@ -18,7 +18,7 @@
 #include "device_run.h"
 #include "embree_peer.h"
 #include "input/read_mesh.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "output/version.h"
 #include "query_table.h"
 #include "query_workload.h"
@@ -82,10 +82,10 @@ std::unique_ptr<Subject> make_subject(Context& context, const std::string& name,
   const Workload& w = s->workload;
   const MeshView view{w.mesh.vertices, w.mesh.triangles, {}, true};
   s->scene = std::make_unique<Scene>(value_or_exit(Scene::create(context, view)));
-  s->device = value_or_exit(DeviceRun::create(context.impl(), view, w.spheres, kGroup, w.shuffled));
+  s->device = value_or_exit(DeviceRun::create(Internals::of(context), view, w.spheres, kGroup, w.shuffled));
   for (const std::size_t count : kFew) {
     const std::vector<Point> points = scattered_points(w, count);
-    s->few.push_back(value_or_exit(DeviceRun::create(context.impl(), view, points, 1, points)));
+    s->few.push_back(value_or_exit(DeviceRun::create(Internals::of(context), view, points, 1, points)));
   }
   if (!EmbreePeer::version().empty()) s->peer = std::make_unique<EmbreePeer>(w.mesh, threads);
   s->float_spheres = to_float(w.spheres);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/spiral.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk::bench {

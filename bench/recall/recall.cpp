@@ -155,7 +155,7 @@ Status measure(const Subject& subject, const Options& options, Context* context,
          resolutions_for(subject, thesis ? options.thesis_resolutions : options.resolutions)) {
       for (const double angle : options.angles) {
         const auto start = std::chrono::steady_clock::now();
-        ExtractionParameters parameters;
+        ExtractionOptions parameters;
         parameters.mode = thesis ? Mode::kThesis : Mode::kCertified;
         parameters.resolution = resolution;
         parameters.object_angle = angle;

@@ -37,12 +37,12 @@ void remember(std::vector<MedialSample>& first, const MedialSample& sample) {
   if (first.size() < kMostNamed) first.push_back(sample);
 }
 
-RecallRow describe(const ExtractionParameters& parameters, const Extraction& extraction) {
+RecallRow describe(const ExtractionOptions& parameters, const Extraction& extraction) {
   RecallRow row;
   row.mode = parameters.mode;
   row.resolution = parameters.resolution;
   row.angle = parameters.object_angle;
-  const ExtractionCounters& c = extraction.counters;
+  const ExtractionCounters& c = extraction.measurements.counters;
   row.points = c.found;
   row.undecided = c.undecided;
   row.visited = c.found + c.undecided + c.proved_empty;
@@ -67,7 +67,7 @@ Tally RecallRow::of(RadiusClass radius) const {
 }
 
 RecallRow count_recall(const std::string& mesh, const std::vector<MedialSample>& samples,
-                       const ExtractionParameters& parameters, const Extraction& extraction) {
+                       const ExtractionOptions& parameters, const Extraction& extraction) {
   RecallRow row = describe(parameters, extraction);
   row.mesh = mesh;
   std::set<Voxel> found, undecided;

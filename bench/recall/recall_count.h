@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/extract.h"
+#include "medial_vk/certify.h"
 #include "support/medial_sampler.h"
 
 namespace medial_vk::bench {
@@ -53,6 +53,6 @@ struct RecallRow {
 
 /// Fills in everything that follows from samples and extraction.
 RecallRow count_recall(const std::string& mesh, const std::vector<test::MedialSample>& samples,
-                       const ExtractionParameters& parameters, const Extraction& extraction);
+                       const ExtractionOptions& parameters, const Extraction& extraction);
 
 }  // namespace medial_vk::bench

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk::bench {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ball_files.h"
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 #include "medial_vk/ball_union.h"
 

@@ -139,8 +139,8 @@ class Renderer {
     return host;
   }
 
-  static medial_vk::ExtractionParameters parameters() {
-    medial_vk::ExtractionParameters p;
+  static medial_vk::ExtractionOptions parameters() {
+    medial_vk::ExtractionOptions p;
     p.resolution = kResolution;
     return p;
   }

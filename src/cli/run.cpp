@@ -6,16 +6,15 @@
 #include <cstddef>
 #include <new>
 #include <optional>
+#include <stop_token>
+#include <string_view>
 #include <utility>
 
-#include "analysis/extract.h"
-#include "analysis/simplify.h"
-#include "base/host_threads.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/extract/device_opening.h"
 #include "cli/extract/load.h"
 #include "cli/extract/summary.h"
-#include "cli/extract/volumes.h"
 #include "cli/options/options.h"
 #include "cli/spheres/run_spheres.h"
 #include "cli/terminal/interrupt.h"
@@ -25,9 +24,12 @@
 #include "cli/terminal/tables.h"
 #include "judge/check_sheets.h"
 #include "judge/reference_bridge.h"
-#include "medial_mesh/medial_mesh.h"
-#include "mesh/inspect_mesh.h"
+#include "judge/reference_extractor.h"
+#include "medial_vk/analysis.h"
+#include "output/charts/ball_volumes.h"
+#include "output/charts/volume_curve.h"
 #include "output/files/atomic_file.h"
+#include "output/files/file_extension.h"
 #include "output/formats/encode_medial_mesh.h"
 #include "output/formats/encode_points.h"
 #include "output/page.h"
@@ -54,19 +56,32 @@ constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(
 constexpr bool kIsSanitized = false;
 #endif
 
-/// One run: the straight line from the mesh to the files, and what its steps share.
+AnalysisOptions analysis_options(const Options& options) {
+  AnalysisOptions out;
+  out.extraction = options.parameters;
+  out.sheets = options.sheets;
+  out.simplify = options.simplify;
+  out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
+  out.keep_volume = options.keep_volume;
+  out.keep_topology = options.keep_topology;
+  out.removal_orders = !options.sheet_curve.empty();
+  out.medial_mesh = !options.medial_mesh.empty();
+  out.threads = options.threads;
+  return out;
+}
+
+/// One run: parse has been done; load, analyse, encode, write.
 class ExtractionRun {
  public:
   explicit ExtractionRun(const Options& options) : options_(options), progress_(!options.quiet) {}
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
-    if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the mesh is read
+    if (options_.backend != Backend::kCpu) opening_.start(options_.device, options_.threads);  // while the mesh is read
     if (Status status = load(); !status) return status;
-    if (Status status = index(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.host_times); !status) return status;
     if (!options_.quiet) print_message(opening(record_));
-    if (Status status = extract(); !status) return status;
+    if (Status status = analyse_mesh(); !status) return status;
     if (Status status = make_files(); !status) return status;
     progress_.clear();
     if (interrupted()) return stopped();
@@ -91,10 +106,9 @@ class ExtractionRun {
 
   Status load() {
     progress_.update("read", 0);
-    Result<PreparedMesh> mesh = load_mesh(options_, record_.host_times);
+    Result<PreparedMesh> mesh = load_mesh(options_, opening_, record_.host_times);
     progress_.clear();
     if (!mesh) return mesh.error();
-    mesh_ = std::move(mesh).value();
     record_.input = options_.mesh;
     record_.output = options_.output;
     record_.parameters = options_.parameters;
@@ -102,125 +116,117 @@ class ExtractionRun {
     record_.seed = options_.seed;
     record_.perturb = options_.perturb;
     record_.simplify = options_.simplify;
-    record_.mesh = mesh_.report;
-    record_.longest_side = longest_side(mesh_.report);
-    return {};
+    record_.mesh = mesh.value().report;
+    return index(std::move(mesh).value());
   }
 
-  Status index() {
-    if (!uses_index(options_.parameters, options_.backend)) return {};
+  Status index(PreparedMesh mesh) {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
     Stopwatch stopwatch;
-    Result<MeshIndex> made = MeshIndex::create(mesh_.view(), host_threads(options_.threads));
+    const unsigned threads = opening_.threads_beside(mesh.mesh.triangles.size(), options_.threads);
+    Result<IndexedMesh> made = IndexedMesh::create(std::move(mesh), threads);
     if (!made) return with_hint(made.error());
-    index_.emplace(std::move(made).value());
-    record_.host_times.push_back({"index", stopwatch.lap()});
+    mesh_.emplace(std::move(made).value());
+    record_.longest_side = mesh_->longest_side();
+    index_seconds_ = stopwatch.lap();
+    if (reports_index()) record_.host_times.push_back({"index", index_seconds_});
     return {};
   }
 
-  Status extract() {
-    const StageProgress on_progress = [this](const char* stage, double done) {
+  /// Elsewhere only the certificate reads the index, and its time counts as part of the extraction.
+  bool reports_index() const {
+    return options_.backend == Backend::kVulkan && options_.parameters.mode == Mode::kCertified;
+  }
+
+  /// While a device computes, a signal asks for a stop; afterwards it may end the program at once.
+  Status analyse_mesh() {
+    std::optional<EndAtOnce> on_host;
+    std::stop_source stop;
+    const StageProgress on_progress = [&](const char* stage, double done) {
+      const bool searches = std::string_view(stage) == "extract" || std::string_view(stage) == "certify";
+      if (!searches && !on_host) on_host.emplace();
       progress_.update(stage, done);
-      return !interrupted();
+      if (interrupted()) stop.request_stop();
     };
-    Context* const context = context_ ? &*context_ : nullptr;
-    const auto& parameters = options_.parameters;
-    Result<CertifiedExtraction> result =
-        index_
-            ? extract_and_certify(mesh_, *index_, parameters, options_.backend, context, options_.threads, on_progress)
-            : extract_and_certify(mesh_, parameters, options_.backend, context, options_.threads, on_progress);
+    const Extractor extractor = options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*context_);
+    Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
     progress_.clear();
-    if (!result) return result.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(result.error());
-    spheres_ = std::move(result.value().extraction.spheres);
-    record_.grid = result.value().extraction.grid;
-    record_.counters = std::move(result.value().extraction.counters);
-    record_.undecided = std::move(result.value().extraction.undecided);
-    record_.device_times = std::move(result.value().extraction.device_times);
-    record_.certify = result.value().certify;
-    for (StageTime& time : result.value().host_times) record_.host_times.push_back(std::move(time));
+    if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
+    analysis_ = std::move(made).value();
+    describe();
     return {};
   }
 
-  /// In memory: until they are written a signal may end the program. These steps do not ask for one themselves.
+  void describe() {
+    record_.grid = analysis_.grid;
+    record_.counters = std::move(analysis_.measurements.counters);
+    record_.undecided = std::move(analysis_.undecided);
+    record_.device_times = std::move(analysis_.measurements.device_times);
+    record_.certify = analysis_.certificate;
+    record_.simplified = analysis_.simplified;
+    record_.points = analysis_.spheres.size();
+    record_.radii = range_of_radii(analysis_.spheres);
+    record_.object_angles = range_of_object_angles(analysis_.spheres);
+    record_.sheet_parameters = options_.sheets;
+    record_.sheets = std::move(analysis_.sheets);
+    if (analysis_.significance) {
+      const Significance& measured = *analysis_.significance;
+      record_.ball_union = UnionRecord{measured.volume, measured.area, measured.topology};
+    }
+    record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
+    record_.by_significance = std::move(analysis_.by_significance);
+    record_.keeping_topology = std::move(analysis_.keeping_topology);
+    record_.removal = std::move(analysis_.removal);
+    record_.keep_volume = options_.keep_volume;
+    record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
+    for (StageTime& time : analysis_.host_times) {
+      if (time.stage == "extract" && !reports_index()) time.seconds += index_seconds_;
+      if (time.stage != "medial mesh") record_.host_times.push_back(std::move(time));
+    }
+  }
+
+  /// In memory: until they are written a signal may end the program. These steps check for none themselves.
   Status make_files() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
-    simplify();
-    group();
-    if (Status status = weigh(); !status) return status;
+    encode_volumes();
     if (Status status = encode(); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = draw(); !status) return status;
     make_page();
-    if (Status status = connect(); !status) return status;
+    encode_mesh();
     encode_report();
     return {};
   }
 
-  void simplify() {
-    if (options_.simplify) {
-      const double epsilon = options_.parameters.epsilon * record_.grid.voxel_size;
-      record_.simplified = simplify_spheres(epsilon, spheres_);
+  void encode_volumes() {
+    if (!options_.sheet_curve.empty()) {
+      const VolumeCurves curves = {*record_.by_significance, *record_.keeping_topology};
+      const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
+      files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
     }
-    describe_points();
-  }
-
-  void describe_points() {
-    record_.points = spheres_.size();
-    record_.radii = range_of_radii(spheres_);
-    record_.object_angles = range_of_object_angles(spheres_);
-  }
-
-  /// Sheets, for every format that carries them.
-  void group() {
-    Stopwatch stopwatch;
-    record_.sheet_parameters = options_.sheets;
-    record_.sheets = find_sheets(spheres_, record_.grid, options_.parameters, options_.sheets,
-                                 needs_volumes(options_) ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
-    for (std::size_t i = 0; i < spheres_.size(); ++i) spheres_[i].sheet = record_.sheets.of_point[i];
-    record_.host_times.push_back({"sheets", stopwatch.lap()});
-  }
-
-  /// Volumes, and the sheets that are kept.
-  Status weigh() {
-    if (!needs_volumes(options_)) return {};
-    Stopwatch stopwatch;
-    const auto on_progress = [this](const char* stage, double done) {
-      progress_.update(stage, done);
-      return !interrupted();
-    };
-    Status status = measure_volumes(options_, on_progress, spheres_, record_, files_);
-    progress_.clear();
-    if (!status) {
-      return status.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(status.error());
+    if (!options_.ball_volumes.empty()) {
+      files_.push_back({options_.ball_volumes, encode_ball_volumes(*analysis_.significance, analysis_.spheres)});
     }
-    describe_points();
-    record_.host_times.push_back({"volumes", stopwatch.lap()});
-    return {};
   }
 
-  Status connect() {
-    if (options_.medial_mesh.empty()) return {};
-    progress_.update("medial mesh", 0);
-    Stopwatch stopwatch;
-    const double voxel = record_.grid.voxel_size;
-    const Result<MedialMesh> mesh =
-        make_medial_mesh(spheres_, record_.sheets, {voxel, options_.parameters.epsilon * voxel, options_.threads});
-    if (!mesh) return mesh.error();
-    record_.medial_mesh = mesh.value().topology;
-    record_.euler_characteristic = euler_characteristic_of_solid(mesh_);
-    files_.push_back({options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, spheres_, record_.sheets,
-                                                               mesh.value(), options_.ascii)});
-    record_.host_times.push_back({"medial mesh", stopwatch.lap()});
-    return {};
+  /// The report has it last, and the page not at all.
+  void encode_mesh() {
+    if (!analysis_.medial_mesh) return;
+    record_.medial_mesh = analysis_.medial_mesh->topology;
+    record_.euler_characteristic = analysis_.euler_characteristic;
+    files_.push_back(
+        {options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, analysis_.spheres, record_.sheets,
+                                                  *analysis_.medial_mesh, options_.ascii)});
+    record_.host_times.push_back(std::move(analysis_.host_times.back()));
   }
 
   Status encode() {
     header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
     Result<std::string> bytes = encode_points(
         {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
-        header_, spheres_, record_.sheets.marks);
+        header_, analysis_.spheres, record_.sheets.marks);
     if (!bytes) return bytes.error();
     points_file_ = files_.size();
     files_.push_back({options_.output, std::move(bytes).value()});
@@ -234,12 +240,12 @@ class ExtractionRun {
     progress_.update("check", 0);
     Stopwatch stopwatch;
     const bool is_ply = options_.format == MedialFormat::kPly && !options_.mesh_spheres;
-    const std::string ply = is_ply ? std::string() : encode_ply(header_, spheres_, false);
+    const std::string ply = is_ply ? std::string() : encode_ply(header_, analysis_.spheres, false);
     const Result<MedialFile> written = decode_ply(is_ply ? files_[points_file_].bytes : ply, options_.output);
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
     const MedialHeader& header = written.value().header;
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-    record_.certificate = reference::check(to_reference(mesh_), to_reference(grid, written.value().spheres),
+    record_.certificate = reference::check(to_reference(mesh_->prepared()), to_reference(grid, written.value().spheres),
                                            header.epsilon, header.object_angle, header.radius_threshold);
     for (reference::CertificateLine& line : check_sheets(written.value().spheres, !record_.removal)) {
       record_.certificate->lines.push_back(std::move(line));
@@ -255,8 +261,8 @@ class ExtractionRun {
     Stopwatch stopwatch;
     PictureOptions look = options_.look;
     look.least_angle = options_.parameters.object_angle;
-    DrawnPicture drawn =
-        draw_picture(mesh_.mesh, spheres_, record_.grid.voxel_size, look, record_.device ? &*record_.device : nullptr);
+    DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
+                                      record_.device ? &*record_.device : nullptr);
     Result<std::string> png = encode_png(drawn.picture);
     if (!png) return png.error();
     record_.picture_drawn_by = std::move(drawn.drawn_by);
@@ -269,7 +275,8 @@ class ExtractionRun {
     if (options_.html.empty()) return;
     progress_.update("page", 0);
     Stopwatch stopwatch;
-    files_.push_back({options_.html, encode_page(mesh_.mesh, spheres_, record_, options_.look.view.up)});
+    files_.push_back(
+        {options_.html, encode_page(mesh_->prepared().mesh, analysis_.spheres, record_, options_.look.view.up)});
     record_.host_times.push_back({"page", stopwatch.lap()});
   }
 
@@ -305,13 +312,13 @@ class ExtractionRun {
 
   const Options& options_;
   Progress progress_;
-  PreparedMesh mesh_;
-  std::optional<MeshIndex> index_;
+  std::optional<IndexedMesh> mesh_;
   DeviceOpening opening_;
   std::optional<Context> context_;
-  std::vector<MedialSphere> spheres_;
+  Analysis analysis_;
   MedialHeader header_;
   std::vector<OutputFile> files_;
+  double index_seconds_ = 0;
   std::size_t points_file_ = 0;  // its place among them
   RunRecord record_;
 };

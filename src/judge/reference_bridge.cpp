@@ -72,7 +72,7 @@ reference::Mesh to_reference(const PreparedMesh& mesh) {
   return out;
 }
 
-reference::Parameters to_reference(const ExtractionParameters& parameters) {
+reference::Parameters to_reference(const ExtractionOptions& parameters) {
   reference::Parameters out;
   out.certified = parameters.mode == Mode::kCertified;
   out.resolution = static_cast<int>(parameters.resolution);
@@ -81,8 +81,8 @@ reference::Parameters to_reference(const ExtractionParameters& parameters) {
   out.deep_angle = parameters.deep_angle;
   out.epsilon = parameters.epsilon;
   out.extra_levels = static_cast<int>(parameters.extra_levels);
-  out.narrow_features = parameters.narrow_features;
-  for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = static_cast<int>(parameters.samples[i]);
+  out.narrow_features = parameters.thesis.narrow_features;
+  for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = static_cast<int>(parameters.thesis.samples[i]);
   return out;
 }
 
@@ -106,12 +106,12 @@ Extraction from_reference(const reference::Result& result) {
     out.undecided.push_back(from_reference(undecided));
   }
   for (const reference::LevelCount& level : result.levels) {
-    out.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found, 0, 0});
+    out.measurements.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found, 0, 0});
   }
-  out.counters.found = result.found;
-  out.counters.undecided = result.undecided;
-  out.counters.proved_empty = result.proved_empty;
-  out.counters.queries = result.queries;
+  out.measurements.counters.found = result.found;
+  out.measurements.counters.undecided = result.undecided;
+  out.measurements.counters.proved_empty = result.proved_empty;
+  out.measurements.counters.queries = result.queries;
   return out;
 }
 

@@ -9,7 +9,7 @@
 namespace medial_vk {
 
 reference::Mesh to_reference(const PreparedMesh& mesh);
-reference::Parameters to_reference(const ExtractionParameters& parameters);
+reference::Parameters to_reference(const ExtractionOptions& parameters);
 /// Grid and spheres only: what `--check` reads.
 reference::Result to_reference(const VoxelGrid& grid, const std::vector<MedialSphere>& spheres);
 

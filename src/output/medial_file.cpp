@@ -51,7 +51,7 @@ void append_text(std::string& out, const MedialSphere& sphere, char separator) {
 
 }  // namespace
 
-MedialHeader make_header(const VoxelGrid& grid, const ExtractionParameters& parameters, double longest_side) {
+MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& parameters, double longest_side) {
   MedialHeader header;
   header.version = version();
   header.grid_origin = grid.origin;

@@ -10,7 +10,6 @@ namespace medial_vk {
 namespace {
 
 using picture::Panel;
-using picture::Scene;
 
 Picture blank(const PictureOptions& options) {
   Picture out;
@@ -22,7 +21,7 @@ Picture blank(const PictureOptions& options) {
 }
 
 /// Error: kNoDevice, which says why it cannot draw.
-Result<DrawnPicture> draw_on_device(const Scene& scene, const PictureOptions& options,
+Result<DrawnPicture> draw_on_device(const picture::Scene& scene, const PictureOptions& options,
                                     const DeviceDescription& device) {
   Result<picture::DevicePainter> painter = picture::DevicePainter::open(device);
   if (!painter) return painter.error();
@@ -36,7 +35,7 @@ Result<DrawnPicture> draw_on_device(const Scene& scene, const PictureOptions& op
   return DrawnPicture{std::move(out), fmt::format("{}, {} samples per pixel", device.name, samples * samples)};
 }
 
-Picture draw_on_cpu(const Scene& scene, const PictureOptions& options) {
+Picture draw_on_cpu(const picture::Scene& scene, const PictureOptions& options) {
   Picture out = blank(options);
   for (const Panel& panel : picture::panels_of(options.show, out.width)) {
     draw_panel(scene, panel, options.view, out);
@@ -54,7 +53,7 @@ Picture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, do
 
 DrawnPicture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                           const PictureOptions& options, const DeviceDescription* device) {
-  const Scene scene = picture::make_scene(mesh, spheres, voxel_size, options);
+  const picture::Scene scene = picture::make_scene(mesh, spheres, voxel_size, options);
   if (device == nullptr) return {draw_on_cpu(scene, options), "the CPU"};
   Result<DrawnPicture> drawn = draw_on_device(scene, options, *device);
   if (drawn) return std::move(drawn).value();

@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "base/point_ops.h"
 #include "base/stopwatch.h"
-#include "cpu_reference/sphere_certificate.h"
 #include "input/text_scanner.h"
-#include "judge/reference_bridge.h"
-#include "medial_vk/ball_union.h"
 #include "robots/share_out.h"
-#include "spheres/methods/approximate.h"
-#include "spheres/methods/prefixes.h"
 
 namespace medial_vk {
 namespace {
@@ -43,9 +37,15 @@ double enclosed_with_middle(const PreparedMesh& mesh) {
 
 class Fitting {
  public:
-  Fitting(std::span<const Part> parts, const FitGoals& goals, Backend backend, Context* context,
-          const FitProgress& progress)
-      : parts_(parts), goals_(goals), backend_(backend), context_(context), progress_(progress), fits_(parts.size()) {}
+  Fitting(std::span<const Part> parts, const FitGoals& goals, const Extractor& extractor, const FitProgress& progress,
+          const std::stop_token& stop)
+      : parts_(parts),
+        goals_(goals),
+        extractor_(extractor),
+        progress_(progress),
+        stop_(stop),
+        indexed_(parts.size()),
+        fits_(parts.size()) {}
 
   Result<std::vector<PartFit>> run() {
     const std::vector<Group> groups = make_groups();
@@ -72,7 +72,7 @@ class Fitting {
       const auto [group, is_new] = of_link.emplace(key, groups.size());
       if (is_new) {
         groups.emplace_back();
-        groups.back().balls = goals_.total > 0 ? goals_.total : shares() ? goals_.count_per_link : goals_.request.count;
+        groups.back().balls = goals_.total > 0 ? goals_.total : shares() ? goals_.count_per_link : goals_.options.count;
       }
       groups[group->second].parts.push_back(i);
     }
@@ -131,7 +131,7 @@ class Fitting {
 
   /// The method of the source has no set that another begins with: its curves are continued instead.
   bool is_long_enough(const NeedCurve& curve, std::size_t count) const {
-    return curve.is_ball || curve.ends || goals_.request.method == SphereMethod::kSource ||
+    return curve.is_ball || curve.ends || goals_.options.method == SphereMethod::kSource ||
            curve.uncovered.size() >= curve_length(count);
   }
 
@@ -140,49 +140,35 @@ class Fitting {
     NeedCurve curve;
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
-    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
-    if (!solid) return named(part, solid.error());
-    SphereRequest request = goals_.request;
-    // The volume that is left inside is what is needed; other goals are for the sets that are kept.
-    request.contract = SphereContract::kInside;
-    request.error = request.max_gap = 0;
-    // The method of the source may have no set of so few; one of a few more has the curve, too.
-    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), request, count, false);
-    for (int tries = 0; !sets && sets.error().code == ErrorCode::kUsage && tries < 6; ++tries) {
-      sets = approximate(part, solid.value(), request, count <<= 1, false);
-    }
-    if (!sets) return named(part, sets.error());
+    Result<IndexedMesh> mesh = indexed(number);
+    if (!mesh) return named(part, mesh.error());
+    SphereOptions options = goals_.options;
+    options.count = count;
+    const Result<CoverageCurve> found =
+        measure_coverage_curve(mesh.value(), options, extractor_, reporter(part), stop_);
+    if (!found) return named(part, found.error());
     ++done_;
-    const SphereSet& set = sets.value().back();
-    const Result<std::vector<double>> volumes = volumes_of(set);
-    if (!volumes) return named(part, volumes.error());
-    const double whole =
-        part.volume.value_or(solid.value().has_volume() ? solid.value().volume() : enclosed_with_middle(part.mesh));
-    for (const double volume : volumes.value()) curve.uncovered.push_back(whole - volume);
-    curve.ends = goals_.request.method == SphereMethod::kBest && set.balls.size() < count;
+    const double whole = part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh)));
+    for (const double covered : found.value().covered) curve.uncovered.push_back(whole - covered);
+    curve.ends = found.value().ends;
     return curve;
   }
 
-  /// The method best says what they were; other sets are told by their beginnings.
-  Result<std::vector<double>> volumes_of(const SphereSet& set) const {
-    if (!set.volumes.empty()) return set.volumes;
-    return prefix_volumes(set.balls, goals_.request.threads);
+  /// Made for the curve of a part, and used again for its spheres.
+  Result<IndexedMesh> indexed(std::size_t number) {
+    if (!indexed_[number]) {
+      Result<IndexedMesh> made = IndexedMesh::create(parts_[number].mesh, goals_.options.threads);
+      if (!made) return made;
+      indexed_[number].emplace(std::move(made).value());
+    }
+    return *indexed_[number];
   }
 
-  Result<std::vector<SphereSet>> approximate(const Part& part, const Solid& solid, SphereRequest request,
-                                             std::size_t count, bool levels) {
-    request.count = count;
-    const SphereProgress on_progress = [&](const char*, double done) { return report(part, done); };
-    if (levels) return approximate_in_levels(solid, request, backend_, context_, on_progress);
-    Result<SphereSet> set = approximate_by_spheres(solid, request, backend_, context_, on_progress);
-    if (!set) return set.error();
-    return std::vector<SphereSet>{std::move(set).value()};
-  }
-
-  /// False: stop.
-  bool report(const Part& part, double done) const {
-    const double share = (static_cast<double>(done_) + done) / static_cast<double>(steps_);
-    return !progress_ || progress_(FitStage::kSpheres, part, std::min(1.0, share));
+  StageProgress reporter(const Part& part) const {
+    return [this, &part](const char*, double done) {
+      const double share = (static_cast<double>(done_) + done) / static_cast<double>(steps_);
+      if (progress_) progress_(part, std::min(1.0, share));
+    };
   }
 
   Status fit_part(std::size_t number, std::size_t count) {
@@ -198,114 +184,59 @@ class Fitting {
       return {};
     }
     Stopwatch stopwatch;
-    const Result<Solid> solid = Solid::build(part.mesh, goals_.request.threads);
-    if (!solid) return named(part, solid.error());
-    if (Status status = check_place(part, solid.value()); !status) return named(part, status.error());
-    Result<std::vector<SphereSet>> sets = approximate(part, solid.value(), goals_.request, count, goals_.levels);
-    if (!sets) return named(part, sets.error());
+    if (Status status = check_position(part); !status) return named(part, status.error());
+    Result<IndexedMesh> mesh = indexed(number);
+    if (!mesh) return named(part, mesh.error());
+    SphereOptions options = goals_.options;
+    options.count = count;
+    Result<SphereFit> fitted = fit_spheres(mesh.value(), options, extractor_, reporter(part), stop_);
+    if (!fitted) return named(part, fitted.error());
+    indexed_[number].reset();
     ++done_;
-    if (Status status = measure(part, solid.value(), sets.value(), fit); !status) return named(part, status.error());
-    place_levels(part, sets.value(), fit);
+    take(part, std::move(fitted).value(), fit);
     fit.seconds = stopwatch.lap();
     return {};
   }
 
   /// What radii may lose, or gain, where spheres are moved to the frame of the link. What was measured before is then
   /// still true to the digits that are shown.
-  static Status check_place(const Part& part, const Solid& solid) {
+  static Status check_position(const Part& part) {
     constexpr double kMost = 1e-6;  // of the diagonal
     const MeshReport& report = part.mesh.report;
     double reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       reach = std::max({reach, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
     }
-    if (placement_rounding(part.pose, 2 * reach) <= kMost * solid.diagonal()) return {};
+    if (placement_rounding(part.pose, 2 * reach) <= kMost * length(report.upper - report.lower)) return {};
     return Error{ErrorCode::kInvalidMesh,
                  "it lies so far from the origin of its link that its spheres can hardly be placed there (double "
                  "precision); move it closer"};
   }
 
-  /// In the frame of the part, where what the contract says is proved.
-  Status measure(const Part& part, const Solid& solid, const std::vector<SphereSet>& sets, PartFit& fit) const {
-    const std::vector<Ball>& balls = sets.back().balls;
-    std::mutex mutex;
-    const auto goes_on = [&] {
-      const std::lock_guard lock(mutex);
-      return report(part, 1);
-    };
-    Result<SphereMeasures> measured = measure_spheres(solid, balls, {.threads = {goals_.request.threads, goes_on}});
-    if (!measured) return measured.error();
-    fit.measures = std::move(measured).value();
-    if (Status status = check_promise(*fit.measures); !status) return status;
-    if (solid.has_volume()) fit.solid_volume = solid.volume();
+  void take(const Part& part, SphereFit fitted, PartFit& fit) const {
+    fit.measures = std::move(fitted.measures);
+    fit.solid_volume = fitted.solid_volume;
     // Balanced balls are measured by the facets, which are what they were balanced for.
-    fit.of_shape = goals_.request.contract != SphereContract::kBalanced && part.volume &&
+    fit.of_shape = goals_.options.contract != SphereContract::kBalanced && part.volume &&
                    measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
-    if (goals_.check) {
-      if (progress_ && !progress_(FitStage::kCheck, part, 1)) return Error{ErrorCode::kInterrupted, "interrupted"};
-      fit.certificate = check_by_reference(solid.mesh(), balls);
-    }
-    for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
-    return {};
+    fit.reach = std::move(fitted.reach);
+    place_levels(part, fitted.levels, fit);
+    fit.proved = std::move(fitted.levels.back());
   }
 
-  /// Better no spheres than some that do not keep what they promise.
-  Status check_promise(const SphereMeasures& measures) const {
-    const InsideProof& inside = measures.inside;
-    if (goals_.request.contract == SphereContract::kInside && !inside.proved()) {
-      return Error{ErrorCode::kInternal,
-                   fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}; nothing was written",
-                               inside.failed, inside.tested, inside.worst)};
-    }
-    if (goals_.request.contract == SphereContract::kCover && !measures.cover.surface_proved()) {
-      return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid; nothing was written"};
-    }
-    return {};
-  }
-
-  reference::Certificate check_by_reference(const PreparedMesh& mesh, const std::vector<Ball>& balls) const {
-    std::vector<reference::UnionBall> copies;
-    copies.reserve(balls.size());
-    for (const Ball& ball : balls) {
-      copies.push_back({{ball.centre[0], ball.centre[1], ball.centre[2]}, ball.radius});
-    }
-    const bool cover = goals_.request.contract == SphereContract::kCover;
-    return cover ? reference::check_cover(to_reference(mesh), copies)
-                 : reference::check_inside(to_reference(mesh), copies);
-  }
-
-  /// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the
-  /// centre is inside, their sum if it is not. Nothing is outside where the contract says so.
-  ReachOut reach_of(const Solid& solid, const SphereSet& set) const {
-    ReachOut reach;
-    if (goals_.request.contract == SphereContract::kInside || set.balls.empty()) return reach;
-    reach.best = HUGE_VAL;
-    CompensatedSum sum;
-    for (const Ball& ball : set.balls) {
-      const double distance = solid.distance(ball.centre) * (solid.contains(ball.centre) ? -1 : 1);
-      const double out = std::max(0.0, ball.radius + distance + solid.rounding());
-      sum.add(out);
-      reach.best = std::min(reach.best, out);
-      reach.worst = std::max(reach.worst, out);
-    }
-    reach.mean = sum.value() / static_cast<double>(set.balls.size());
-    return reach;
-  }
-
-  void place_levels(const Part& part, const std::vector<SphereSet>& sets, PartFit& fit) const {
-    const SphereContract contract = goals_.request.contract;
+  void place_levels(const Part& part, const std::vector<std::vector<Ball>>& sets, PartFit& fit) const {
+    const SphereContract contract = goals_.options.contract;
     const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
-    for (const SphereSet& set : sets) {
+    for (const std::vector<Ball>& set : sets) {
       std::vector<Ball> placed;
-      for (const Ball& ball : set.balls) placed.push_back(place(part, ball, grow));
+      for (const Ball& ball : set) placed.push_back(place(part, ball, grow));
       fit.levels.push_back(std::move(placed));
     }
   }
 
   Error named(const Part& part, Error error) const {
-    if (parts_.size() == 1 && part.link == part.name) return error;
     if (error.code == ErrorCode::kInterrupted) return error;
     error.message = fmt::format("link {}, {}: {}", quoted(part.link), quoted(part.name), error.message);
     return error;
@@ -324,18 +255,31 @@ class Fitting {
 
   std::span<const Part> parts_;
   const FitGoals& goals_;
-  Backend backend_;
-  Context* context_;
+  const Extractor& extractor_;
   const FitProgress& progress_;
+  const std::stop_token& stop_;
+  std::vector<std::optional<IndexedMesh>> indexed_;  // by part, while it is needed
   std::vector<PartFit> fits_;
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };
 
 }  // namespace
 
-Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, Backend backend,
-                                       Context* context, const FitProgress& progress) {
-  return Fitting(parts, goals, backend, context, progress).run();
+PartFit as_part_fit(SphereFit fit, std::size_t wanted) {
+  PartFit out;
+  out.proved = fit.levels.back();
+  out.levels = std::move(fit.levels);
+  out.reach = std::move(fit.reach);
+  out.wanted = wanted;
+  out.solid_volume = fit.solid_volume;
+  out.spheres_volume = fit.measures.volume.balls;
+  out.measures = std::move(fit.measures);
+  return out;
+}
+
+Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, const Extractor& extractor,
+                                       const FitProgress& progress, const std::stop_token& stop) {
+  return Fitting(parts, goals, extractor, progress, stop).run();
 }
 
 }  // namespace medial_vk

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 

@@ -90,7 +90,7 @@ TEST_P(ExactPrism, EveryCrossedVoxelHasAPointOnTheMedialSurface) {
   const Matrix3d to_world = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 32;
   parameters.object_angle = kObjectAngle;
   const PreparedMesh mesh = test::prepare(prism.mesh);
@@ -111,7 +111,7 @@ TEST(ExactBox, ObjectAnglesAreThoseOfItsFaces) {
   Mesh solid = test::make_box({1, 0.7, 0.5});
   test::rotate(solid, {0.2, 0.9, 0.4}, 1.1);
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 24;
   const PreparedMesh mesh = test::prepare(solid);
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);

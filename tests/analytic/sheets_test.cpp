@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "medial_mesh/medial_mesh.h"
-#include "sheets/sheets.h"
+#include "medial_vk/medial_mesh.h"
+#include "medial_vk/sheets.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
@@ -127,7 +127,7 @@ std::string name_of(const KnownSolid& solid, const MedialSphere& s, const Matrix
 }
 
 MedialTopology topology_of_mesh(const Extraction& extraction, const Sheets& sheets,
-                                const ExtractionParameters& parameters) {
+                                const ExtractionOptions& parameters) {
   const double voxel = extraction.grid.voxel_size;
   return make_medial_mesh(extraction.spheres, sheets, {voxel, parameters.epsilon * voxel, 0}).value().topology;
 }
@@ -143,10 +143,10 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
   test::rotate(solid.mesh, {axis.x(), axis.y(), axis.z()}, angle);
   const Matrix3d to_body = Eigen::AngleAxisd(-angle, axis.normalized()).toRotationMatrix();
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid.mesh), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
 
   std::vector<std::map<std::string, std::uint64_t>> names(sheets.sheets.size());
   for (std::size_t i = 0; i < extraction.spheres.size(); ++i) {
@@ -176,10 +176,10 @@ TEST(KnownAreas, OfABox) {
   Mesh solid = test::make_box({1, 0.75, 0.5});
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
   double area = 0, exact = (1 - 0.5) * (0.75 - 0.5);
   for (const Sheet& sheet : sheets.sheets) area += sheet.area;
   for (const double edge : {1.0, 0.75, 0.5}) exact += 4 * (edge - 0.25) * 0.5 / std::sqrt(2.0);
@@ -198,10 +198,10 @@ TEST(KnownSheetsOfATorus, OneRing) {
   Mesh solid = test::make_torus(1, 0.4, 40, 80, 0.5);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
   ASSERT_EQ(sheets.sheets.size(), 1u);
   const MedialTopology topology = topology_of_mesh(extraction, sheets, parameters);
   EXPECT_EQ(topology.betti, (BettiNumbers{1, 1, 0}));

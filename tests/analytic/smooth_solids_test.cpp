@@ -23,7 +23,7 @@ constexpr double kObjectAngle = 0.6;
 
 struct TurnedSolid {
   PreparedMesh mesh;
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   CertifiedExtraction result;
   double epsilon = 0;
   Matrix3d to_world = Matrix3d::Identity();
@@ -124,7 +124,7 @@ TEST(SmoothCapsule, PointsFormAChainAlongItsAxis) {
   }
   const auto missed = std::count_if(crossed.begin(), crossed.end(), [&](const auto& v) { return !found.contains(v); });
   ASSERT_GT(crossed.size(), 15u);
-  EXPECT_LE(static_cast<std::uint64_t>(missed), r.result.extraction.counters.undecided);
+  EXPECT_LE(static_cast<std::uint64_t>(missed), r.result.extraction.measurements.counters.undecided);
   EXPECT_LE(static_cast<std::size_t>(missed), crossed.size() / 10) << "of " << crossed.size();
 }
 

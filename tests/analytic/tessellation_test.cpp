@@ -57,7 +57,7 @@ class OnDevice : public testing::Test {
   void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
 
   static CertifiedExtraction extract(const PreparedMesh& mesh, double object_angle) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = kResolution;
     parameters.object_angle = object_angle;
     return test::extract_on_device(*context_, mesh, parameters);
@@ -129,7 +129,7 @@ struct Expectation {
 };
 
 Verdict judge_outputs(const Expectation& expected, const Extraction& extraction) {
-  const double voxel = extraction.grid.voxel_size, epsilon = ExtractionParameters{}.epsilon * voxel;
+  const double voxel = extraction.grid.voxel_size, epsilon = ExtractionOptions{}.epsilon * voxel;
   const std::vector<Vector3d> centres = centres_in_body(extraction);
   Verdict verdict;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -291,7 +291,7 @@ TEST_F(OnDevice, FindsNearlyEveryVoxelThatTheCircleOfATorusCrosses) {
   const CertifiedExtraction result = extract(test::prepare(turned(mesh)), 0.6);
   SCOPED_TRACE(test::describe(result));
   const VoxelGrid& grid = result.extraction.grid;
-  const double deep = 8.0 / 3 * test::deviation(*solid, mesh) / grid.voxel_size + ExtractionParameters{}.epsilon;
+  const double deep = 8.0 / 3 * test::deviation(*solid, mesh) / grid.voxel_size + ExtractionOptions{}.epsilon;
   const Voxels found = voxels_with_a_point(result.extraction);
   const auto crossed = crossed_voxels(*solid, grid);
   std::size_t hit = 0;

@@ -152,7 +152,7 @@ TEST(UnionByCgal, OfCosphericalCentres) {
 }
 
 std::vector<Ball> medial_balls(Mesh mesh, double resolution) {
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = static_cast<decltype(parameters.resolution)>(resolution);
   const reference::Result result = test::extract_with_reference(test::prepare(std::move(mesh)), parameters);
   std::vector<Ball> balls;

@@ -50,7 +50,7 @@ std::int64_t resident_bytes() {
 /// Opens a device, makes a program and a buffer, fills the buffer on the device.
 void use_a_context() {
   Context context = make_context();
-  Context::Impl& impl = context.impl();
+  Context::Impl& impl = Internals::of(context);
   const auto program = impl.program({"prepare_resolve", 1, 0, 0, 1, {}});
   ASSERT_TRUE(program.ok()) << program.error().message;
   Arena arena(impl);
@@ -87,7 +87,7 @@ TEST_F(Contexts, LiveSideBySide) {
   std::vector<Context> contexts;
   for (int i = 0; i < 32; ++i) contexts.push_back(make_context());
   for (Context& context : contexts) {
-    Arena arena(context.impl());
+    Arena arena(Internals::of(context));
     EXPECT_TRUE(arena.create_buffer(4096, MemoryKind::kDevice, "a test").ok());
   }
 }

@@ -49,7 +49,7 @@ class RecordingHost {
   }
 
  private:
-  Context::Impl& impl() { return owner_.impl(); }
+  Context::Impl& impl() { return Internals::of(owner_); }
   static void require(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("a call of Vulkan failed");
   }

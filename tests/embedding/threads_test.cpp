@@ -13,7 +13,7 @@
 
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "recording_host.h"
 #include "support/device/device.h"
 
@@ -50,8 +50,8 @@ Context make_context() {
   return std::move(context).value();
 }
 
-ExtractionParameters small_job() {
-  ExtractionParameters parameters;
+ExtractionOptions small_job() {
+  ExtractionOptions parameters;
   parameters.resolution = 8;
   parameters.extra_levels = 1;
   parameters.memory_budget = 32u << 20;

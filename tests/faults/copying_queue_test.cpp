@@ -30,12 +30,12 @@ class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQu
     {
       Result<Context> plain = open();
       ASSERT_TRUE(plain.ok()) << plain.error().message;
-      EXPECT_EQ(plain.value().impl().transfer_queue, VkQueue{VK_NULL_HANDLE});
+      EXPECT_EQ(Internals::of(plain.value()).transfer_queue, VkQueue{VK_NULL_HANDLE});
       expected = job(plain.value()).value();
     }
     Result<Context> discrete = open_discrete();
     ASSERT_TRUE(discrete.ok()) << discrete.error().message;
-    EXPECT_EQ(discrete.value().impl().transfer_queue, TwoQueues::copying_queue());
+    EXPECT_EQ(Internals::of(discrete.value()).transfer_queue, TwoQueues::copying_queue());
     const Answer answer = job(discrete.value());
     ASSERT_TRUE(answer.ok()) << answer.error().message;
     EXPECT_TRUE(answer.value() == expected);
@@ -67,7 +67,7 @@ TEST_P(CopyingQueue, ExtractsAlike) {
 // Points of one chunk go down while the next is computed, into the same buffer in the end.
 TEST_P(CopyingQueue, ExtractsChunkByChunk) {
   const PreparedMesh mesh = small_box();
-  const ExtractionParameters parameters = job_of_many_chunks();
+  const ExtractionOptions parameters = job_of_many_chunks();
   expect_same([&](Context& context) -> Answer {
     std::set<double> seen;
     const auto extraction = extract_medial_spheres(context, mesh.view(), parameters, [&](double done) {
@@ -82,7 +82,7 @@ TEST_P(CopyingQueue, ExtractsChunkByChunk) {
 
 TEST_P(CopyingQueue, AnswersManyBatches) {
   Context context = open_discrete().value();
-  QueryBatches batches(context.impl(), 64, false);
+  QueryBatches batches(Internals::of(context), 64, false);
   for (const std::size_t count : {0u, 1u, 60u, 61u, 120u, 121u, 995u}) {
     std::vector<float> values(count), answers;
     std::iota(values.begin(), values.end(), 1.0f);
@@ -93,7 +93,7 @@ TEST_P(CopyingQueue, AnswersManyBatches) {
 
 TEST_P(CopyingQueue, RefusesBatchesThatDoNotFit) {
   Context context = open_discrete().value();
-  QueryBatches batches(context.impl(), 64, false);
+  QueryBatches batches(Internals::of(context), 64, false);
   std::vector<float> values(200), answers;
   const auto refuses = [&](const std::function<void(QuerySet&)>& change) {
     QuerySet set = echo(values, answers);
@@ -110,7 +110,7 @@ TEST_P(CopyingQueue, RefusesBatchesThatDoNotFit) {
 
 TEST_P(CopyingQueue, StartsOverAfterAQueryThatCannotBeAsked) {
   Context context = open_discrete().value();
-  QueryBatches batches(context.impl(), 64, false);
+  QueryBatches batches(Internals::of(context), 64, false);
   std::vector<float> values(500), answers;
   std::iota(values.begin(), values.end(), 1.0f);
   for (const std::size_t bad : {0u, 60u, 130u, 499u}) {

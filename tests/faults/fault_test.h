@@ -17,7 +17,7 @@
 #include "device/context_impl.h"
 #include "failing_new.h"
 #include "medial_vk/extraction.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
@@ -37,19 +37,19 @@ inline PreparedMesh small_box() {
   return prepare(std::move(mesh));
 }
 
-inline ExtractionParameters small_job(Mode mode) {
-  ExtractionParameters parameters;
+inline ExtractionOptions small_job(Mode mode) {
+  ExtractionOptions parameters;
   parameters.mode = mode;
   parameters.resolution = mode == Mode::kThesis ? 16 : 8;
   parameters.extra_levels = 1;
-  parameters.samples = {60, 50, 40, 10};  // one round of retractions
+  parameters.thesis.samples = {60, 50, 40, 10};  // one round of retractions
   parameters.memory_budget = 48u << 20;
   return parameters;
 }
 
 /// The box is searched piece by piece: points of one come down while the next is computed.
-inline ExtractionParameters job_of_many_chunks() {
-  ExtractionParameters parameters = small_job(Mode::kCertified);
+inline ExtractionOptions job_of_many_chunks() {
+  ExtractionOptions parameters = small_job(Mode::kCertified);
   parameters.resolution = 64;
   parameters.extra_levels = 0;
   parameters.memory_budget = 16u << 20;

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "base/host_memory.h"
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "echo_queries.h"
 #include "failing_new.h"
 #include "fault_test.h"
@@ -55,7 +55,7 @@ TEST_F(HostMemory, RunsOutWhileOpeningADevice) {
   fail_every_allocation("opening a device", [&]() -> Answer {
     Result<Context> context = open();
     if (!context.ok()) return context.error();
-    Context::Impl& impl = context.value().impl();
+    Context::Impl& impl = Internals::of(context.value());
     const auto program =
         in_runtime([&] { return catch_out_of_memory("making a program", [&] { return impl.program(key); }); });
     if (!program.ok()) return program.error();
@@ -96,7 +96,7 @@ TEST_F(HostMemory, RunsOutBesideCopies) {
     std::iota(values.begin(), values.end(), 1.0f);
     fail_every_allocation("many batches", [&]() -> Answer {
       std::vector<float> answers(values.size());
-      QueryBatches batches(context.impl(), 64, false);
+      QueryBatches batches(Internals::of(context), 64, false);
       const QuerySet queries = echo(values, answers);
       const Status status =
           in_runtime([&] { return catch_out_of_memory("asking", [&] { return batches.run(queries); }); });

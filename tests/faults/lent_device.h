@@ -51,7 +51,7 @@ class LentDevice {
   }
 
  private:
-  Context::Impl& impl() { return owner_.impl(); }
+  Context::Impl& impl() { return Internals::of(owner_); }
 
   void begin() {
     EXPECT_EQ(impl().vk.vkResetCommandBuffer(commands_, 0), VK_SUCCESS);

@@ -1,4 +1,4 @@
-// ExtractionParameters::memory_budget: what an extraction holds of the device's memory at any time stays below it.
+// ExtractionOptions::memory_budget: what an extraction holds of the device's memory at any time stays below it.
 #include <cstdint>
 
 #include "fault_test.h"
@@ -16,7 +16,7 @@ class MemoryBudget : public FaultTest {
     SCOPED_TRACE(testing::Message() << mebibytes << " MiB, resolution " << resolution);
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.mode = mode;
     parameters.resolution = resolution;
     parameters.memory_budget = mebibytes << 20;

@@ -87,7 +87,7 @@ TEST_F(VulkanFaults, OfOpeningADevice) {
   const auto job = [&]() -> Answer {
     Result<Context> context = open();
     if (!context.ok()) return context.error();
-    if (Status made = context.value().impl().make_programs(keys); !made.ok()) return made.error();
+    if (Status made = Internals::of(context.value()).make_programs(keys); !made.ok()) return made.error();
     return std::string("made");
   };
   for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})
@@ -160,7 +160,7 @@ TEST_P(TwoQueueFaults, OfManyBatches) {
   std::iota(values.begin(), values.end(), 1.0f);
   fail_every_call_of("many batches, two queues", [&](Context& context) -> Answer {
     std::vector<float> answers;
-    QueryBatches batches(context.impl(), 64, false);
+    QueryBatches batches(Internals::of(context), 64, false);
     const Status status = in_runtime([&] { return batches.run(echo(values, answers)); });
     if (!status.ok()) return status.error();
     std::string out;
@@ -172,13 +172,13 @@ TEST_P(TwoQueueFaults, OfManyBatches) {
 // After any failure the same batches answer everything again.
 TEST_P(TwoQueueFaults, OfBatchesThatStartOver) {
   Context context = open().value();
-  QueryBatches batches(context.impl(), 64, false);
+  QueryBatches batches(Internals::of(context), 64, false);
   std::vector<float> values(290), answers;
   std::iota(values.begin(), values.end(), 1.0f);
   std::uint64_t failures = 0;
   for (const Fault fault : kMemoryFaults) {
     for (std::uint64_t k = 1; !HasFailure(); ++k) {
-      batches = QueryBatches(context.impl(), 64, false);
+      batches = QueryBatches(Internals::of(context), 64, false);
       vulkan().fail_call(k, fault);
       const Status status = in_runtime([&] { return batches.run(echo(values, answers)); });
       if (vulkan().stop_failing().empty()) break;
@@ -241,7 +241,7 @@ TEST_F(RecordedJobFaults, OfTakingOverADevice) {
   const auto job = [&]() -> Answer {
     Result<Context> context = in_runtime([&] { return Context::adopt(host_->lend()); });
     if (!context.ok()) return context.error();
-    if (Status made = context.value().impl().make_programs(keys); !made.ok()) return made.error();
+    if (Status made = Internals::of(context.value()).make_programs(keys); !made.ok()) return made.error();
     return std::string("made");
   };
   for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})

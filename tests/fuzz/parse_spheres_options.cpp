@@ -10,7 +10,7 @@
 namespace medial_vk::fuzz {
 namespace {
 
-void require_in_range(const SphereRequest& request) {
+void require_in_range(const SphereOptions& request) {
   require(request.count <= 1'000'000, "--count keeps its range");
   require(request.error >= 0 && request.error < 1, "--error keeps its range");
   require(request.max_gap >= 0 && std::isfinite(request.max_gap), "--max-gap keeps its range");
@@ -20,7 +20,7 @@ void require_in_range(const SphereRequest& request) {
 }
 
 void require_goal(const cli::SpheresOptions& options) {
-  const SphereRequest& request = options.request;
+  const SphereOptions& request = options.request;
   const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
   require(request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
               request.max_gap > 0 || by_resolution,

@@ -202,7 +202,7 @@ TEST_F(BallUnionOnDevice, OfMedialBalls) {
   Mesh torus = test::make_torus(1, 0.3, 60, 30);
   test::rotate(torus, {1, 2, 3}, 0.7);
   for (const Mesh& solid : {test::make_box({1, 0.8, 0.5}), torus, test::make_l_shape(2, 0.5, 1)}) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = 40;
     const Extraction found = test::extract_on_device(*context_, test::prepare(solid), parameters).extraction;
     std::vector<Ball> balls;

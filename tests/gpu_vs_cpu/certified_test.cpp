@@ -49,7 +49,7 @@ struct Missing {
 
 // A point may stand for a medial point within epsilon of it (Lemma 2.3), which may lie in the next voxel or have an
 // angle below the threshold. The others are firm.
-Missing missing_from(const Extraction& there, const Extraction& here, const ExtractionParameters& parameters) {
+Missing missing_from(const Extraction& there, const Extraction& here, const ExtractionOptions& parameters) {
   const test::SphereByVoxel found = test::spheres_by_voxel(there);
   Missing missing;
   for (const auto& [voxel, index] : test::spheres_by_voxel(here)) {
@@ -73,7 +73,7 @@ void expect_explained(const Missing& missing, std::uint64_t undecided, std::size
 
 // Sums over levels that a lost or doubled cell would break.
 void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_levels, bool closed) {
-  const ExtractionCounters& c = result.extraction.counters;
+  const ExtractionCounters& c = result.extraction.measurements.counters;
   ASSERT_GT(c.levels.size(), extra_levels);
   const std::size_t finest = c.levels.size() - 1 - extra_levels;
   std::uint64_t found = 0;
@@ -118,7 +118,7 @@ class CertifiedOnDevice : public testing::TestWithParam<Solid> {};
 
 CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t resolution) {
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = resolution;
   Context context = test::make_context();
   CertifiedExtraction device = test::extract_on_device(context, mesh, parameters);
@@ -134,8 +134,8 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   const std::size_t points = reference.spheres.size();
   {
     SCOPED_TRACE("found by the reference only");
-    expect_explained(missing_from(device.extraction, reference, parameters), device.extraction.counters.undecided,
-                     points);
+    expect_explained(missing_from(device.extraction, reference, parameters),
+                     device.extraction.measurements.counters.undecided, points);
   }
   {
     SCOPED_TRACE("found by the device only");
@@ -163,8 +163,8 @@ INSTANTIATE_TEST_SUITE_P(Solids, CertifiedOnDevice, testing::ValuesIn(kSolids),
 TEST(CertifiedClusters, AgreesWithTheReferenceWhereListsHoldClusters) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const CertifiedExtraction result = expect_agreement(test::make_torus(1.0, 0.4, 80, 160, 0.5), 65);
-  EXPECT_GT(result.extraction.counters.levels[0].cluster_tests, 0u);
-  EXPECT_GT(result.extraction.counters.levels[1].triangle_tests, 0u);
+  EXPECT_GT(result.extraction.measurements.counters.levels[0].cluster_tests, 0u);
+  EXPECT_GT(result.extraction.measurements.counters.levels[1].triangle_tests, 0u);
 }
 
 // The middle sheet of this box lies in faces of voxels; the others run along diagonals, and touch the voxels beside
@@ -179,7 +179,7 @@ TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
     std::size_t levels;  // below the finest that are visited, at most
   };
   for (const Case& c : {Case{0.15, 0, 1}, Case{0.3, 0, 1}, Case{0.6, 0, 1}, Case{1.0, 0.05, 2}}) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = 32;
     parameters.object_angle = c.angle;
     parameters.radius = c.radius;
@@ -188,7 +188,7 @@ TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
     SCOPED_TRACE(test::describe(device));
     EXPECT_EQ(missing_from(reference, device.extraction, parameters).firm, 0u);
     EXPECT_EQ(missing_from(device.extraction, reference, parameters).firm, 0u);
-    const ExtractionCounters& counters = device.extraction.counters;
+    const ExtractionCounters& counters = device.extraction.measurements.counters;
     EXPECT_EQ(counters.undecided, 0u);
     EXPECT_EQ(counters.found, reference.spheres.size());
     const std::size_t finest = counters.levels.size() - 1 - parameters.extra_levels;
@@ -228,7 +228,7 @@ TEST(CertifiedOpen, CrossingBoxesAgreeWithTheReference) {
 void expect_points_inside(Mesh open, std::uint32_t resolution) {
   const PreparedMesh mesh = test::prepare(std::move(open));
   ASSERT_FALSE(mesh.report.closed);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = resolution;
   Context context = test::make_context();
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
@@ -267,7 +267,7 @@ TEST(CertifiedRadius, DeepPointsPassTheCertificate) {
   Mesh solid = test::make_l_shape(1, 0.35, 0.4);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 24;
   parameters.object_angle = 1.2;  // above the bisectors of right angles: those come in by their radius only
   Context context = test::make_context();

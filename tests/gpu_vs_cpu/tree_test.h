@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cpu_reference/queries.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "support/device/device_test.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"

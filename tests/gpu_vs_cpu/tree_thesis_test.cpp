@@ -44,19 +44,19 @@ std::vector<Solid> solids() {
   return all;
 }
 
-ExtractionParameters thesis_parameters() {
-  ExtractionParameters parameters;
+ExtractionOptions thesis_parameters() {
+  ExtractionOptions parameters;
   parameters.mode = Mode::kThesis;
   parameters.resolution = kResolution;
   return parameters;
 }
 
-reference::Result extract_with_reference(const Mesh& mesh, const ExtractionParameters& parameters) {
+reference::Result extract_with_reference(const Mesh& mesh, const ExtractionOptions& parameters) {
   reference::Parameters p;
   p.certified = false;
   p.resolution = static_cast<int>(parameters.resolution);
   p.radius = parameters.radius;
-  p.narrow_features = parameters.narrow_features;
+  p.thesis.narrow_features = parameters.thesis.narrow_features;
   return reference::extract(test::to_reference(mesh), p);
 }
 
@@ -86,7 +86,7 @@ void expect_same_levels(const Extraction& device, const reference::Result& truth
   }
 }
 
-CertifyReport certify(const Solid& solid, const ExtractionParameters& parameters, Extraction& extraction) {
+CertifyReport certify(const Solid& solid, const ExtractionOptions& parameters, Extraction& extraction) {
   const Result<Bvh> bvh = Bvh::build(solid.view());
   const double longest = extraction.grid.voxel_size * parameters.resolution;
   return certify_spheres(bvh.value(), parameters, longest, extraction, 1);
@@ -95,7 +95,7 @@ CertifyReport certify(const Solid& solid, const ExtractionParameters& parameters
 TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
   for (const Solid& solid : solids()) {
     SCOPED_TRACE(solid.name);
-    const ExtractionParameters parameters = thesis_parameters();
+    const ExtractionOptions parameters = thesis_parameters();
     auto device = extract_medial_spheres(*context_, solid.view(), parameters);
     ASSERT_TRUE(device.ok()) << device.error().message;
     Extraction& found = device.value();
@@ -111,8 +111,8 @@ TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
 
 TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
   const Solid solid = solids()[0];
-  ExtractionParameters parameters = thesis_parameters();
-  parameters.narrow_features = false;
+  ExtractionOptions parameters = thesis_parameters();
+  parameters.thesis.narrow_features = false;
   const auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
   const reference::Result truth = extract_with_reference(solid.mesh, parameters);
   expect_same_levels(found, truth);
@@ -123,7 +123,7 @@ TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
 
 TEST_F(TreeThesisTest, RadiusThreshold) {
   const Solid solid = solids()[3];
-  ExtractionParameters parameters = thesis_parameters();
+  ExtractionOptions parameters = thesis_parameters();
   const std::size_t by_angle = extract_medial_spheres(*context_, solid.view(), parameters).value().spheres.size();
   parameters.radius = 0.11;
   auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
@@ -151,7 +151,7 @@ TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
 // A small budget cuts the grid into many chunks; the points are the same.
 TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
   const Solid solid = solids()[2];
-  ExtractionParameters parameters = thesis_parameters();
+  ExtractionOptions parameters = thesis_parameters();
   const auto whole = extract_medial_spheres(*context_, solid.view(), parameters).value();
   parameters.memory_budget = 8u << 20;
   const auto parts = extract_medial_spheres(*context_, solid.view(), parameters).value();
@@ -180,7 +180,7 @@ TEST_F(TreeThesisTest, CanBeInterrupted) {
 
 TEST_F(TreeThesisTest, CoarseGridsHaveFewerLevels) {
   const Solid solid = solids()[0];
-  ExtractionParameters parameters = thesis_parameters();
+  ExtractionOptions parameters = thesis_parameters();
   for (const std::uint32_t resolution : {1u, 2u, 3u, 5u, 9u}) {
     parameters.resolution = resolution;
     auto found = extract_medial_spheres(*context_, solid.view(), parameters);

@@ -81,7 +81,7 @@ TEST(HostAllocator, IsUsedForEverythingAndGetsItBack) {
   VulkanHost vulkan;
   HostDevice host = lend(vulkan);
   host.allocation_callbacks = allocator.callbacks();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 20;
   parameters.memory_budget = 256u << 20;
   {

@@ -23,8 +23,8 @@ namespace {
 
 using Voxel = std::array<std::uint32_t, 3>;
 
-ExtractionParameters parameters_for(std::uint32_t resolution) {
-  ExtractionParameters p;
+ExtractionOptions parameters_for(std::uint32_t resolution) {
+  ExtractionOptions p;
   p.resolution = resolution;
   p.memory_budget = 256u << 20;
   return p;
@@ -127,7 +127,7 @@ class RecordedJob : public testing::Test {
   }
 
   /// The same spheres as an extraction of its own finds, to the rounding of the change of units.
-  void expect_same(Context& context, const MeshView& mesh, const ExtractionParameters& parameters,
+  void expect_same(Context& context, const MeshView& mesh, const ExtractionOptions& parameters,
                    const Recorded& recorded, const Placement& placement) {
     const Result<Extraction> direct = extract_medial_spheres(context, mesh, parameters);
     ASSERT_TRUE(direct.ok()) << direct.error().message;
@@ -157,7 +157,7 @@ class RecordedJob : public testing::Test {
   }
 
   template <class Meshes>
-  void expect_followed(const Meshes& meshes, const ExtractionParameters& parameters);
+  void expect_followed(const Meshes& meshes, const ExtractionOptions& parameters);
 
   std::unique_ptr<VulkanHost> vulkan_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
@@ -166,7 +166,7 @@ class RecordedJob : public testing::Test {
 TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
   Context context = adopt();
   const DeformingTorus torus(24, 48);
-  const ExtractionParameters parameters = parameters_for(48);
+  const ExtractionOptions parameters = parameters_for(48);
   auto job = ExtractionJob::create(context, torus.view(), parameters, {1, 6});
   ASSERT_TRUE(job.ok()) << job.error().message;
   const Recorded recorded = run(job.value());
@@ -201,7 +201,7 @@ void expect_medial(Context& context, const MeshView& mesh, const Recorded& recor
 /// What was recorded before makes no difference: the last mesh of a sequence gives what it gives alone. (A mesh that
 /// was moved has the tree of the one before, so its spheres are not those of a new one to the last bit.)
 template <class Meshes>
-void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionParameters& parameters) {
+void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions& parameters) {
   Context context = adopt();
   const auto create = [&] { return ExtractionJob::create(context, meshes.front().view(), parameters).value(); };
   ExtractionJob job = create();
@@ -233,7 +233,7 @@ TEST_F(RecordedJob, FollowsABoxOfAnotherShape) {
 
 TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
   Context context = adopt();
-  const ExtractionParameters parameters = parameters_for(30);
+  const ExtractionOptions parameters = parameters_for(30);
   auto job = ExtractionJob::create(context, Box(1).view(), parameters, {2, 4});
   ASSERT_TRUE(job.ok()) << job.error().message;
   std::array<RecordedCounts, 2> expected;
@@ -256,7 +256,7 @@ TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
 
 TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
   Context context = adopt();
-  ExtractionParameters parameters = parameters_for(160);
+  ExtractionOptions parameters = parameters_for(160);
   parameters.memory_budget = 8u << 20;
   auto job = ExtractionJob::create(context, Box(1).view(), parameters);
   ASSERT_TRUE(job.ok()) << job.error().message;
@@ -269,7 +269,7 @@ TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
 TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
   Context context = adopt();
   const DeformingTorus torus(200, 300);
-  const ExtractionParameters parameters = parameters_for(2);  // every voxel meets nearly all 120,000 triangles
+  const ExtractionOptions parameters = parameters_for(2);  // every voxel meets nearly all 120,000 triangles
   auto job = ExtractionJob::create(context, torus.view(), parameters);
   ASSERT_TRUE(job.ok()) << job.error().message;
   Recorded recorded = run(job.value());
@@ -281,7 +281,7 @@ TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
 TEST_F(RecordedJob, RefusesWhatCannotBeRecorded) {
   Context context = adopt();
   const Box box(1);
-  ExtractionParameters parameters = parameters_for(20);
+  ExtractionOptions parameters = parameters_for(20);
   parameters.mode = Mode::kThesis;
   EXPECT_EQ(ExtractionJob::create(context, box.view(), parameters).error().code, ErrorCode::kUsage);
   parameters.mode = Mode::kCertified;

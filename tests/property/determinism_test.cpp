@@ -51,7 +51,7 @@ class BothModes : public testing::TestWithParam<Mode> {
     return test::prepare(std::move(mesh));
   }
 
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
 };
 
 TEST_P(BothModes, TwiceTheSameBytes) {
@@ -79,9 +79,9 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
     const CertifiedExtraction cut = test::extract_on_device(context, mesh, parameters_);
     expect_same_bytes(roomy.extraction, cut.extraction);
     if (GetParam() == Mode::kThesis) break;
-    retries = cut.extraction.counters.retries;
+    retries = cut.extraction.measurements.counters.retries;
   }
-  EXPECT_EQ(roomy.extraction.counters.retries, 0u);
+  EXPECT_EQ(roomy.extraction.measurements.counters.retries, 0u);
 }
 
 // Pieces of few top cells, among them such as hold none but cells that are found empty when their lists are written.
@@ -91,7 +91,7 @@ TEST(Determinism, SmallPiecesGiveTheSame) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
   Context context = test::make_context();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 100;
   const CertifiedExtraction roomy = test::extract_on_device(context, mesh, parameters);
   parameters.memory_budget = 6ull << 20;

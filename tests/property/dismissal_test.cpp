@@ -43,7 +43,8 @@ std::vector<MedialSample> draw(const PreparedMesh& mesh, double angle, std::size
 }
 
 void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction& extraction) {
-  ASSERT_EQ(extraction.undecided.size(), extraction.counters.undecided) << "undecided voxels are not all listed";
+  ASSERT_EQ(extraction.undecided.size(), extraction.measurements.counters.undecided)
+      << "undecided voxels are not all listed";
   std::set<Voxel> kept;
   for (const MedialSphere& s : extraction.spheres) kept.insert(to_voxel(s.voxel));
   for (const UndecidedVoxel& u : extraction.undecided) kept.insert(to_voxel(u.voxel));
@@ -58,7 +59,7 @@ void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction
 }
 
 void expect_none_lost_by_the_reference(const std::vector<MedialSample>& samples, const PreparedMesh& mesh,
-                                       const ExtractionParameters& parameters) {
+                                       const ExtractionOptions& parameters) {
   SCOPED_TRACE("the reference");
   const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
   ASSERT_TRUE(result.ok()) << result.error().message;
@@ -89,7 +90,7 @@ TEST_P(DismissalOfSolids, LosesNoSalientSample) {
   const PreparedMesh mesh = test::prepare(solid->make());
   const std::vector<MedialSample> samples = draw(mesh, object_angle, wanted);
   ASSERT_EQ(samples.size(), wanted);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.object_angle = object_angle;
   parameters.resolution = 40;
   expect_none_lost_by_the_reference(samples, mesh, parameters);
@@ -131,7 +132,7 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   ASSERT_GT(mesh.report.intersecting_faces, 0u);
   const std::vector<MedialSample> samples = draw(mesh, 0.6, 4000);
   ASSERT_GT(samples.size(), 1000u);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 40;
   expect_none_lost_by_the_reference(samples, mesh, parameters);
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
@@ -139,9 +140,9 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   Context context = test::make_context();
   const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
   expect_none_lost(samples, extraction);
-  const std::uint64_t visited =
-      extraction.counters.found + extraction.counters.undecided + extraction.counters.proved_empty;
-  EXPECT_LT(100 * extraction.counters.undecided, visited);
+  const std::uint64_t visited = extraction.measurements.counters.found + extraction.measurements.counters.undecided +
+                                extraction.measurements.counters.proved_empty;
+  EXPECT_LT(100 * extraction.measurements.counters.undecided, visited);
 }
 
 /// Numbers that every standard library draws alike.
@@ -207,12 +208,12 @@ TEST(Dismissal, AtFinsAndFansLosesNoSalientSample) {
     for (const double angle : {0.4, 0.9}) {
       const std::vector<MedialSample> samples = draw(mesh, angle, 1500);
       ASSERT_EQ(samples.size(), 1500u);
-      ExtractionParameters parameters;
+      ExtractionOptions parameters;
       parameters.object_angle = angle;
       parameters.resolution = 40;
       const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
       expect_none_lost(samples, extraction);
-      const ExtractionCounters& c = extraction.counters;
+      const ExtractionCounters& c = extraction.measurements.counters;
       EXPECT_LT(100 * c.undecided, c.found + c.undecided + c.proved_empty) << c.undecided;
     }
   }

@@ -21,7 +21,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Clearly salient, clearly inside its voxel: neither rounding nor the order of the search decides about it.
-bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionParameters& parameters) {
+bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionOptions& parameters) {
   return static_cast<double>(s.object_angle) >= parameters.object_angle + 0.05 &&
          test::depth_in_voxel(e.grid, test::to_eigen(s.centre)) >= 0.05;
 }
@@ -30,7 +30,7 @@ using VoxelMap = std::function<test::Voxel(const test::Voxel&)>;
 
 /// Clear points of `from` whose voxel, mapped, has no point in `to`.
 std::size_t clear_points_without_partner(const Extraction& from, const Extraction& to, const VoxelMap& map,
-                                         const ExtractionParameters& parameters) {
+                                         const ExtractionOptions& parameters) {
   const test::SphereByVoxel found = test::spheres_by_voxel(to);
   std::size_t missing = 0;
   for (const auto& [voxel, index] : test::spheres_by_voxel(from)) {
@@ -81,7 +81,7 @@ class Invariance : public testing::Test {
   }
 
   std::unique_ptr<Context> context_;
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
   Mesh solid_;
   Extraction base_;
 };

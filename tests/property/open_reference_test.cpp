@@ -20,7 +20,7 @@ TEST(OpenReference, ATorusWithAHoleKeepsItsCircleElsewhere) {
   });
   const PreparedMesh prepared = test::prepare(mesh);
   ASSERT_FALSE(prepared.report.closed);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 16;
   parameters.extra_levels = 2;
   const auto result = extract_and_certify(prepared, parameters, Backend::kCpu, nullptr, 1);

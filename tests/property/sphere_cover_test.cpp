@@ -23,7 +23,7 @@ using namespace test;
 
 /// The largest medial balls that do not hold each other's centres come first.
 std::vector<Ball> spread_balls(const PreparedMesh& mesh, std::size_t count) {
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 14;
   parameters.extra_levels = 1;
   const CertifiedExtraction found = std::move(extract_and_certify(mesh, parameters, Backend::kCpu, nullptr).value());

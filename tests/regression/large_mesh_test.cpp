@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "input/read_mesh.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/solids/mesh_files.h"
@@ -25,7 +25,7 @@ PreparedMesh read_torus(std::uint32_t around, std::uint32_t along) {
 }
 
 /// Finds that the medial surface is the circle in its middle. The certified points.
-CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionParameters& parameters) {
+CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionOptions& parameters) {
   Context context = test::make_context();
   CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
   EXPECT_EQ(result.certify.rejected, 0u);
@@ -43,7 +43,7 @@ CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionPara
 TEST(LargeMesh, TheCircleInATorusOfHalfAMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const PreparedMesh mesh = read_torus(350, 716);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 20;
   const CertifiedExtraction result = expect_circle(mesh, parameters);
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
@@ -75,7 +75,7 @@ TEST(LargeMesh, DistancesToATorusOfFiveMillionTriangles) {
 // More than a minute: scripts/soak runs it. (At a low resolution the lists of triangles are long: slower, not faster.)
 TEST(LargeMesh, DISABLED_TheCircleInATorusOfFiveMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 80;
   expect_circle(read_torus(1250, 2000), parameters);
 }

@@ -22,7 +22,7 @@ constexpr std::uint64_t kLoopBudget = 65535;
 void expect_centre_found(std::uint32_t resolution, std::uint32_t triangles, CertifiedExtraction& result) {
   const PreparedMesh mesh = test::prepare(test::make_sphere(1, triangles));
   ASSERT_GT(mesh.mesh.triangles.size(), 3 * kLoopBudget);
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = resolution;
   parameters.object_angle = 0.6;
   Context context = test::make_context();
@@ -30,7 +30,7 @@ void expect_centre_found(std::uint32_t resolution, std::uint32_t triangles, Cert
   SCOPED_TRACE(test::describe(result));
   ASSERT_EQ(result.extraction.spheres.size(), resolution % 2 == 1 ? 1u : 8u);
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
-  EXPECT_EQ(result.extraction.counters.undecided, 0u);
+  EXPECT_EQ(result.extraction.measurements.counters.undecided, 0u);
   EXPECT_EQ(result.certify.rejected, 0u);
   // Frequency 100 or more: edges up to 0.02, facets up to edge^2 / 5 = 8e-5 below the sphere, their normals turned by
   // 0.02 at most. A point that passes as salient lies within (2 epsilon + 2 * 8e-5) / (cos 0.02 - cos 0.6) of the
@@ -60,7 +60,7 @@ TEST(LoopBudget, ClustersAreExpandedInRounds) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   CertifiedExtraction result;
   expect_centre_found(40, 300000, result);
-  const ExtractionCounters::Level& level = result.extraction.counters.levels[0];
+  const ExtractionCounters::Level& level = result.extraction.measurements.counters.levels[0];
   ASSERT_GT(level.cluster_tests, 0u) << "no list holds clusters";
   const Mesh sphere = test::make_sphere(1, 300000);
   const Bvh bvh = Bvh::build({sphere.vertices, sphere.triangles, {}, true}, gpu::kMostLeafTriangles).value();
@@ -75,7 +75,7 @@ TEST(LoopBudget, ListsLongerThanTheBudget) {
   CertifiedExtraction result;
   expect_centre_found(3, 200000, result);
   std::uint64_t longest_mean = 0;
-  for (const ExtractionCounters::Level& level : result.extraction.counters.levels) {
+  for (const ExtractionCounters::Level& level : result.extraction.measurements.counters.levels) {
     if (level.kept > 0) longest_mean = std::max(longest_mean, level.contacts / level.kept);
   }
   EXPECT_GT(longest_mean, kLoopBudget) << test::describe(result);

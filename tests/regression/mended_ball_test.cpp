@@ -18,7 +18,7 @@ TEST(MendedBall, VoxelNextToAReflexEdgeKeepsItsPoint) {
   const auto solid = std::find_if(solids.begin(), solids.end(), [](const auto& s) { return s.name == "l-shape"; });
   ASSERT_NE(solid, solids.end());
   const PreparedMesh mesh = test::prepare(solid->make());
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 160;
   parameters.object_angle = 0.9;
   Context context = test::make_context();

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "input/read_mesh.h"
-#include "medial_mesh/medial_mesh.h"
-#include "sheets/sheets.h"
+#include "medial_vk/medial_mesh.h"
+#include "medial_vk/sheets.h"
 #include "sheets/significance.h"
 #include "sheets/voxel_graph.h"
 #include "support/device/device.h"
@@ -44,13 +44,13 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
   if (!GetParam().closed) {
     EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never taken without saying so";
   }
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   // Next to open edges little can be dismissed, and voxels are subdivided to the end: several times slower.
   parameters.resolution = GetParam().closed ? 160 : 80;
   Context context = test::make_context();
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
   std::cout << GetParam().name << ": " << test::describe(result) << "\n";
-  const ExtractionCounters& c = result.extraction.counters;
+  const ExtractionCounters& c = result.extraction.measurements.counters;
   EXPECT_GT(c.found, 500u);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
@@ -78,11 +78,11 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   if (!std::filesystem::exists(file_of(GetParam().name))) GTEST_SKIP() << kNoModels;
   const PreparedMesh mesh = test::prepare(read_mesh(file_of(GetParam().name)).value());
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 120;
   Context context = test::make_context();
   const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
   const double voxel = extraction.grid.voxel_size;
   const Result<MedialMesh> medial_mesh =
       make_medial_mesh(extraction.spheres, sheets, {voxel, parameters.epsilon * voxel, 0});
@@ -102,10 +102,10 @@ struct Weighed {
 };
 
 Weighed weigh_sheets(Context& context, const PreparedMesh& mesh, std::uint32_t resolution) {
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = resolution;
   const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetParameters());
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
   std::vector<Ball> balls;
   for (const MedialSphere& s : extraction.spheres) balls.push_back({s.centre, s.radius});
   const VoxelGraph graph(extraction.spheres);

@@ -20,7 +20,7 @@ T value_or_throw(Result<T> result) {
 
 // What holds of every extraction.
 void check(const Extraction& extraction) {
-  for (const ExtractionCounters::Level& level : extraction.counters.levels)
+  for (const ExtractionCounters::Level& level : extraction.measurements.counters.levels)
     if (level.kept > level.visited) throw std::runtime_error("more cells are kept than were visited");
   const auto share_a_voxel = [](const MedialSphere& a, const MedialSphere& b) { return a.voxel == b.voxel; };
   if (std::ranges::adjacent_find(extraction.spheres, share_a_voxel) != extraction.spheres.end())
@@ -35,19 +35,18 @@ Context make_context(bool validation) {
   return value_or_throw(Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"}));
 }
 
-CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
-                                      const ExtractionParameters& parameters) {
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& parameters) {
   CertifiedExtraction result = value_or_throw(extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1));
   check(result.extraction);
   return result;
 }
 
-reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionParameters& parameters) {
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& parameters) {
   return reference::extract(medial_vk::to_reference(mesh), medial_vk::to_reference(parameters));
 }
 
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
-                                            const ExtractionParameters& parameters) {
+                                            const ExtractionOptions& parameters) {
   const VoxelGrid& grid = extraction.grid;
   const reference::Certificate certificate = reference::check(
       medial_vk::to_reference(mesh), medial_vk::to_reference(grid, extraction.spheres),
@@ -63,7 +62,7 @@ testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extr
 }
 
 std::string describe(const CertifiedExtraction& result) {
-  const ExtractionCounters& c = result.extraction.counters;
+  const ExtractionCounters& c = result.extraction.measurements.counters;
   std::ostringstream out;
   out << "found " << c.found << ", undecided " << c.undecided << ", rejected " << result.certify.rejected
       << ", proved empty " << c.proved_empty << ", queries " << c.queries << ", retries " << c.retries << "; levels";
@@ -73,7 +72,8 @@ std::string describe(const CertifiedExtraction& result) {
   }
   out << "; seconds";
   for (const StageTime& t : result.host_times) out << " " << t.stage << " " << t.seconds;
-  for (const StageTime& t : result.extraction.device_times) out << ", device " << t.stage << " " << t.seconds;
+  for (const StageTime& t : result.extraction.measurements.device_times)
+    out << ", device " << t.stage << " " << t.seconds;
   return out.str();
 }
 

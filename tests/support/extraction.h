@@ -9,8 +9,8 @@
 #include <map>
 #include <string>
 
-#include "analysis/extract.h"
 #include "cpu_reference/extract.h"
+#include "medial_vk/certify.h"
 #include "medial_vk/mesh.h"
 
 namespace medial_vk::test {
@@ -23,16 +23,15 @@ Context make_context(bool validation = false);
 
 /// extract_and_certify() on the device, on one host thread; throws with the error's message, or if two points share a
 /// voxel or counts contradict each other.
-CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh,
-                                      const ExtractionParameters& parameters);
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& parameters);
 
 /// The independent reference with the same parameters: double precision, certified inside.
-reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionParameters& parameters);
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& parameters);
 
 /// Does every sphere pass every condition of the certificate, recomputed by the reference? The message names the
 /// conditions that fail and the first sphere of each.
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
-                                            const ExtractionParameters& parameters);
+                                            const ExtractionOptions& parameters);
 
 /// Counters and times in one line, for the messages of failed tests.
 std::string describe(const CertifiedExtraction& result);

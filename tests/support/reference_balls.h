@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cpu_reference/sphere_certificate.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk::test {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/context.h"
-#include "medial_vk/queries.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

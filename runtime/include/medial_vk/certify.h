@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <vector>
 
-#include "medial_vk/bvh.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/indexed_mesh.h"
 
 namespace medial_vk {
 
@@ -15,10 +18,25 @@ struct CertifyReport {
 };
 
 /// Recomputes radius and spoke a exactly at each centre as it will be written, rounds the radius down by a derived
-/// bound, tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and has
-/// no other sphere (of several the first stays). Precondition: spheres in voxel order, as extraction gives them.
-/// Threads: 0 for all.
-CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
-                              Extraction& extraction, unsigned threads = 0);
+/// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and
+/// has no other sphere (of several the first stays). Spheres that fail are dropped; in mode certified their voxels are
+/// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as
+/// extraction gives them.
+CertifyReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction);
+
+/// Called with the stage ("extract", "certify") and the share of it that is done.
+using StageProgress = std::function<void(const char* stage, double done)>;
+
+/// What extract_and_certify() finds: every sphere has the certificate.
+struct CertifiedExtraction {
+  Extraction extraction;
+  CertifyReport certify;
+  std::vector<StageTime> host_times;  ///< Seconds by the clock on the wall: "extract", "certify".
+};
+
+/// Finds medial spheres and certifies them. Does not throw. Errors: those of the extractor; kOutOfMemory; kInterrupted.
+Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                const Extractor& extractor, const StageProgress& progress = {},
+                                                const std::stop_token& stop = {});
 
 }  // namespace medial_vk

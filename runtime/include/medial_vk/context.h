@@ -32,6 +32,9 @@ struct ContextOptions {
   bool validation = false;
   /// Folder of the pipeline cache. Empty: $XDG_CACHE_HOME/medial-vk, else $HOME/.cache/medial-vk, else none.
   std::string cache_folder;
+  /// Threads of the host for the library's own work on this context (programs, arrays for the device); 0: one per core.
+  /// Drivers have threads of their own.
+  unsigned threads = 0;
   /// Where Vulkan takes host memory from; null: where its driver likes to. Must stay valid until the context is gone,
   /// and be callable from several threads at once (programs are made on all processors).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
@@ -62,9 +65,9 @@ class Context {
   std::uint64_t validation_messages() const;
 
   class Impl;
-  Impl& impl() { return *impl_; }
 
  private:
+  friend struct Internals;
   explicit Context(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -10,21 +10,31 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/mesh_index.h"
+#include "medial_vk/indexed_mesh.h"
+#include "medial_vk/measurements.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
 
 class Context;
+class Scene;
 
 enum class Mode : std::uint32_t {
   kThesis,     ///< Sections 2.3 to 2.4 as published (with the corrected sign of 2.4.2).
   kCertified,  ///< Proved dismissal, inherited contacts, aimed search, subdivision (docs/theory.md).
 };
 
-/// Parameters of an extraction. Lengths are fractions, so that they do not depend on the units of the mesh.
-struct ExtractionParameters {
+/// What only mode thesis knows.
+struct ThesisOptions {
+  bool narrow_features = true;  ///< Also search voxels whose sphere meets the boundary (2.4.3).
+  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, coarse to fine.
+
+  bool operator==(const ThesisOptions&) const = default;
+};
+
+/// Options of an extraction. Lengths are fractions, so that they do not depend on the units of the mesh.
+struct ExtractionOptions {
   Mode mode = Mode::kCertified;
   std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
   double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
@@ -34,17 +44,14 @@ struct ExtractionParameters {
   double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
   std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
-  bool narrow_features = true;     ///< Thesis: also search voxels whose sphere meets the boundary (2.4.3).
-  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Thesis: points per sphere, coarse to fine.
+  ThesisOptions thesis;            ///< Of mode thesis only.
   /// Bytes of device memory to stay below, the mesh and what copies pass through included, but not what moved vertices
   /// go up through (ExtractionJob). A mesh that takes more than three quarters of it comes on top.
   std::uint64_t memory_budget = 1ull << 30;
-  /// Certified: Extraction::device_times by kernel and level ("mark_contacts@2"; a number after a slash tells variants
-  /// of a kernel apart, "/second" the tasks of one that has two) instead of by stage. Every dispatch then ends with a
-  /// timestamp.
-  bool kernel_times = false;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+  MeasurementOptions measurements;
 
-  bool operator==(const ExtractionParameters&) const = default;
+  bool operator==(const ExtractionOptions&) const = default;
 };
 
 /// The voxel grid of the output, in the units of the mesh. Voxel of p: floor((p - origin) / voxel_size).
@@ -92,64 +99,34 @@ inline bool is_earlier_voxel(const std::array<std::uint32_t, 3>& a, const std::a
   return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
 }
 
-/// Where the voxels and the time went. Counts do not depend on the machine.
-struct ExtractionCounters {
-  struct Level {
-    double cell_size = 0;        ///< As a fraction of the longest side.
-    std::uint64_t visited = 0;   ///< Cells examined.
-    std::uint64_t kept = 0;      ///< Cells that could not be dismissed.
-    std::uint64_t contacts = 0;  ///< Sum of the lengths of the kept cells' contact lists.
-    std::uint64_t found = 0;     ///< Voxels that got their point at this level (finest level and below).
-    std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
-    /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not
-    /// those of the features of pairs; and triangles in leaves that walks of the tree get to (of which winding numbers
-    /// ask solid angles).
-    std::uint64_t triangle_tests = 0;
-    /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts`
-    /// counts clusters there.
-    std::uint64_t cluster_tests = 0;
-    /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box against the
-    /// ball around its points and, if it gets there, once more for all of them; empty places of wide nodes count, too.
-    std::uint64_t node_tests = 0;
-  };
-  std::vector<Level> levels;
-  std::uint64_t found = 0;            ///< Finest voxels with a point.
-  std::uint64_t undecided = 0;        ///< Finest voxels neither found nor proved empty when the levels ran out.
-  std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, themselves or in all their parts.
-  std::uint64_t queries = 0;          ///< Closest-point queries asked (contact lists and trees).
-  std::uint32_t narrowing_steps = 0;  ///< Certified on a device: of every line, nine parts a step.
-  std::uint64_t retries = 0;  ///< Chunks run again: in smaller parts since a buffer was full, or for longer lists.
-};
-
-struct StageTime {
-  std::string stage;
-  double seconds = 0;
-};
-
 struct Extraction {
   VoxelGrid grid;
   std::vector<MedialSphere> spheres;      ///< In voxel order.
-  std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order; counters.undecided of them.
-  ExtractionCounters counters;
-  std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
+  std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order.
+  ExtractionMeasurements measurements;
 };
 
-/// Called with the share done, 0 to 1, between pieces of work and every ten milliseconds while the device computes;
-/// return false to stop (Error kInterrupted).
-using ProgressCallback = std::function<bool(double done)>;
+/// Called with the share done, 0 to 1, between parts of the work and every ten milliseconds while the device computes.
+using ProgressCallback = std::function<void(double done)>;
 
-/// Finds the medial spheres of `mesh` on the device of `context`. Blocks until done, or until `stop` is requested from
-/// any thread: then the device finishes the dispatch it is at, and the context is as before. The spheres are exact to
-/// float: certify() (src/medial/certify.h) makes the guarantee in double. Errors: kUsage (a parameter out of range),
-/// kInvalidMesh, kOutOfMemory, kInterrupted, kInternal (device lost).
-Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
-                                          const ExtractionParameters& parameters, const ProgressCallback& progress = {},
-                                          const std::stop_token& stop = {});
+/// Finds the medial spheres of `mesh` on the device of `context`. Blocks until it is done, or until `stop` is requested
+/// from any thread, the callback included: then the device finishes the dispatch that it is at, and the context is as
+/// before. The spheres are exact to float; certify_spheres() (certify.h) makes the guarantee in double precision.
+/// Errors: kUsage (an option out of range), kInvalidMesh (no extent), kOutOfMemory, kInterrupted, kInternal (device
+/// lost).
+Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+                                          const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
-/// The same with an index of `mesh` that is there already: made while the device was opened, or to be used again. Mode
-/// thesis does not use it. Errors: also kUsage (the index is that of another mesh, MeshIndex::is_of()).
-Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh, const MeshIndex& index,
-                                          const ExtractionParameters& parameters, const ProgressCallback& progress = {},
-                                          const std::stop_token& stop = {});
+/// The same of a mesh that is on the device already, for repeated extractions: nothing is uploaded again.
+Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions& options,
+                                          const ProgressCallback& progress = {}, const std::stop_token& stop = {});
+
+/// Finds medial spheres of a mesh, exact to float, as extract_medial_spheres() does: on a device, or in another way.
+using Extractor = std::function<Result<Extraction>(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                   const ProgressCallback& progress, const std::stop_token& stop)>;
+
+/// On the device of `context`, which outlives it. The mesh that was searched last stays on the device, so that the next
+/// extraction of it uploads nothing. For one thread at a time.
+Extractor device_extractor(Context& context);
 
 }  // namespace medial_vk

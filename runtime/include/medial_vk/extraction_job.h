@@ -3,7 +3,8 @@
 //
 //   auto job = ExtractionJob::create(context, mesh, parameters);
 //   for every frame:
-//     job.move_vertices(mesh);              // if they have moved
+//     mesh.move_vertices(positions);        // if they have moved
+//     job.update(mesh);
 //     record(commands, job);                // outside of a render pass
 //     ... barriers are recorded: what follows in `commands`, or waits for it, reads job.buffers() ...
 //
@@ -62,7 +63,7 @@ struct JobBuffers {
 
 struct JobOptions {
   /// Recorded sequences that may wait or run at a time: the one that was recorded so many calls ago has finished when
-  /// move_vertices() and record() are called.
+  /// update() and record() are called.
   std::uint32_t frames = 1;
   std::uint32_t vertices_per_sphere = 4;  ///< Of RecordedCounts.
 };
@@ -73,18 +74,17 @@ class ExtractionJob {
   /// Takes memory and makes programs, so that recording takes neither; submits and waits where the device's memory is
   /// not the host's. Errors: kUsage (a parameter out of range, mode thesis, no frames), kInvalidMesh, kOutOfMemory,
   /// kInternal.
-  static Result<ExtractionJob> create(Context& context, const MeshView& mesh, const ExtractionParameters& parameters,
-                                      const JobOptions& options = {});
+  static Result<ExtractionJob> create(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+                                      const JobOptions& job = {});
   ExtractionJob(ExtractionJob&&) noexcept;
   ExtractionJob& operator=(ExtractionJob&&) noexcept;
   /// What was recorded has finished, or is never submitted.
   ~ExtractionJob();
 
-  /// The same triangles with other positions, from the next record() on. Refits the tree and measures edges and
-  /// vertices again, on the CPU: some milliseconds for 10,000 triangles. Errors: kInvalidMesh (as DeviceMesh::update in
-  /// runtime/src/scene.h: the job then records the mesh as it was, unless the error says that it has no extent), kUsage
-  /// (the mesh was moved already since the last record()).
-  Status move_vertices(const MeshView& mesh);
+  /// Follows vertices that have moved, from the next record() on: `moved` is the mesh that create() was given, after
+  /// move_vertices(). CPU work. Errors: kUsage (another mesh; or the job was updated already since the last record()),
+  /// kInvalidMesh (no extent: record() fails until an update succeeds), kOutOfMemory.
+  Status update(const IndexedMesh& moved);
 
   /// Appends to `commands`, which are in the recording state, outside of a render pass, and of the context's queue
   /// family or one that shares its resources. Barriers before and after order them against everything else in the

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "medial_vk/mesh_view.h"
-#include "medial_vk/queries.h"
 #include "medial_vk/result.h"
+#include "medial_vk/scene.h"
 
 namespace medial_vk {
 

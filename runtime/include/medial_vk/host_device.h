@@ -43,6 +43,7 @@ struct HostDevice {
   /// For all objects that the context makes; null: the driver's own. Called from several threads at once.
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
   std::string cache_folder;  ///< As in ContextOptions.
+  unsigned threads = 0;      ///< As in ContextOptions.
 };
 
 /// Whether a device that is created like this will do; `device` and `queue` are not looked at and may be null.

@@ -8,12 +8,17 @@
 
 namespace medial_vk {
 
-/// Drops degenerate and duplicate faces, unused vertices excluded from the bounding box, makes each component's
-/// orientation consistent (and outward if the whole mesh is inside out), inspects, sets the flags.
-/// Errors: kInvalidMesh if nothing is left, or nothing is enclosed.
-Result<PreparedMesh> prepare_mesh(Mesh mesh);
+/// Merges equal vertices, drops degenerate and duplicate faces and unused vertices, makes the orientation of each
+/// component consistent (and outward, if the whole mesh is inside out), and determines which normals can be trusted.
+/// `threads`: of the host, 0: one per core; the result does not depend on it. Does not throw. Errors: kInvalidMesh (an
+/// index out of range, a coordinate that is not finite; nothing is left, or nothing is enclosed), kOutOfMemory.
+Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads = 0);
 
 /// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4).
-void perturb_mesh(Mesh& mesh, double amplitude, std::uint64_t seed);
+void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed);
+
+/// The same for a prepared mesh, which is then prepared again, as moved faces may cross: corners that coincide move
+/// together. The report tells of both preparations. Errors: those of prepare_mesh().
+Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads = 0);
 
 }  // namespace medial_vk

@@ -8,16 +8,16 @@
 
 namespace medial_vk {
 
-/// What went wrong. The values are the exit codes of the command line.
+/// What went wrong.
 enum class ErrorCode : int {
-  kInternal = 1,
-  kUsage = 2,
-  kInvalidMesh = 3,
-  kNoDevice = 4,
-  kOutOfMemory = 5,
-  kCannotWrite = 6,
-  kCheckFailed = 7,
-  kInterrupted = 130,
+  kInternal,     ///< A defect of the library, or a device that was lost.
+  kUsage,        ///< An argument that the call does not accept; the message names it.
+  kInvalidMesh,  ///< A mesh that cannot be read, or that encloses nothing.
+  kNoDevice,     ///< No Vulkan device that will do.
+  kOutOfMemory,  ///< Of the host or of the device.
+  kCannotWrite,  ///< A file that cannot be written.
+  kCheckFailed,  ///< Results that did not pass a check.
+  kInterrupted,  ///< Stopped on request.
 };
 
 /// An error code and one sentence that names the thing ("face 17 uses vertex 99 of 98").

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/host_memory.h"
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 #include "bvh/bvh_boxes.h"
 #include "bvh/bvh_builder.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {

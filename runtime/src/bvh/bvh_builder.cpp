@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "bvh/bvh_bins.h"
 
 namespace medial_vk {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "certificate/near_triangles.h"
 #include "mesh/solid.h"
 
@@ -44,13 +44,13 @@ struct Surroundings {
 
 class Certifier {
  public:
-  Certifier(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side, const VoxelGrid& grid)
+  Certifier(const Bvh& bvh, const ExtractionOptions& options, double longest_side, const VoxelGrid& grid)
       : bvh_(bvh),
         triangles_(bvh),
-        parameters_(parameters),
+        options_(options),
         grid_(grid),
         longest_(longest_side),
-        epsilon_(parameters.epsilon * grid.voxel_size),
+        epsilon_(options.epsilon * grid.voxel_size),
         rounding_(distance_rounding(bvh)) {}
 
   /// Takes the tree's leaves near these spheres, for certify() of each.
@@ -177,12 +177,12 @@ class Certifier {
 
   bool is_salient(const MedialSphere& s) const {
     const double angle = half_angle(s.spoke_a, s.spoke_b);
-    return angle >= parameters_.object_angle || (parameters_.radius > 0 && s.radius >= parameters_.radius * longest_);
+    return angle >= options_.object_angle || (options_.radius > 0 && s.radius >= options_.radius * longest_);
   }
 
   const Bvh& bvh_;
   NearTriangles triangles_;
-  const ExtractionParameters& parameters_;
+  const ExtractionOptions& options_;
   const VoxelGrid& grid_;
   double longest_, epsilon_, rounding_;
 };
@@ -246,15 +246,14 @@ void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extractio
 
 }  // namespace
 
-CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parameters, double longest_side,
-                              Extraction& extraction, unsigned threads) {
+CertifyReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction) {
   std::vector<MedialSphere>& spheres = extraction.spheres;
-  const Certifier certifier(bvh, parameters, longest_side, extraction.grid);
+  const Certifier certifier(mesh.bvh(), options, mesh.longest_side(), extraction.grid);
   std::vector<std::uint8_t> passed = first_of_voxels(spheres);
-  const std::size_t count = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t count = thread_count(options.threads);
   const NeighbourGroups groups(spheres);
   std::atomic<std::size_t> next = 0;
-  parallel_for(count, 1, [&](std::size_t) {
+  parallel_for(count, 1, options.threads, [&](std::size_t) {
     Surroundings around;
     for (std::size_t first = next.fetch_add(kGroupsAtOnce); first < groups.size();
          first = next.fetch_add(kGroupsAtOnce)) {
@@ -266,14 +265,14 @@ CertifyReport certify_spheres(const Bvh& bvh, const ExtractionParameters& parame
     }
   });
 
-  if (parameters.mode == Mode::kCertified) list_dropped(passed, extraction);
+  if (options.mode == Mode::kCertified) list_dropped(passed, extraction);
   CertifyReport report;
   for (std::size_t i = 0; i < spheres.size(); ++i)
     if (passed[i] != 0) spheres[report.passed++] = spheres[i];
   report.rejected = spheres.size() - report.passed;
   spheres.resize(report.passed);
-  extraction.counters.found -= report.rejected;
-  extraction.counters.undecided += report.rejected;
+  extraction.measurements.counters.found -= report.rejected;
+  extraction.measurements.counters.undecided += report.rejected;
   return report;
 }
 

@@ -28,7 +28,8 @@ Result<const StopWord*> StopWatch::make_word(Context::Impl& context) {
 }
 
 bool StopWatch::stopped() {
-  if (!stopped_) stopped_ = stop_.stop_requested() || (progress_ && !progress_(done_));
+  if (!stopped_ && progress_ && !stop_.stop_requested()) progress_(done_);
+  stopped_ = stopped_ || stop_.stop_requested();
   if (stopped_ && word_) word_->raise();
   return stopped_;
 }

@@ -29,7 +29,7 @@ class StopWord {
   Buffer word_;
 };
 
-/// Asks, between pieces of work and while the device is busy, whether somebody wants the job to stop.
+/// Reports progress, and checks between parts of the work and while the device is busy whether the job is to stop.
 class StopWatch {
  public:
   StopWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
@@ -38,7 +38,7 @@ class StopWatch {
   Result<const StopWord*> make_word(Context::Impl& context);
   /// Share of the job that is done: what the callback is told.
   void set_done(double done) { done_ = done; }
-  /// Asks. True from the first time on that the answer is yes.
+  /// Reports and checks. True from the first time on that a stop has been requested.
   bool stopped();
 
   static Error error() { return {ErrorCode::kInterrupted, "interrupted during the extraction"}; }

@@ -39,6 +39,7 @@ Result<PhysicalDevice> select_device(VkInstance instance, const std::string& dev
 
 Status Context::Impl::initialize(const ContextOptions& options) {
   allocation_callbacks = options.allocation_callbacks;
+  host_threads = options.threads;
   {
     const std::lock_guard lock(volk_mutex());
     Result<Instance> created = create_instance(options.validation, &validation_messages, allocation_callbacks);

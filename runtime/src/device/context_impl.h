@@ -13,6 +13,7 @@
 
 #include "device/embedded_shaders.h"
 #include "device/instance.h"
+#include "device/internals.h"
 #include "device/pipeline_cache.h"
 #include "device/program.h"
 #include "medial_vk/context.h"
@@ -38,6 +39,7 @@ class Context::Impl {
   std::uint32_t transfer_family = 0;
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 
+  unsigned host_threads = 0;  // ContextOptions::threads
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
@@ -59,7 +61,7 @@ class Context::Impl {
   /// The program for this shader and these specialization constants; made once, kept until the context ends.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.
   Result<const Program*> program(const ProgramKey& key);
-  /// Makes those of them that are missing, on all processors. Errors: as program(), of the first that fails.
+  /// Makes those of them that are missing, on `host_threads` threads. Errors: as program(), of the first that fails.
   Status make_programs(const std::set<ProgramKey>& keys);
 
  private:

@@ -68,6 +68,7 @@ Status Context::Impl::adopt(const HostDevice& host) {
   if (host.device == VK_NULL_HANDLE || host.queue == VK_NULL_HANDLE) return not_usable("it or its queue is null");
   owns_device_ = false;
   allocation_callbacks = host.allocation_callbacks;
+  host_threads = host.threads;
   {
     const std::lock_guard lock(volk_mutex());
     const Result<HostInstance> loaded = HostInstance::load(host.get_instance_proc_addr, host.instance);

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "device/context_impl.h"
 
 namespace medial_vk {
@@ -187,7 +187,7 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
   std::ranges::stable_sort(missing, std::greater<>{}, size);
   std::vector<OwnedProgram> made(missing.size());
   std::vector<Status> status(missing.size());
-  parallel_blocks(missing.size(), 1, thread_count(0), [&](std::size_t i, std::size_t) {
+  parallel_blocks(missing.size(), 1, host_threads, [&](std::size_t i, std::size_t) {
     Result<OwnedProgram> program = build_program(*missing[i]);
     if (program.ok())
       made[i] = std::move(program.value());

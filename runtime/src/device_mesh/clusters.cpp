@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 #include "medial_vk/mesh_view.h"
 
@@ -179,10 +179,10 @@ gpu::Cluster make_cluster(const Run& run, const Bvh& bvh, const UnitTransform& t
 
 std::vector<gpu::Cluster> make_clusters(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags, std::uint32_t most_triangles,
-                                        std::uint32_t most_clusters) {
+                                        std::uint32_t most_clusters, unsigned threads) {
   const std::vector<Run> runs = make_few_runs(bvh, most_triangles, most_clusters);
   std::vector<gpu::Cluster> clusters(runs.size());
-  parallel_blocks(runs.size(), 64, thread_count(0), [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(runs.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) clusters[i] = make_cluster(runs[i], bvh, to_unit, flags);
   });
   return clusters;

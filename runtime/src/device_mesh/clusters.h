@@ -16,7 +16,7 @@ namespace medial_vk {
 /// leaf order, in the unit box, with all bounds rounded outwards. `flags` as MeshView::flags.
 std::vector<gpu::Cluster> make_clusters(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags, std::uint32_t most_triangles,
-                                        std::uint32_t most_clusters);
+                                        std::uint32_t most_clusters, unsigned threads = 0);
 
 /// Half of the clusters reach no farther from the middle of their cylinder. 0 if there are none.
 float median_radius(std::span<const gpu::Cluster> clusters);

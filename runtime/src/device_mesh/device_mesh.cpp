@@ -9,6 +9,7 @@
 #include "device/context_impl.h"
 #include "device_mesh/clusters.h"
 #include "device_mesh/device_tree.h"
+#include "device_mesh/indexed_mesh_impl.h"
 #include "device_mesh/open_edges.h"
 
 namespace medial_vk {
@@ -43,33 +44,24 @@ Status DeviceMesh::check_size(std::size_t triangles, const VkPhysicalDeviceLimit
                                             std::to_string(sizeof(Texel)) + " bytes (maxTexelBufferElements)"};
 }
 
-Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh) {
-  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
-  Result<Bvh> bvh = Bvh::build(mesh, kLeafSize);
-  if (!bvh.ok()) return bvh.error();
-  DeviceMesh device(context);
-  device.own_bvh_ = std::make_shared<Bvh>(std::move(bvh).value());
-  device.bvh_ = device.own_bvh_;
-  Uploads uploads(context);
-  if (Status status = device.upload_whole(uploads, context.limits, mesh, {}); !status.ok()) return status.error();
-  if (Status status = uploads.finish(); !status.ok()) return status.error();
+Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const IndexedMesh& mesh, bool with_links) {
+  if (Status status = check_size(mesh.view().triangles.size(), context.limits); !status.ok()) return status.error();
+  DeviceMesh device(context, mesh);
+  device.order = mesh.bvh().order();
+  device.triangle_count = static_cast<std::uint32_t>(device.order.size());
+  if (Status status = device.measure(); !status.ok()) return status.error();
+  device.has_links_ = with_links;
+  device.uploads_ = std::make_unique<Uploads>(context);
+  const Uploader uploader = through(*device.uploads_);
+  if (Status status = device.upload_mesh(uploader); !status.ok()) return status.error();
+  if (with_links) {
+    if (Status status = device.upload_all_links(uploader); !status.ok()) return status.error();
+  }
+  if (Status status = device.uploads_->flush(); !status.ok()) return status.error();
   return device;
 }
 
-Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index) {
-  if (Status status = check_size(mesh.triangles.size(), context.limits); !status.ok()) return status.error();
-  if (!index.is_of(mesh)) return Error{ErrorCode::kUsage, "the index is that of another mesh"};
-  DeviceMesh device(context);
-  device.bvh_ = index.bvh_;
-  const MeshLinks& links = *index.links_;
-  device.uploads_ = std::make_unique<Uploads>(context);
-  Uploads& uploads = *device.uploads_;
-  if (Status status = device.upload_whole(uploads, context.limits, mesh, links.spreads); !status.ok())
-    return status.error();
-  if (Status status = device.upload_all_links(through(uploads), mesh, links); !status.ok()) return status.error();
-  if (Status status = uploads.flush(); !status.ok()) return status.error();
-  return device;
-}
+const MeshLinks& DeviceMesh::links() const { return Internals::of(source_).links; }
 
 Status DeviceMesh::finish_uploads() {
   if (uploads_ == nullptr) return {};
@@ -77,42 +69,25 @@ Status DeviceMesh::finish_uploads() {
   return uploads->finish();
 }
 
-Status DeviceMesh::upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
-                                std::span<const float> spreads) {
-  order = bvh_->order();
-  triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-  if (Status status = measure(mesh); !status.ok()) return status;
-  return upload_mesh(through(uploads), limits, mesh, spreads);
-}
-
-Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh) {
-  Uploads uploads(context);
-  if (Status status = update(context, mesh, through(uploads)); !status.ok()) return status;
+Status DeviceMesh::update(const IndexedMesh& moved) {
+  Uploads uploads(*context_);
+  if (Status status = update(moved, through(uploads)); !status.ok()) return status;
   intact = false;  // also if that throws
   Status there = uploads.finish();
   intact = there.ok();
   return there;
 }
 
-Status DeviceMesh::update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader) {
-  if (linked_vertices_ != 0 && mesh.vertices.size() != linked_vertices_) {
-    return Error{ErrorCode::kInvalidMesh, "the mesh has " + std::to_string(mesh.vertices.size()) +
-                                              " vertices, the one on the device " + std::to_string(linked_vertices_)};
+Status DeviceMesh::update(const IndexedMesh& moved, const Uploader& uploader) {
+  if (moved.bvh().order() != order || moved.view().vertices.size() != source_.view().vertices.size()) {
+    return Error{ErrorCode::kUsage, "the mesh is another one than that on the device, not that one moved"};
   }
-  const bool was_intact = intact;
+  source_ = moved;
   intact = false;
-  if (own_bvh_ == nullptr) own_bvh_ = std::make_shared<Bvh>(*bvh_);  // a MeshIndex does not move
-  bvh_ = own_bvh_;
-  if (Status status = own_bvh_->refit(mesh); !status.ok()) {
-    intact = was_intact && status.error().code == ErrorCode::kInvalidMesh;
-    return status;
-  }
-  if (Status status = measure(mesh); !status.ok()) return status;
-  const bool linked = linked_vertices_ != 0;
-  const MeshLinks links = linked ? make_mesh_links(mesh, order) : MeshLinks{};
-  if (Status status = upload_mesh(uploader, context.limits, mesh, links.spreads); !status.ok()) return status;
-  if (linked) {
-    if (Status status = upload_all_links(uploader, mesh, links); !status.ok()) return status;
+  if (Status status = measure(); !status.ok()) return status;
+  if (Status status = upload_mesh(uploader); !status.ok()) return status;
+  if (has_links_) {
+    if (Status status = upload_all_links(uploader); !status.ok()) return status;
   }
   intact = true;
   return {};
@@ -126,8 +101,9 @@ VkDeviceSize DeviceMesh::update_bytes() const {
 }
 
 /// What is known of the mesh as a whole. Error: it has no extent.
-Status DeviceMesh::measure(const MeshView& mesh) {
-  const BvhBox& box = bvh_->nodes()[0].box;
+Status DeviceMesh::measure() {
+  const MeshView mesh = source_.view();
+  const BvhBox& box = tree_nodes()[0].box;
   const Point sides = box.upper - box.lower;
   const double side = std::max({sides[0], sides[1], sides[2]});
   if (!(side > 0) || !std::isfinite(side)) {
@@ -142,22 +118,23 @@ Status DeviceMesh::measure(const MeshView& mesh) {
   return {};
 }
 
-Status DeviceMesh::upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
-                               std::span<const float> spreads) {
-  const std::vector<Texel> tree_data = make_tree_texels(*bvh_, {lower, longest});
+Status DeviceMesh::upload_mesh(const Uploader& uploader) {
+  const std::vector<Texel> tree_data = make_tree_texels(source_.bvh(), {lower, longest}, context_->host_threads);
   node_count = static_cast<std::uint32_t>(tree_data.size() / kTexelsPerNode);
   // Links of vertices are a texel each.
-  use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), mesh.vertices.size()}) <=
-               limits.maxTexelBufferElements;
-  if (Status status = upload_triangles(uploader, mesh, spreads); !status.ok()) return status;
+  use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), source_.view().vertices.size()}) <=
+               context_->limits.maxTexelBufferElements;
+  if (Status status = upload_triangles(uploader); !status.ok()) return status;
   Status status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats,
                               tree, tree_texels);
   if (!status.ok()) return status;
   return fill(uploader, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
 }
 
-Status DeviceMesh::upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads) {
-  const std::vector<Texel> made = make_triangle_texels(*bvh_, {lower, longest}, mesh.flags, spreads);
+Status DeviceMesh::upload_triangles(const Uploader& uploader) {
+  const std::span<const float> spreads = has_links_ ? std::span(links().spreads) : std::span<const float>();
+  const std::vector<Texel> made =
+      make_triangle_texels(source_.bvh(), {lower, longest}, source_.view().flags, spreads, context_->host_threads);
   return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
 }
 
@@ -192,23 +169,28 @@ Status DeviceMesh::create_view(const Buffer& buffer, VkFormat format, VkBufferVi
   return {};
 }
 
-Status DeviceMesh::add_links(Context::Impl& context, const MeshView& mesh) {
-  Uploads uploads(context);
-  const MeshLinks links = make_mesh_links(mesh, order);
-  if (Status status = upload_triangles(through(uploads), mesh, links.spreads); !status.ok()) return status;
-  if (Status status = upload_all_links(through(uploads), mesh, links); !status.ok()) return status;
-  return uploads.finish();
+Status DeviceMesh::add_links() {
+  if (has_links_) return {};
+  if (Status status = finish_uploads(); !status.ok()) return status;
+  Uploads uploads(*context_);
+  has_links_ = true;
+  intact = false;  // until all is there
+  // The triangles again, with their spreads.
+  if (Status status = upload_triangles(through(uploads)); !status.ok()) return status;
+  if (Status status = upload_all_links(through(uploads)); !status.ok()) return status;
+  Status there = uploads.finish();
+  intact = there.ok();
+  return there;
 }
 
-Status DeviceMesh::upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links) {
-  if (Status status = upload_links(uploader, links); !status.ok()) return status;
-  if (Status status = upload_clusters(uploader, mesh); !status.ok()) return status;
-  if (Status status = upload_open_edges(uploader, mesh); !status.ok()) return status;
-  linked_vertices_ = mesh.vertices.size();
-  return {};
+Status DeviceMesh::upload_all_links(const Uploader& uploader) {
+  if (Status status = upload_links(uploader); !status.ok()) return status;
+  if (Status status = upload_clusters(uploader); !status.ok()) return status;
+  return upload_open_edges(uploader);
 }
 
-Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links) {
+Status DeviceMesh::upload_links(const Uploader& uploader) {
+  const MeshLinks& links = this->links();
   static_assert(sizeof(gpu::TriangleLinks) == 2 * sizeof(Texel));
   has_untrusted = has_untrusted || std::ranges::any_of(links.links, [](const gpu::TriangleLinks& l) {
                     return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
@@ -220,11 +202,11 @@ Status DeviceMesh::upload_links(const Uploader& uploader, const MeshLinks& links
                      corner_texels);
 }
 
-Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mesh) {
+Status DeviceMesh::upload_clusters(const Uploader& uploader) {
   static_assert(sizeof(gpu::Cluster) == 6 * sizeof(Texel));  // kTexelsPerCluster
   static_assert(6 * kMostClusters <= 65536);                 // the least maxTexelBufferElements that Vulkan allows
-  const std::vector<gpu::Cluster> made =
-      make_clusters(*bvh_, {lower, longest}, mesh.flags, kTrianglesOfCluster, kMostClusters);
+  const std::vector<gpu::Cluster> made = make_clusters(source_.bvh(), {lower, longest}, source_.view().flags,
+                                                       kTrianglesOfCluster, kMostClusters, context_->host_threads);
   cluster_count = static_cast<std::uint32_t>(made.size());
   most_in_cluster = std::ranges::max_element(made, {}, &gpu::Cluster::count)->count;
   cluster_radius = median_radius(made);
@@ -235,7 +217,8 @@ Status DeviceMesh::upload_clusters(const Uploader& uploader, const MeshView& mes
   return create_view(clusters, kFloats, cluster_texels);
 }
 
-Status DeviceMesh::upload_open_edges(const Uploader& uploader, const MeshView& mesh) {
+Status DeviceMesh::upload_open_edges(const Uploader& uploader) {
+  const MeshView mesh = source_.view();
   OpenEdges edges;
   if (!mesh.closed) edges = find_open_edges(mesh, {lower, longest}, gpu::kMostOpenEdges);
   open_edge_count = edges.count;

@@ -17,7 +17,7 @@
 #include "device_mesh/unit_transform.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/context.h"
-#include "medial_vk/mesh_index.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "tree_types.h"
@@ -41,36 +41,35 @@ struct DeviceMesh {
   /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
   static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
 
-  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, no extent),
-  /// kOutOfMemory.
-  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh);
-  /// The same, and add_links(), with what has been made of `mesh` before. All of it is on its way to the device:
-  /// finish_uploads() comes before the first use.
-  static Result<DeviceMesh> create(Context::Impl& context, const MeshView& mesh, const MeshIndex& index);
+  /// All of it is on its way to the device: finish_uploads() comes before the first use. With links: also what
+  /// add_links() adds. Errors: kInvalidMesh (no extent), kOutOfMemory.
+  static Result<DeviceMesh> create(Context::Impl& context, const IndexedMesh& mesh, bool with_links);
   /// Errors: kOutOfMemory, kInternal (device lost).
   Status finish_uploads();
 
-  /// Follows vertices that have moved: positions, unit box, tree, flags, and links if there are any, in the buffers
-  /// there are; the shape of the tree and the order of its leaves stay. `mesh` has the triangles that create() was
-  /// given and, after add_links(), as many vertices. The device must be idle; what is recorded with what is known
-  /// of the mesh as a whole (closed, open_edge_count and so on) must be recorded anew. Errors: kInvalidMesh (another
-  /// number of triangles or vertices, an index out of range, a coordinate that is not finite: all stays as it was; no
-  /// extent: not intact until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
-  Status update(Context::Impl& context, const MeshView& mesh);
+  /// Follows the mesh that create() was given to where IndexedMesh::move_vertices() has brought it: positions, unit
+  /// box, tree, flags, and links if there are any, in the buffers there are. The device must be idle; what is recorded
+  /// with what is known of the mesh as a whole (closed, open_edge_count and so on) must be recorded again. Errors:
+  /// kUsage (another mesh: all stays as it was), kInvalidMesh (no extent: not intact until an update succeeds),
+  /// kOutOfMemory and kInternal (device lost): likewise.
+  Status update(const IndexedMesh& moved);
   /// The same with an uploader of the caller's: the device need not be idle if that is not at once.
-  Status update(Context::Impl& context, const MeshView& mesh, const Uploader& uploader);
+  Status update(const IndexedMesh& moved, const Uploader& uploader);
   /// Bytes of all buffers that an update fills.
   VkDeviceSize update_bytes() const;
 
-  /// Adds what the certified extraction asks besides triangles: clusters of them, open edges, and for the dismissal by
-  /// pairs edges and vertices. `mesh` as given to create(). Error: kOutOfMemory.
-  Status add_links(Context::Impl& context, const MeshView& mesh);
+  /// Adds what the certified extraction reads besides triangles, unless it is there: clusters of triangles, open edges,
+  /// and for the dismissal by pairs edges and vertices. The device must be idle. Error: kOutOfMemory.
+  Status add_links();
+  bool has_links() const { return has_links_; }
 
+  /// The mesh on the host.
+  const IndexedMesh& source() const { return source_; }
   /// Where kernels bind `texels`, one of the buffers here that have a view, as storage.
   BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
 
   /// Of the Bvh whose leaf order `order` is.
-  const std::vector<BvhNode>& tree_nodes() const { return bvh_->nodes(); }
+  const std::vector<BvhNode>& tree_nodes() const { return source_.bvh().nodes(); }
 
   /// Of device memory that it holds.
   VkDeviceSize bytes() const { return arena_.bytes(); }
@@ -105,7 +104,7 @@ struct DeviceMesh {
   bool use_texels = true;
   bool intact = true;  // false after an update that failed half-way: the device may hold parts of both meshes
   bool closed = false;
-  bool has_untrusted = true;  // some triangle's normal proves nothing
+  bool has_untrusted = true;  // the normal of some triangle proves nothing
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;  // inner nodes of the tree
   std::uint32_t cluster_count = 0, most_in_cluster = 0;
@@ -117,28 +116,27 @@ struct DeviceMesh {
   std::vector<std::uint32_t> order;  // triangle_info on the host
 
  private:
-  explicit DeviceMesh(Context::Impl& context) : arena_(context) {}
-  Status upload_whole(Uploads& uploads, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
-                      std::span<const float> spreads);
-  Status measure(const MeshView& mesh);
-  Status upload_mesh(const Uploader& uploader, const VkPhysicalDeviceLimits& limits, const MeshView& mesh,
-                     std::span<const float> spreads);
-  Status upload_triangles(const Uploader& uploader, const MeshView& mesh, std::span<const float> spreads);
-  Status upload_all_links(const Uploader& uploader, const MeshView& mesh, const MeshLinks& links);
-  Status upload_links(const Uploader& uploader, const MeshLinks& links);
-  Status upload_open_edges(const Uploader& uploader, const MeshView& mesh);
-  Status upload_clusters(const Uploader& uploader, const MeshView& mesh);
+  DeviceMesh(Context::Impl& context, const IndexedMesh& source)
+      : context_(&context), source_(source), arena_(context) {}
+  const MeshLinks& links() const;
+  Status measure();
+  Status upload_mesh(const Uploader& uploader);
+  Status upload_triangles(const Uploader& uploader);
+  Status upload_all_links(const Uploader& uploader);
+  Status upload_links(const Uploader& uploader);
+  Status upload_open_edges(const Uploader& uploader);
+  Status upload_clusters(const Uploader& uploader);
   Status fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind, const char* purpose,
               Buffer& buffer);
   Status fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose, VkFormat format,
                      Buffer& buffer, VkBufferView& view);
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
+  Context::Impl* context_;
+  IndexedMesh source_;
   Arena arena_;
   std::unique_ptr<Uploads> uploads_;  // under way, into buffers of the arena; or null
-  std::shared_ptr<const Bvh> bvh_;    // input units; a MeshIndex may share it
-  std::shared_ptr<Bvh> own_bvh_;      // the same if none does, or null
-  std::size_t linked_vertices_ = 0;   // vertices of the mesh in add_links()
+  bool has_links_ = false;
 };
 
 }  // namespace medial_vk

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {
@@ -116,10 +116,10 @@ Moments joined_moments(const Moments& left, const Moments& right, const BvhNode&
 
 /// Moments of every node: the leaves, which are most of the work, on all threads. Children come after their parents in
 /// a Bvh, so a pass from the back meets them first.
-std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit) {
+std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit, unsigned threads) {
   const std::vector<BvhNode>& nodes = bvh.nodes();
   std::vector<Moments> all(nodes.size());
-  parallel_blocks(nodes.size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(nodes.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (nodes[i].count != 0) all[i] = leaf_moments(bvh, nodes[i], to_unit);
     }
@@ -190,9 +190,10 @@ FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit) {
 }
 
 std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_unit,
-                                        std::span<const std::uint8_t> flags, std::span<const float> spreads) {
+                                        std::span<const std::uint8_t> flags, std::span<const float> spreads,
+                                        unsigned threads) {
   std::vector<Texel> texels(kTexelsPerTriangle * bvh.corners().size());
-  parallel_blocks(bvh.corners().size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(bvh.corners().size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const bool trusted = !flags.empty() && (flags[bvh.order()[i]] & kTrustedNormal) != 0;
       const std::optional<double> spread = trusted ? std::optional(spreads.empty() ? 1.0 : spreads[i]) : std::nullopt;
@@ -203,14 +204,14 @@ std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_
   return texels;
 }
 
-std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit) {
+std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit, unsigned threads) {
   const std::vector<BvhNode>& nodes = bvh.nodes();
   std::vector<std::uint32_t> inner(nodes.size(), 0);  // number among the inner nodes
   std::uint32_t inner_count = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].count == 0) inner[i] = inner_count++;
   }
-  const std::vector<Moments> moments = all_moments(bvh, to_unit);
+  const std::vector<Moments> moments = all_moments(bvh, to_unit, threads);
   const double total_area = moments[0].area;
   const std::uint32_t count = std::max(1u, inner_count);
   std::vector<Texel> texels(std::size_t{kTexelsPerNode} * count);
@@ -221,7 +222,7 @@ std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit
     const std::array<Texel, 4> m = moment_texels(moments[child], total_area);
     std::copy(m.begin(), m.end(), texels.begin() + 4 * std::ptrdiff_t{count} + 8 * std::ptrdiff_t{parent} + 4 * side);
   };
-  parallel_blocks(nodes.size(), kBlock, thread_count(0), [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(nodes.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (nodes[i].count != 0) continue;
       put_child(inner[i], 0, nodes[i].first);

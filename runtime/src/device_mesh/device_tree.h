@@ -29,11 +29,12 @@ FloatBox float_box(const BvhBox& box, const UnitTransform& to_unit);
 
 /// Four texels per triangle in leaf order; `flags` as MeshView::flags, `spreads` as MeshLinks::spreads or none.
 std::vector<Texel> make_triangle_texels(const Bvh& bvh, const UnitTransform& to_unit,
-                                        std::span<const std::uint8_t> flags, std::span<const float> spreads = {});
+                                        std::span<const std::uint8_t> flags, std::span<const float> spreads = {},
+                                        unsigned threads = 0);
 
 /// Inner nodes: 4 texels each with the boxes of both children, and after all of those 8 texels each with the moments
 /// of both children. At least one inner node, even if the mesh fits a leaf.
-std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit);
+std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit, unsigned threads = 0);
 
 constexpr std::uint32_t kTexelsPerTriangle = 4;
 constexpr std::uint32_t kTexelsPerNode = 12;

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {

@@ -1,5 +1,9 @@
-// Which extraction is asked for.
+// Extraction in either mode, of a mesh that is uploaded for it or that is on the device already.
 #include "medial_vk/extraction.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/host_memory.h"
 #include "device/context_impl.h"
@@ -7,42 +11,78 @@
 #include "extraction/certified/certified_extraction.h"
 #include "extraction/common/check_parameters.h"
 #include "extraction/thesis/thesis_extraction.h"
+#include "queries/scene_impl.h"
 
 namespace medial_vk {
 namespace {
 
-/// Without an index one is made, where it is needed.
-Result<Extraction> extract(Context& context, const MeshView& mesh, const MeshIndex* index,
-                           const ExtractionParameters& parameters, const ProgressCallback& progress,
-                           const std::stop_token& stop) {
-  if (Status s = check_parameters(parameters); !s.ok()) return s.error();
+/// `extract`: from what has been checked, with a watch.
+template <class Extract>
+Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallback& progress,
+                           const std::stop_token& stop, const Extract& extract) {
+  if (Status s = check_parameters(options); !s.ok()) return s.error();
   StopWatch watch(progress, stop);
-  Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&]() -> Result<Extraction> {
-    if (parameters.mode == Mode::kThesis) return extract_thesis(context.impl(), mesh, parameters, watch);
-    if (index != nullptr) return extract_certified(context.impl(), mesh, *index, parameters, watch);
-    const VkPhysicalDeviceLimits& limits = context.impl().limits;
-    if (Status s = DeviceMesh::check_size(mesh.triangles.size(), limits); !s.ok()) return s.error();
-    const Result<MeshIndex> made = MeshIndex::create(mesh);
-    if (!made.ok()) return made.error();
-    if (watch.stopped()) return StopWatch::error();
-    return extract_certified(context.impl(), mesh, made.value(), parameters, watch);
-  });
+  Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&] { return extract(watch); });
   if (extraction.ok() && progress) progress(1.0);
   return extraction;
 }
 
-}  // namespace
-
-Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh,
-                                          const ExtractionParameters& parameters, const ProgressCallback& progress,
-                                          const std::stop_token& stop) {
-  return extract(context, mesh, nullptr, parameters, progress, stop);
+Result<Extraction> extract(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+                           StopWatch& watch) {
+  if (watch.stopped()) return StopWatch::error();
+  if (options.mode == Mode::kThesis) return extract_thesis(context, mesh, options, watch);
+  if (Status s = mesh.add_links(); !s.ok()) return s.error();
+  return extract_certified(context, mesh, options, watch);
 }
 
-Result<Extraction> extract_medial_spheres(Context& context, const MeshView& mesh, const MeshIndex& index,
-                                          const ExtractionParameters& parameters, const ProgressCallback& progress,
-                                          const std::stop_token& stop) {
-  return extract(context, mesh, &index, parameters, progress, stop);
+/// A mesh that stays on the device from one extraction to the next.
+struct KeptMesh {
+  std::optional<IndexedMesh> source;
+  std::unique_ptr<DeviceMesh> mesh;
+
+  Status keep(Context::Impl& context, const IndexedMesh& wanted, bool with_links) {
+    if (mesh && source->is_same(wanted)) return {};
+    mesh.reset();  // its memory is needed
+    Result<DeviceMesh> uploaded = DeviceMesh::create(context, wanted, with_links);
+    if (!uploaded.ok()) return uploaded.error();
+    mesh = std::make_unique<DeviceMesh>(std::move(uploaded).value());
+    source.emplace(wanted);
+    return {};
+  }
+};
+
+}  // namespace
+
+Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+                                          const ProgressCallback& progress, const std::stop_token& stop) {
+  return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
+    Context::Impl& device = Internals::of(context);
+    Result<DeviceMesh> uploaded = DeviceMesh::create(device, mesh, options.mode == Mode::kCertified);
+    if (!uploaded.ok()) return uploaded.error();
+    return extract(device, uploaded.value(), options, watch);
+  });
+}
+
+Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions& options,
+                                          const ProgressCallback& progress, const std::stop_token& stop) {
+  return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
+    Scene::Impl& of = Internals::of(scene);
+    if (Status ready = of.usable(); !ready.ok()) return ready.error();
+    return extract(*of.context, of.mesh, options, watch);
+  });
+}
+
+Extractor device_extractor(Context& context) {
+  return
+      [&context, kept = std::make_shared<KeptMesh>()](const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                      const ProgressCallback& progress, const std::stop_token& stop) {
+        return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
+          Context::Impl& device = Internals::of(context);
+          const bool with_links = options.mode == Mode::kCertified;
+          if (Status status = kept->keep(device, mesh, with_links); !status.ok()) return status.error();
+          return extract(device, *kept->mesh, options, watch);
+        });
+      };
 }
 
 }  // namespace medial_vk

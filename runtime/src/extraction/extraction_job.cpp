@@ -81,11 +81,11 @@ struct ExtractionJob::Impl {
     std::unique_ptr<Recorder> recorder;
   };
 
-  Impl(Context::Impl& c, const ExtractionParameters& p, const JobOptions& o, StopWord s, DeviceMesh m)
+  Impl(Context::Impl& c, const ExtractionOptions& p, const JobOptions& o, StopWord s, DeviceMesh m)
       : context(c), parameters(p), options(o), stop(std::move(s)), mesh(std::move(m)), arena(c) {}
 
   Context::Impl& context;
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   JobOptions options;
   StopWord stop;  // nobody raises it
   DeviceMesh mesh;
@@ -141,19 +141,19 @@ Status ExtractionJob::Impl::append(Recorder& r, const Frame& frame) {
   return r.status();
 }
 
-Result<ExtractionJob> ExtractionJob::create(Context& context, const MeshView& mesh,
-                                            const ExtractionParameters& parameters, const JobOptions& options) {
+Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh& mesh,
+                                            const ExtractionOptions& parameters, const JobOptions& options) {
   if (Status status = check_parameters(parameters); !status.ok()) return status.error();
   if (parameters.mode != Mode::kCertified || options.frames == 0)
     return Error{ErrorCode::kUsage, "a recorded job is of mode certified, and of one frame at least"};
   return catch_out_of_memory("preparing a job", [&]() -> Result<ExtractionJob> {
-    Result<StopWord> stop = StopWord::create(context.impl());
+    Result<StopWord> stop = StopWord::create(Internals::of(context));
     if (!stop.ok()) return stop.error();
-    Result<DeviceMesh> device = DeviceMesh::create(context.impl(), mesh);
+    Result<DeviceMesh> device = DeviceMesh::create(Internals::of(context), mesh, true);
     if (!device.ok()) return device.error();
-    if (Status status = device.value().add_links(context.impl(), mesh); !status.ok()) return status.error();
-    auto impl =
-        std::make_unique<Impl>(context.impl(), parameters, options, std::move(stop).value(), std::move(device).value());
+    if (Status status = device.value().finish_uploads(); !status.ok()) return status.error();
+    auto impl = std::make_unique<Impl>(Internals::of(context), parameters, options, std::move(stop).value(),
+                                       std::move(device).value());
     if (Status status = impl->prepare(); !status.ok()) return status.error();
     return ExtractionJob(std::move(impl));
   });
@@ -164,13 +164,12 @@ ExtractionJob::ExtractionJob(ExtractionJob&&) noexcept = default;
 ExtractionJob& ExtractionJob::operator=(ExtractionJob&&) noexcept = default;
 ExtractionJob::~ExtractionJob() = default;
 
-Status ExtractionJob::move_vertices(const MeshView& mesh) {
+Status ExtractionJob::update(const IndexedMesh& mesh) {
   StagedMesh& staged = impl_->frames[impl_->next].staged;
   if (!staged.empty()) return Error{ErrorCode::kUsage, "the mesh was moved already; record() comes first"};
   return catch_out_of_memory("moving a mesh", [&] {
-    Status moved = impl_->mesh.update(impl_->context, mesh, [&](const Buffer& to, std::span<const std::byte> bytes) {
-      return staged.add(to, bytes);
-    });
+    Status moved = impl_->mesh.update(
+        mesh, [&](const Buffer& to, std::span<const std::byte> bytes) { return staged.add(to, bytes); });
     if (!moved.ok()) staged.clear();
     return moved;
   });

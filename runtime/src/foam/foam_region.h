@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/mesh_view.h"
-#include "medial_vk/queries.h"
 
 namespace medial_vk {
 

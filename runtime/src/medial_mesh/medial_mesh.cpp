@@ -1,4 +1,4 @@
-#include "medial_mesh/medial_mesh.h"
+#include "medial_vk/medial_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Builder {
  public:
-  Builder(const VoxelGraph& graph, const MedialMeshParameters& parameters)
+  Builder(const VoxelGraph& graph, const MedialMeshOptions& parameters)
       : graph_(graph), parameters_(parameters), hosts_(graph.size(), kNone) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) find_leader(place);
   }
@@ -99,7 +99,7 @@ class Builder {
   }
 
   const VoxelGraph& graph_;
-  const MedialMeshParameters& parameters_;
+  const MedialMeshOptions& parameters_;
   std::vector<std::uint32_t>
       hosts_;  // by place: the point that stands for it, or none if it is a vertex of the complex
 };
@@ -107,8 +107,8 @@ class Builder {
 }  // namespace
 
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
-                                    const MedialMeshParameters& parameters) {
-  const VoxelGraph graph(spheres);
+                                    const MedialMeshOptions& parameters) {
+  const VoxelGraph graph(spheres, parameters.threads);
   Result<MedialMesh> mesh = Builder(graph, parameters).run();
   if (!mesh) return mesh;
   if (const Status status = complete_medial_mesh(spheres.size(), sheets, mesh.value()); !status) return status.error();

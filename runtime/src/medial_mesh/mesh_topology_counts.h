@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "medial_mesh/medial_mesh.h"
+#include "medial_vk/medial_mesh.h"
 
 namespace medial_vk {
 

@@ -1,5 +1,9 @@
 // Seeded noise on the vertices, against degenerate positions (Stolpner 2011, 2.4.4).
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "medial_vk/prepare.h"
 
@@ -22,9 +26,29 @@ class SplitMix {
   std::uint64_t state_;
 };
 
+/// What was done to the mesh before its vertices were moved, and cannot be seen in it any more.
+void carry_over(const MeshReport& before, MeshReport& after) {
+  after.merged_vertices += before.merged_vertices;
+  after.unused_vertices += before.unused_vertices;
+  after.fallback_polygons += before.fallback_polygons;
+  after.degenerate_dropped += before.degenerate_dropped;
+  after.caps_repaired += before.caps_repaired;
+  after.duplicates_dropped += before.duplicates_dropped;
+  after.inner_walls_dropped += before.inner_walls_dropped;
+  after.reoriented_faces += before.reoriented_faces;
+  after.minority_faces += before.minority_faces;
+  after.reoriented_components += before.reoriented_components;
+  after.inside_out = after.inside_out || before.inside_out;
+  std::vector<std::string> assumptions = before.assumptions;
+  for (std::string& assumption : after.assumptions) {
+    if (std::ranges::find(assumptions, assumption) == assumptions.end()) assumptions.push_back(std::move(assumption));
+  }
+  after.assumptions = std::move(assumptions);
+}
+
 }  // namespace
 
-void perturb_mesh(Mesh& mesh, double amplitude, std::uint64_t seed) {
+void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed) {
   if (mesh.vertices.empty()) return;
   Point lower = mesh.vertices[0], upper = mesh.vertices[0];
   for (const Point& p : mesh.vertices) {
@@ -43,6 +67,20 @@ void perturb_mesh(Mesh& mesh, double amplitude, std::uint64_t seed) {
     } while (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2] > 1);
     for (int k = 0; k < 3; ++k) p[k] += amplitude * longest * offset[k];
   }
+}
+
+Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads) {
+  const MeshReport before = std::move(mesh.report);
+  perturb_vertices(mesh.mesh, amplitude, seed);
+  Result<PreparedMesh> perturbed = prepare_mesh(std::move(mesh.mesh), threads);
+  if (!perturbed) return perturbed;
+  MeshReport& report = perturbed.value().report;
+  carry_over(before, report);
+  report.assumptions.push_back(fmt::format(
+      "Every vertex was moved by up to {} of the longest side (`perturb`, seed {}); the points are those of "
+      "the moved mesh.",
+      amplitude, seed));
+  return perturbed;
 }
 
 }  // namespace medial_vk

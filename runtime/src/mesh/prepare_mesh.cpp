@@ -114,7 +114,7 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
       report.open_edges, report.triangles));
 }
 
-Result<PreparedMesh> prepare(Mesh mesh) {
+Result<PreparedMesh> prepare(Mesh mesh, unsigned threads) {
   if (const Status status = check_input(mesh); !status) return status.error();
   PreparedMesh prepared;
   const std::size_t given = mesh.triangles.size();
@@ -142,10 +142,10 @@ Result<PreparedMesh> prepare(Mesh mesh) {
   }
 
   TriangleTree tree(clean);
-  const SelfIntersections intersections = find_self_intersections(clean, tree);
+  const SelfIntersections intersections = find_self_intersections(clean, tree, threads);
   report.intersecting_faces = intersections.count;
   report.intersections_known = intersections.known;
-  const Sidedness sides = decide_sides(clean, topology, tree, parts, report.closed, intersections);
+  const Sidedness sides = decide_sides(clean, topology, tree, parts, report.closed, intersections, threads);
   report.sides_known = sides.known;
   report.reoriented_components = sides.turned_components;
   report.reoriented_faces =
@@ -162,9 +162,9 @@ Result<PreparedMesh> prepare(Mesh mesh) {
 
 }  // namespace
 
-Result<PreparedMesh> prepare_mesh(Mesh mesh) {
+Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads) {
   try {
-    return prepare(std::move(mesh));
+    return prepare(std::move(mesh), threads);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "not enough memory to prepare the mesh"};
   }

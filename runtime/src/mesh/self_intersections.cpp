@@ -3,7 +3,7 @@
 #include <atomic>
 #include <utility>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 
 namespace medial_vk {
 namespace {
@@ -144,7 +144,7 @@ std::vector<NodePair> first_pairs(const TriangleTree& tree) {
 
 }  // namespace
 
-SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree) {
+SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree, unsigned threads) {
   SelfIntersections result;
   result.crossed.assign(mesh.triangles.size(), false);
   if (tree.nodes.empty()) return result;
@@ -154,7 +154,7 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& 
   std::atomic<std::int64_t> left = budget;
   const std::vector<NodePair> pairs = first_pairs(tree);
   std::vector<Search> searches(pairs.size(), Search(mesh, tree, left));
-  parallel_for(pairs.size(), 1, [&](std::size_t i) { searches[i].run(pairs[i]); });
+  parallel_for(pairs.size(), 1, threads, [&](std::size_t i) { searches[i].run(pairs[i]); });
   result.known = left > 0;
   if (!result.known) {
     // How far each search came depends on the others: what is found in a tangle is what one thread finds.

@@ -18,7 +18,7 @@ struct SelfIntersections {
 /// A triangle counts as crossed unless double arithmetic proves, against rounding, that it is disjoint from every other
 /// triangle but for the vertices they share by index. Touching counts; so does folding back onto a neighbour.
 /// The work is bounded by a number of pairs, not by a clock, so that the result is always the same.
-SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree);
+SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree, unsigned threads = 0);
 
 /// The tests below it, for two triangles that share no, one, or two vertices: true only if proven.
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "base/point_ops.h"
 #include "mesh/winding_number.h"
 #include "mesh/winding_step.h"
@@ -20,8 +20,14 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 class SideFinder {
  public:
   SideFinder(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
-             const SelfIntersections& intersections)
-      : mesh_(mesh), topology_(topology), tree_(tree), parts_(parts), closed_(closed), intersections_(intersections) {
+             const SelfIntersections& intersections, unsigned threads)
+      : mesh_(mesh),
+        topology_(topology),
+        tree_(tree),
+        parts_(parts),
+        closed_(closed),
+        intersections_(intersections),
+        threads_(threads) {
     sides_.beside.assign(mesh.triangles.size(), kUnknown);
     place_of_.resize(mesh.triangles.size());
     for (std::uint32_t place = 0; place < tree.order.size(); ++place) place_of_[tree.order[place]] = place;
@@ -82,13 +88,13 @@ class SideFinder {
   /// those of their neighbours in the tree, and what lies between.
   std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& places) const {
     std::vector<std::optional<int>> step(places.size());
-    parallel_for(places.size(), 16, [&](std::size_t i) {
+    parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
       std::uint64_t cost = 0;
       if (i > 0) step[i] = winding_step(tree_, places[i - 1], places[i], cost);
     });
     std::vector<float> value(places.size());
     const WindingTree winding(tree_);
-    parallel_for(places.size(), 16, [&](std::size_t i) {
+    parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
       if (!step[i]) value[i] = half_integer(winding.beside(places[i]));
     });
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -116,7 +122,7 @@ class SideFinder {
     constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
     const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
     std::atomic<bool> complete = true;
-    parallel_for(blocks, 1, [&](std::size_t i) {
+    parallel_for(blocks, 1, threads_, [&](std::size_t i) {
       if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, places), allowance)) complete = false;
     });
     sides_.known = sides_.known && complete;
@@ -174,7 +180,7 @@ class SideFinder {
     const std::size_t step = std::max<std::size_t>(1, component.size() / 64);
     const std::size_t samples = (component.size() + step - 1) / step;
     std::vector<double> found(samples, 0);
-    parallel_for(samples, 4, [&](std::size_t i) {
+    parallel_for(samples, 4, threads_, [&](std::size_t i) {
       const std::uint32_t at = component[i * step];
       const auto& c = tree_.corners[place_of_[at]];
       const Point centroid = c[0] + (1.0 / 3) * ((c[1] - c[0]) + (c[2] - c[0]));
@@ -200,6 +206,7 @@ class SideFinder {
   const SurfaceParts& parts_;
   const bool closed_;
   const SelfIntersections& intersections_;
+  const unsigned threads_;
   std::vector<std::uint32_t> place_of_;
   std::vector<double> area_;
   Sidedness sides_;
@@ -208,8 +215,8 @@ class SideFinder {
 }  // namespace
 
 Sidedness decide_sides(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
-                       const SelfIntersections& intersections) {
-  return SideFinder(mesh, topology, tree, parts, closed, intersections).run();
+                       const SelfIntersections& intersections, unsigned threads) {
+  return SideFinder(mesh, topology, tree, parts, closed, intersections, threads).run();
 }
 
 }  // namespace medial_vk

@@ -28,6 +28,6 @@ struct Sidedness {
 /// if most of it faces an inside that has a negative winding number, both by itself and in the company of the others.
 /// In a tangle of large triangles only some are evaluated, spread evenly, and speak for their component.
 Sidedness decide_sides(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
-                       const SelfIntersections& intersections);
+                       const SelfIntersections& intersections, unsigned threads);
 
 }  // namespace medial_vk

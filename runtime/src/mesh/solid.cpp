@@ -22,33 +22,26 @@ double distance_rounding(const Bvh& bvh) {
   return 32 * u * longest + 4 * u * magnitude;
 }
 
-Solid::Solid(const PreparedMesh& mesh, Bvh bvh)
-    : mesh_(&mesh),
-      bvh_(std::move(bvh)),
-      rounding_(distance_rounding(bvh_)),
-      triangles_(std::make_unique<TriangleTree>(mesh.mesh)),
+Solid::Solid(const IndexedMesh& mesh)
+    : mesh_(mesh),
+      rounding_(distance_rounding(mesh.bvh())),
+      triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
       winding_(std::make_unique<WindingTree>(*triangles_)) {}
 
-Result<Solid> Solid::build(const PreparedMesh& mesh, unsigned threads) {
-  Result<Bvh> bvh = Bvh::build(mesh.view(), 4, threads);
-  if (!bvh) return bvh.error();
-  return Solid(mesh, std::move(bvh).value());
-}
-
-double Solid::distance(const Point& p) const { return std::sqrt(bvh_.closest(p).squared_distance); }
+double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
 bool Solid::contains(const Point& p) const {
   // The tree is wrong by 0.03 at worst: of a closed mesh enough for the integer, of others not near 1/2.
   constexpr double kDoubt = 0.05;
   const double winding = winding_->at(p);
-  if (mesh_->report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
-  return exact_winding_number(mesh_->mesh, p) >= 0.5;
+  if (mesh().report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
+  return exact_winding_number(mesh().mesh, p) >= 0.5;
 }
 
-double Solid::diagonal() const { return length(mesh_->report.upper - mesh_->report.lower); }
+double Solid::diagonal() const { return length(mesh().report.upper - mesh().report.lower); }
 
 bool Solid::has_volume() const {
-  const MeshReport& report = mesh_->report;
+  const MeshReport& report = mesh().report;
   return report.closed && report.faces_within == 0 && report.faces_without == 0 && report.intersecting_faces == 0 &&
          report.intersections_known;
 }

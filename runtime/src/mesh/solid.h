@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "medial_vk/bvh.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh.h"
 #include "mesh/triangle_tree.h"
 #include "mesh/winding_number.h"
@@ -16,13 +17,14 @@ double distance_rounding(const Bvh& bvh);
 /// Questions may come from several threads at once.
 class Solid {
  public:
-  /// Keeps a reference to the mesh, which must outlive this and stay where it is. Errors: as Bvh::build().
-  static Result<Solid> build(const PreparedMesh& mesh, unsigned threads = 0);
+  /// Shares what the mesh holds.
+  explicit Solid(const IndexedMesh& mesh);
 
-  const PreparedMesh& mesh() const { return *mesh_; }
-  const Bvh& bvh() const { return bvh_; }
+  const IndexedMesh& indexed() const { return mesh_; }
+  const PreparedMesh& mesh() const { return mesh_.prepared(); }
+  const Bvh& bvh() const { return mesh_.bvh(); }
   /// Nearest point of the boundary.
-  BvhHit closest(const Point& p) const { return bvh_.closest(p); }
+  BvhHit closest(const Point& p) const { return bvh().closest(p); }
   /// To the boundary, within rounding() of the exact distance.
   double distance(const Point& p) const;
   double rounding() const { return rounding_; }
@@ -33,13 +35,10 @@ class Solid {
   /// Does the mesh bound the solid and nothing else, so that its signed volume is the solid's? (Closed, and no face
   /// lies within or outside it as far as that is known.)
   bool has_volume() const;
-  double volume() const { return mesh_->report.signed_volume; }
+  double volume() const { return mesh().report.signed_volume; }
 
  private:
-  Solid(const PreparedMesh& mesh, Bvh bvh);
-
-  const PreparedMesh* mesh_;
-  Bvh bvh_;
+  IndexedMesh mesh_;
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;

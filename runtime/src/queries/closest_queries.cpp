@@ -71,7 +71,7 @@ Status Scene::Impl::closest(const ClosestQueries& asked, std::span<ClosestPoint>
 }
 
 Status Scene::Impl::closest_points(std::span<const Point> points, std::span<ClosestPoint> out) {
-  if (Status ready = usable(); !ready.ok()) return ready;
+  if (Status ready = make_queries(); !ready.ok()) return ready;
   ClosestQueries asked;
   asked.points = points;
   std::vector<std::uint32_t> order, slots;
@@ -87,7 +87,7 @@ Status Scene::Impl::closest_points(std::span<const Point> points, std::span<Clos
 
 Status Scene::Impl::closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size,
                                              std::span<ClosestPoint> out) {
-  if (Status ready = usable(); !ready.ok()) return ready;
+  if (Status ready = make_queries(); !ready.ok()) return ready;
   if (points.empty()) return {};
   const std::vector<std::uint32_t> slots = make_slots(packets->shape(), points.first(group_size));
   ClosestQueries asked;

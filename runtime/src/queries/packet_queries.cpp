@@ -70,10 +70,10 @@ PacketShape PacketShape::best_for(const Context::Impl& context) {
   return capable && fitting ? of(width, false) : of(32, true);
 }
 
-Result<PacketQueries> PacketQueries::create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                            std::uint32_t capacity, const PacketShape& shape, bool counts) {
+Result<PacketQueries> PacketQueries::create(Context::Impl& context, const DeviceMesh& device, std::uint32_t capacity,
+                                            const PacketShape& shape, bool counts) {
   PacketQueries queries(device, shape, counts);
-  Result<PacketTree> tree = PacketTree::create(context, device, mesh, shape.arity());
+  Result<PacketTree> tree = PacketTree::create(context, device, shape.arity());
   if (!tree.ok()) return tree.error();
   Result<TreeQueries> resolver = TreeQueries::create(context, device, capacity, {}, counts);
   if (!resolver.ok()) return resolver.error();

@@ -48,8 +48,8 @@ class PacketQueries {
  public:
   /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is as it was given to
   /// DeviceMesh::create(). With `counts`, what walks test is counted. Errors: kOutOfMemory, kInternal.
-  static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                      std::uint32_t capacity, const PacketShape& shape, bool counts = false);
+  static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, std::uint32_t capacity,
+                                      const PacketShape& shape, bool counts = false);
 
   /// TreeQueries::closest() for groups: same queries and results. `slots`: of make_slots(). Ends with a barrier.
   void closest(Recorder& r, const GroupCount& count, BufferRange slots, BufferRange queries, BufferRange nearest,

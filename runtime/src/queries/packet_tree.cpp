@@ -129,11 +129,10 @@ std::vector<Texel> make_frame_texels(const MeshView& mesh, std::span<const std::
   return texels;
 }
 
-Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                      std::uint32_t arity) {
+Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& device, std::uint32_t arity) {
   const UnitTransform to_unit = {device.lower, device.longest};
   const std::vector<Texel> node_data = make_wide_tree_texels(device.tree_nodes(), to_unit, arity);
-  const std::vector<Texel> frame_data = make_frame_texels(mesh, device.order, to_unit);
+  const std::vector<Texel> frame_data = make_frame_texels(device.source().view(), device.order, to_unit);
   std::vector<std::uint32_t> positions(device.order.size());
   for (std::size_t i = 0; i < positions.size(); ++i) positions[device.order[i]] = static_cast<std::uint32_t>(i);
   PacketTree tree(context);

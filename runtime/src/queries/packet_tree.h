@@ -24,9 +24,8 @@ std::vector<Texel> make_frame_texels(const MeshView& mesh, std::span<const std::
 
 class PacketTree {
  public:
-  /// `mesh` as given to DeviceMesh::create(). Error: kOutOfMemory.
-  static Result<PacketTree> create(Context::Impl& context, const DeviceMesh& device, const MeshView& mesh,
-                                   std::uint32_t arity);
+  /// Error: kOutOfMemory.
+  static Result<PacketTree> create(Context::Impl& context, const DeviceMesh& device, std::uint32_t arity);
 
   Buffer nodes, frames;
   Buffer positions;  // leaf position by index of the input

@@ -1,6 +1,6 @@
 // Scene: batches of queries go up, through the kernels of tree_queries.h and flux_sampler.h, and come back in the units
 // of the mesh.
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 
 #include <algorithm>
 
@@ -16,32 +16,34 @@ constexpr std::uint32_t kMostFluxSamples = 60'000;
 
 }  // namespace
 
-Result<Scene> Scene::create(Context& context, const MeshView& mesh) {
+Result<Scene> Scene::create(Context& context, const IndexedMesh& mesh) {
   return catch_out_of_memory("making a scene", [&]() -> Result<Scene> {
-    Result<DeviceMesh> device = DeviceMesh::create(context.impl(), mesh);
+    Result<DeviceMesh> device = DeviceMesh::create(Internals::of(context), mesh, false);
     if (!device.ok()) return device.error();
-    auto impl = std::make_unique<Impl>(context.impl(), std::move(device).value());
-    Result<TreeQueries> queries = TreeQueries::create(context.impl(), impl->mesh, kBatch);
-    if (!queries.ok()) return queries.error();
-    impl->queries = std::make_unique<TreeQueries>(std::move(queries).value());
-    if (Status made = impl->make_packets(mesh); !made.ok()) return made.error();
-    return Scene(std::move(impl));
+    if (Status there = device.value().finish_uploads(); !there.ok()) return there.error();
+    return Scene(std::make_unique<Impl>(Internals::of(context), std::move(device).value()));
   });
 }
 
-Status Scene::Impl::make_packets(const MeshView& view) {
-  packets.reset();  // they would answer for the mesh as it was
-  Result<PacketQueries> made = PacketQueries::create(*context, mesh, view, kBatch, PacketShape::best_for(*context));
-  if (!made.ok()) return made.error();
-  packets = std::make_unique<PacketQueries>(std::move(made).value());
+Status Scene::Impl::make_queries() {
+  if (Status ready = usable(); !ready.ok()) return ready;
+  if (queries == nullptr) {
+    Result<TreeQueries> made = TreeQueries::create(*context, mesh, kBatch);
+    if (!made.ok()) return made.error();
+    queries = std::make_unique<TreeQueries>(std::move(made).value());
+  }
+  if (packets == nullptr) {
+    Result<PacketQueries> made = PacketQueries::create(*context, mesh, kBatch, PacketShape::best_for(*context));
+    if (!made.ok()) return made.error();
+    packets = std::make_unique<PacketQueries>(std::move(made).value());
+  }
   return {};
 }
 
-// The wide tree is collapsed from the refitted binary one.
-Status Scene::update(const MeshView& mesh) {
+Status Scene::update(const IndexedMesh& moved) {
   return catch_out_of_memory("updating a scene", [&]() -> Status {
-    if (Status status = impl_->mesh.update(*impl_->context, mesh); !status.ok()) return status;
-    return impl_->make_packets(mesh);
+    if (moved.bvh().order() == impl_->mesh.order) impl_->packets.reset();  // they are of the mesh as it was
+    return impl_->mesh.update(moved);
   });
 }
 
@@ -56,7 +58,7 @@ Status Scene::Impl::answer(const QuerySet& asked) {
 }
 
 Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball> balls) {
-  if (Status ready = usable(); !ready.ok()) return ready.error();
+  if (Status ready = make_queries(); !ready.ok()) return ready.error();
   std::vector<std::uint8_t> out(balls.size());
   QuerySet set;
   set.count = balls.size();
@@ -84,7 +86,7 @@ Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball>
 }
 
 Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) {
-  if (Status ready = usable(); !ready.ok()) return ready.error();
+  if (Status ready = make_queries(); !ready.ok()) return ready.error();
   if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "the tolerance of a winding number must be positive"};
   std::vector<double> out(points.size());
   QuerySet set;
@@ -122,7 +124,7 @@ std::vector<Texel> directions_of(std::span<const Point> points) {
 }  // namespace
 
 Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
-  if (Status ready = usable(); !ready.ok()) return ready.error();
+  if (Status ready = make_queries(); !ready.ok()) return ready.error();
   if (samples == 0 || samples > kMostFluxSamples) {
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kMostFluxSamples)};
   }

@@ -13,7 +13,7 @@
 #include "commands/uploads.h"
 #include "device/context_impl.h"
 #include "device_mesh/device_tree.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "queries/packet_queries.h"
 #include "queries/query_batches.h"
 #include "queries/tree_queries.h"
@@ -47,10 +47,12 @@ class Scene::Impl {
     out = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), w};
     return {};
   }
-  Status make_packets(const MeshView& view);
+  /// What answers queries: made before the first one, and the wide tree again after an update, since it is collapsed
+  /// from the refitted binary one. Errors: as usable(); kOutOfMemory.
+  Status make_queries();
   /// Error: the last update failed half-way.
   Status usable() const {
-    if (packets && mesh.intact) return {};
+    if (mesh.intact) return {};
     return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
   }
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);

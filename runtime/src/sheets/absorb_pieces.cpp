@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "base/point_ops.h"
 #include "sheets/rim.h"
 
@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Absorption {
  public:
-  Absorption(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+  Absorption(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
              std::vector<std::uint32_t>& piece_of)
       : graph_(graph),
         voxel_size_(voxel_size),
@@ -44,7 +44,7 @@ class Absorption {
 
  private:
   void judge_pieces() {
-    parallel_for(places_.size(), 16, [&](std::size_t piece) { judge(places_[piece]); });
+    parallel_for(places_.size(), 16, parameters_.threads, [&](std::size_t piece) { judge(places_[piece]); });
   }
 
   void judge(std::span<const std::uint32_t> piece) {
@@ -55,7 +55,7 @@ class Absorption {
   /// Those that touch others.
   void set_small_pieces_free() {
     std::vector<std::uint8_t> goes(places_.size());
-    parallel_for(places_.size(), 16, [&](std::size_t piece) {
+    parallel_for(places_.size(), 16, parameters_.threads, [&](std::size_t piece) {
       const auto touches = [&](std::uint32_t place) { return is_at_border(place); };
       goes[piece] = is_small_[places_[piece].front()] && std::ranges::any_of(places_[piece], touches) ? 1 : 0;
     });
@@ -193,7 +193,7 @@ class Absorption {
 
   const VoxelGraph& graph_;
   double voxel_size_;
-  const SheetParameters& parameters_;
+  const SheetOptions& parameters_;
   std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
   std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
   std::vector<std::uint32_t> nearest_;  // by place: the nearest place at the edge of its piece, once measured
@@ -202,7 +202,7 @@ class Absorption {
 
 }  // namespace
 
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
                        std::vector<std::uint32_t>& piece_of) {
   return Absorption(graph, voxel_size, parameters, piece_of).run();
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {
@@ -22,7 +22,7 @@ struct Absorbed {
 /// voxel by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small
 /// pieces that hang together and touch no other become one, which may be large enough. Numbers are those of pieces that
 /// there were, with gaps. `voxel_size` is the side of the graph's voxels: what is no wider cannot be told from what is.
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetParameters& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
                        std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

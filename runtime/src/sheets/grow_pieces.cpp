@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "sheets/concurrent_sets.h"
 #include "sheets/spoke_turns.h"
 
 namespace medial_vk {
 
-LinkTest::LinkTest(double object_angle, const SheetParameters& parameters)
+LinkTest::LinkTest(double object_angle, const SheetOptions& parameters)
     : normals_(std::cos(parameters.angle * std::numbers::pi / 180)),
       crease_(parameters.crease > 0 ? std::cos(parameters.crease * std::numbers::pi / 180) : 2),
       salient_(parameters.crease > 0 ? std::cos(2 * object_angle) : -2) {}
@@ -20,11 +20,10 @@ bool LinkTest::operator()(const MedialSphere& p, const MedialSphere& q) const {
   return turn >= crease_ || (turn > salient_ && cosine_of_normals(p, q) >= normals_);
 }
 
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle,
-                                       const SheetParameters& parameters) {
+std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& parameters) {
   const LinkTest linked(object_angle, parameters);
   ConcurrentSets sets(graph.size());
-  parallel_for(graph.size(), 1024, [&](std::size_t i) {
+  parallel_for(graph.size(), 1024, parameters.threads, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
     for (const std::uint32_t other : graph.neighbours(place)) {
       if (other > place && linked(graph.sphere(place), graph.sphere(other))) sets.join(place, other);

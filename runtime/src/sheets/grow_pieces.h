@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {
@@ -13,7 +13,7 @@ namespace medial_vk {
 /// between the two points: then it does not help that their normals agree (docs/theory.md, "Sheets").
 class LinkTest {
  public:
-  LinkTest(double object_angle, const SheetParameters& parameters);
+  LinkTest(double object_angle, const SheetOptions& parameters);
   bool operator()(const MedialSphere& p, const MedialSphere& q) const;
 
  private:
@@ -21,6 +21,6 @@ class LinkTest {
 };
 
 /// By place: a number of its piece, ascending from 0 in the order of their first voxels.
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetParameters& parameters);
+std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& parameters);
 
 }  // namespace medial_vk

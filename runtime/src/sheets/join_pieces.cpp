@@ -204,7 +204,7 @@ class Joining {
 
 }  // namespace
 
-void join_pieces(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of) {
+void join_pieces(const VoxelGraph& graph, const SheetOptions& parameters, std::vector<std::uint32_t>& piece_of) {
   if (parameters.crease == 0) return;
   Joining(graph, parameters.border, piece_of).run();
 }

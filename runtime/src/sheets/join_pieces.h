@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {
@@ -15,6 +15,6 @@ namespace medial_vk {
 /// border lacks that is short for the smaller of its two pieces, by 4. Joins the two pieces with the greatest sum (of
 /// equals, one by the order of voxels), as long as that is not negative; borders with a third add up. Nothing if
 /// parameters.crease is 0. docs/theory.md, "Sheets".
-void join_pieces(const VoxelGraph& graph, const SheetParameters& parameters, std::vector<std::uint32_t>& piece_of);
+void join_pieces(const VoxelGraph& graph, const SheetOptions& parameters, std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

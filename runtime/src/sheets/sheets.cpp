@@ -1,11 +1,11 @@
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "base/point_ops.h"
 #include "sheets/absorb_pieces.h"
 #include "sheets/grow_pieces.h"
@@ -58,9 +58,10 @@ std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& 
 }
 
 /// Sums in voxel order, so that they come out the same whatever the order of the points.
-void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::size_t count, Sheets& out) {
+void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::size_t count, unsigned threads,
+              Sheets& out) {
   std::vector<std::uint8_t> marks(graph.size());
-  parallel_for(graph.size(), 1024, [&](std::size_t i) {
+  parallel_for(graph.size(), 1024, threads, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
     marks[i] = marks_of(graph, sheet_of, place);
   });
@@ -88,10 +89,10 @@ void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of
 
 /// Sums in voxel order, too. After describe().
 void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon,
-                   const std::vector<std::int32_t>& sheet_of, Sheets& out) {
+                   const std::vector<std::int32_t>& sheet_of, unsigned threads, Sheets& out) {
   const double voxel_area = grid.voxel_size * grid.voxel_size;
   out.areas.resize(graph.size());
-  parallel_for(graph.size(), 1024, [&](std::size_t i) {
+  parallel_for(graph.size(), 1024, threads, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
     const std::uint32_t point = graph.index(place);
     const double share = out.marks[point] & kRim ? 0.5 : 1;
@@ -103,9 +104,9 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
 
 }  // namespace
 
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
-                   const SheetParameters& parameters, SheetAreas areas) {
-  const VoxelGraph graph(spheres);
+Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
+                   const SheetOptions& parameters, SheetAreas areas) {
+  const VoxelGraph graph(spheres, parameters.threads);
   std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
   join_pieces(graph, parameters, piece_of);
   Sheets out;
@@ -115,11 +116,11 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   out.absorbed_points = absorbed.points;
   std::size_t count = 0;
   const std::vector<std::int32_t> sheet_of = number_sheets(piece_of, count);
-  describe(graph, sheet_of, count, out);
+  describe(graph, sheet_of, count, parameters.threads, out);
   for (std::uint32_t place = 0; place < graph.size(); ++place) {
     if (absorbed.is_small[place]) out.marks[graph.index(place)] |= kSmall;
   }
-  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, out);
+  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, parameters.threads, out);
   return out;
 }
 

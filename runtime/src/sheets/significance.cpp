@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 #include "sheets/sheets_around.h"
 
 namespace medial_vk {
@@ -157,7 +157,7 @@ void give(const SheetBalls& sheets, std::uint32_t index, double amount, double w
 
 /// In voxel order, whatever the order of the balls, and in as many parts for any number of cores: sums do not depend on
 /// these. Precondition: there is a graph.
-std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball) {
+std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball, unsigned threads) {
   constexpr std::size_t kParts = 16;
   const std::size_t count = of_ball.size();
   std::vector<std::uint32_t> order(count);
@@ -166,7 +166,7 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   if (weights.empty()) weights.assign(count, 1);
   const SheetsAround around(sheets.balls, sheets.sheet_of, weights, sheets.sheets, order);
   std::vector<SheetsAround::Given> given(kParts);
-  parallel_for(kParts, 1, [&](std::size_t part) {
+  parallel_for(kParts, 1, threads, [&](std::size_t part) {
     given[part] = around.nothing();
     for (std::size_t place = part * count / kParts; place < (part + 1) * count / kParts; ++place) {
       give(sheets, order[place], of_ball[order[place]], weights[order[place]], around, given[part]);
@@ -210,7 +210,8 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
   for (std::size_t i = 0; i < result.of_ball.size(); ++i) {
     if (result.volume > 0) result.of_ball[i] /= result.volume;
   }
-  result.of_sheet = sheets.graph ? share_among_sheets(sheets, result.of_ball) : sum_by_sheet(sheets, result.of_ball);
+  result.of_sheet =
+      sheets.graph ? share_among_sheets(sheets, result.of_ball, threads) : sum_by_sheet(sheets, result.of_ball);
   return result;
 }
 

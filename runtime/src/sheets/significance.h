@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "medial_vk/result.h"
+#include "medial_vk/sheets.h"
 #include "medial_vk/shrinking_union.h"
-#include "sheets/sheets.h"
+#include "medial_vk/significance.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {
@@ -31,36 +32,8 @@ struct SheetBalls {
 /// whose plane just touches its voxel has little or no weight and is of the sheets around it, as if it were at a seam.
 std::vector<double> seam_weights(const Sheets& sheets);
 
-/// Of the radius of a ball: how far from its centre a sheet is one of those that it is of.
-inline constexpr double kSeamReach = 0.7;
-
-struct Significance {
-  double volume = 0;            ///< Of the union of the balls.
-  double area = 0;              ///< Of its surface.
-  BettiNumbers topology;        ///< Of the union.
-  std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
-  /// lambda(T), equation 6.2; sums to 1. A ball at a seam is of all sheets there: it counts for each by the
-  /// weights of its points within kSeamReach of its radius, or two voxels, the nearer the more.
-  std::vector<double> of_sheet;
-  std::vector<double> areas;  ///< Per ball: of its sphere on the surface of the union.
-};
-
 /// Errors: those of measure_ball_union(); kInternal for sheets or weights that are not as said.
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads);
-
-/// The order in which sheets go.
-struct SheetRemoval {
-  std::vector<std::uint32_t> sheets;  ///< The first to go first.
-  std::vector<double> volume_left;    ///< After each: share of the volume of the whole union.
-  std::vector<std::uint32_t> kept;    ///< Those that stay, by decreasing significance.
-};
-
-enum class RemovalRule {
-  kSignificance,  ///< The least significant goes first (Section 6.3).
-  /// The least significant goes first of those without which the union has as many components, tunnels and cavities as
-  /// the whole (Section 6.4.1).
-  kTopology,
-};
 
 /// Called before each sheet that is tried, with the share of the work done, as far as it can be told: what had to stay
 /// may have to be tried again. It never falls. False stops.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 
 namespace medial_vk {
 namespace {
@@ -54,7 +54,7 @@ struct Block {
 
 }  // namespace
 
-VoxelGraph::VoxelGraph(std::span<const MedialSphere> spheres)
+VoxelGraph::VoxelGraph(std::span<const MedialSphere> spheres, unsigned threads)
     : spheres_(spheres), order_(spheres.size()), starts_(spheres.size() + 1, 0) {
   std::iota(order_.begin(), order_.end(), 0u);
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return key_of(spheres[a]) < key_of(spheres[b]); };
@@ -64,7 +64,7 @@ VoxelGraph::VoxelGraph(std::span<const MedialSphere> spheres)
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = key_of(spheres[order_[i]]);
 
   std::vector<Block> blocks((keys.size() + kBlock - 1) / kBlock);
-  parallel_for(blocks.size(), 1, [&](std::size_t b) {
+  parallel_for(blocks.size(), 1, threads, [&](std::size_t b) {
     NeighbourWalk walk(keys, b * kBlock);
     for (std::size_t place = b * kBlock; place < std::min(keys.size(), (b + 1) * kBlock); ++place) {
       const std::size_t size = blocks[b].neighbours.size();

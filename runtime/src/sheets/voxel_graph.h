@@ -13,7 +13,7 @@ namespace medial_vk {
 class VoxelGraph {
  public:
   /// Precondition: at most one sphere per voxel; coordinates of voxels below 2^20.
-  explicit VoxelGraph(std::span<const MedialSphere> spheres);
+  explicit VoxelGraph(std::span<const MedialSphere> spheres, unsigned threads = 0);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
   const MedialSphere& sphere(std::uint32_t place) const { return spheres_[order_[place]]; }

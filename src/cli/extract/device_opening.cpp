@@ -1,25 +1,27 @@
 #include "cli/extract/device_opening.h"
 
-#include <memory>
 #include <utility>
 
-#include "base/host_threads.h"
 #include "base/stopwatch.h"
 #include "cli/terminal/messages.h"
 
 namespace medial_vk::cli {
 
-void DeviceOpening::start(const std::string& wanted) {
+void DeviceOpening::start(const std::string& wanted, unsigned threads) {
   wanted_ = wanted;
   ContextOptions options;
   options.device = wanted;
-  auto loading = std::make_shared<LoadingLibraries>();
-  // Without a thread to be had: when it is asked for.
-  opening_ = std::async(std::launch::async | std::launch::deferred, [options, loading = std::move(loading)]() mutable {
-    Result<Context> opened = Context::create(options);
-    loading.reset();
-    return opened;
-  });
+  options.threads = threads;
+  started_ = std::chrono::steady_clock::now();
+  // Without a thread to be had: when the context is taken.
+  opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
+}
+
+unsigned DeviceOpening::threads_beside(std::size_t triangles, unsigned wanted) const {
+  constexpr std::chrono::milliseconds kLoading(50);
+  constexpr std::size_t kQuick = 50'000;  // prepared or indexed by one thread in about the time of loading
+  const bool is_loading = opening_.valid() && std::chrono::steady_clock::now() < started_ + kLoading;
+  return is_loading && triangles < kQuick ? 1 : wanted;
 }
 
 Status DeviceOpening::take(std::optional<Context>& context, std::optional<DeviceDescription>& description,

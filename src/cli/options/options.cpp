@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void declare(CLI::App& app, Options& options) {
-  ExtractionParameters& parameters = options.parameters;
+  ExtractionOptions& parameters = options.parameters;
   Declarations add(app);
   add.text("MESH", "file", options.mesh);
   add.text("-o,--output", "file", options.output);
@@ -67,7 +67,7 @@ void declare(CLI::App& app, Options& options) {
   add.whole("--threads", 0, 1024, " threads", options.threads);
 
   add.flag("--check", options.check);
-  add.flag("--kernel-times", parameters.kernel_times);
+  add.flag("--kernel-times", parameters.measurements.kernel_times);
   add.flag("-q,--quiet", options.quiet);
   add.flag("-v,--verbose", options.verbose);
   add.action("--list-devices", Action::kListDevices, options.action);

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/extract.h"
 #include "cli/options/parse_picture.h"
+#include "judge/backend.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
+#include "medial_vk/sheets.h"
 #include "output/medial_file.h"
 #include "output/picture/options.h"
-#include "sheets/sheets.h"
 
 namespace medial_vk::cli {
 
@@ -29,11 +29,11 @@ struct Options {
   bool gpu_instancing = false;
   std::optional<std::uint32_t> sphere_detail;  ///< None: the usual one, or less for large files.
 
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   double perturb = 0;  ///< Fraction of the longest side; 0: off.
   std::uint64_t seed = 1;
   bool simplify = false;
-  SheetParameters sheets;
+  SheetOptions sheets;
   double keep_volume = 0;  ///< Share of the volume that the sheets that are kept must have; 0: all are kept.
   bool keep_topology = false;
 

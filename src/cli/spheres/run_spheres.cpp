@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -17,6 +18,9 @@
 #include "cli/terminal/messages.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
+#include "judge/check_spheres.h"
+#include "judge/reference_extractor.h"
+#include "output/charts/measures_output.h"
 #include "output/files/atomic_file.h"
 #include "output/files/file_extension.h"
 #include "output/picture.h"
@@ -33,7 +37,8 @@ class SpheresRun {
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
-    if (options_.backend != Backend::kCpu) opening_.start(options_.device);  // while the input is read
+    if (options_.backend != Backend::kCpu)
+      opening_.start(options_.device, options_.request.threads);  // while the input is read
     if (Status status = load(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.times); !status) return status;
     if (!options_.quiet) print_message(spheres_opening(options_, record_));
@@ -67,7 +72,7 @@ class SpheresRun {
   }
 
   Status load_one_mesh() {
-    Result<PreparedMesh> mesh = load_mesh(options_.input, record_.times);
+    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.request.threads, record_.times);
     if (!mesh) return mesh.error();
     record_.robot = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
     record_.parts.push_back(single_part(record_.robot, std::move(mesh).value()));
@@ -101,20 +106,55 @@ class SpheresRun {
 
   Status fit() {
     Stopwatch stopwatch;
-    const FitGoals goals = {options_.request, options_.count_per_link, options_.total, options_.levels, options_.check};
-    std::optional<EndAtOnce> while_checked;
-    const FitProgress on_progress = [&](FitStage stage, const Part&, double done) {
-      stage == FitStage::kCheck ? void(while_checked.emplace()) : while_checked.reset();
-      progress_.update(stage == FitStage::kCheck ? "check" : "spheres", done);
-      return !interrupted();
+    std::stop_source stop;
+    const auto on_progress = [&](double done) {
+      progress_.update("spheres", done);
+      if (interrupted()) stop.request_stop();
     };
-    Result<std::vector<PartFit>> fits =
-        fit_parts(record_.parts, goals, options_.backend, context_ ? &*context_ : nullptr, on_progress);
+    const Extractor extractor = options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*context_);
+    Status status = options_.is_robot ? fit_robot(extractor, on_progress, stop.get_token())
+                                      : fit_one_mesh(extractor, on_progress, stop.get_token());
     progress_.clear();
-    if (!fits) return fits.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(fits.error());
-    record_.fits = std::move(fits).value();
+    if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(status.error());
+    check();
     record_.times.push_back({"spheres", stopwatch.lap()});
     return {};
+  }
+
+  Status fit_robot(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
+    const FitGoals goals = {options_.request, options_.count_per_link, options_.total};
+    Result<std::vector<PartFit>> fits = fit_parts(
+        record_.parts, goals, extractor, [&](const Part&, double done) { on_progress(done); }, stop);
+    if (!fits) return fits.error();
+    record_.fits = std::move(fits).value();
+    return {};
+  }
+
+  Status fit_one_mesh(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
+    Stopwatch stopwatch;
+    const SphereOptions& wanted = options_.request;
+    const Result<IndexedMesh> mesh = IndexedMesh::create(record_.parts.front().mesh, wanted.threads);
+    if (!mesh) return mesh.error();
+    Result<SphereFit> fit = fit_spheres(
+        mesh.value(), wanted, extractor, [&](const char*, double done) { on_progress(done); }, stop);
+    if (!fit) return fit.error();
+    record_.fits.push_back(as_part_fit(std::move(fit).value(), wanted.count));
+    record_.fits.front().seconds = stopwatch.lap();
+    return {};
+  }
+
+  /// The reference cannot be stopped half-way, but nothing is lost if the process ends.
+  void check() {
+    if (!options_.check) return;
+    const EndAtOnce while_checked;
+    record_.certificates.resize(record_.parts.size());
+    for (std::size_t i = 0; i < record_.parts.size(); ++i) {
+      if (record_.parts[i].ball) continue;
+      progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.parts.size()));
+      record_.certificates[i] =
+          check_by_reference(record_.parts[i].mesh, record_.fits[i].proved, options_.request.contract);
+    }
+    progress_.clear();
   }
 
   /// In memory: until they are written a signal may end the program.
@@ -137,7 +177,7 @@ class SpheresRun {
     file.method = name_of(options_.request.method);
     file.is_robot = options_.is_robot;
     file.robot = record_.robot;
-    file.with_levels = options_.levels;
+    file.with_levels = options_.request.levels;
     file.branch = std::max(options_.request.count, options_.count_per_link);
     file.urdf = urdf_;
     for (std::size_t i = 0; i < record_.parts.size(); ++i) {

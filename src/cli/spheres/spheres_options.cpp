@@ -28,7 +28,7 @@ struct Given {
 };
 
 void declare(CLI::App& app, SpheresOptions& options, Given& given) {
-  SphereRequest& request = options.request;
+  SphereOptions& request = options.request;
   Declarations add(app);
   add.text("INPUT", "file", options.input);
   add.text("-o,--output", "file", options.output);
@@ -53,7 +53,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
       {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}, {"balanced", SphereContract::kBalanced}},
       request.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
-  add.flag("--levels", options.levels);
+  add.flag("--levels", options.request.levels);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
   app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);
@@ -96,7 +96,7 @@ Status check_input(SpheresOptions& options, const Given& given) {
 }
 
 Status check_goals(const SpheresOptions& options) {
-  const SphereRequest& request = options.request;
+  const SphereOptions& request = options.request;
   if (options.is_robot && request.count > 0) {
     return usage_error("--count is for one mesh; of a robot say --count-per-link N or --total N");
   }
@@ -119,9 +119,9 @@ Status check_goals(const SpheresOptions& options) {
 }
 
 Status complete_output(SpheresOptions& options, const Given& given) {
-  const SphereFormat usual = options.levels     ? SphereFormat::kJson
-                             : options.is_robot ? SphereFormat::kUrdf
-                                                : SphereFormat::kCsv;
+  const SphereFormat usual = options.request.levels ? SphereFormat::kJson
+                             : options.is_robot     ? SphereFormat::kUrdf
+                                                    : SphereFormat::kCsv;
   options.format = given.format.value_or(usual);
   if (options.output.empty()) {
     constexpr const char* kExtensions[] = {".csv", ".json", ".foam.json", ".yml", ".xrdf", ".urdf"};
@@ -132,7 +132,7 @@ Status complete_output(SpheresOptions& options, const Given& given) {
     if (!format) return usage_error("--output: " + format.error().message);
     options.format = format.value();
   }
-  if (options.levels && !has_levels(options.format)) {
+  if (options.request.levels && !has_levels(options.format)) {
     return usage_error(fmt::format("--levels: the format {} has one set of spheres only; use csv, json or foam",
                                    name_of(options.format)));
   }

@@ -9,10 +9,11 @@
 
 #include "cli/options/output_names.h"
 #include "cli/options/parse_picture.h"
+#include "judge/backend.h"
 #include "medial_vk/result.h"
+#include "medial_vk/spheres.h"
 #include "output/picture/options.h"
 #include "output/spheres/sphere_file.h"
-#include "spheres/methods/sphere_set.h"
 
 namespace medial_vk::cli {
 
@@ -23,10 +24,9 @@ struct SpheresOptions {
   std::string output;     ///< Never empty after parsing; "-": standard output.
   SphereFormat format = SphereFormat::kCsv;
 
-  SphereRequest request;           ///< `threads` is that of the run.
+  SphereOptions request;           ///< `threads` is that of the run.
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
-  bool levels = false;
 
   bool visual = false;                ///< Of a robot: its visual geometry instead of that for collisions.
   std::vector<std::string> packages;  ///< "name=folder".

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/spheres/spheres_options.h"
+#include "judge/check_spheres.h"
 #include "medial_vk/context.h"
 #include "output/files/atomic_file.h"
 #include "robots/fit_parts.h"
@@ -14,9 +15,10 @@
 namespace medial_vk::cli {
 
 struct SpheresRecord {
-  std::string robot;          ///< Name of the robot or mesh.
-  std::vector<Part> parts;    ///< What was fitted to ...
-  std::vector<PartFit> fits;  ///< ... and what came of it, in the same order.
+  std::string robot;                                                ///< Name of the robot or mesh.
+  std::vector<Part> parts;                                          ///< What was fitted to ...
+  std::vector<PartFit> fits;                                        ///< ... and what came of it, in the same order.
+  std::vector<std::optional<reference::Certificate>> certificates;  ///< Of --check, in the same order.
   std::optional<DeviceDescription> device;
   std::vector<StageTime> times;  ///< Seconds, in the order of the run.
 };

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/spheres/spheres_record.h"
+#include "output/charts/measures_output.h"
 #include "output/version.h"
 
 namespace medial_vk::cli {
@@ -26,7 +27,10 @@ Json goals_json(const SpheresOptions& options) {
           {"resolution", given(options.request.resolution)}};
 }
 
-Json part_json(const SpheresOptions& options, const Part& part, const PartFit& fit) {
+Json part_json(const SpheresOptions& options, const SpheresRecord& record, std::size_t index) {
+  const Part& part = record.parts[index];
+  const PartFit& fit = record.fits[index];
+  const bool is_checked = index < record.certificates.size() && record.certificates[index];
   const ReachOut& reach = fit.reach.back();
   Json counts = Json::array();
   for (const std::vector<Ball>& level : fit.levels) counts.push_back(level.size());
@@ -44,7 +48,7 @@ Json part_json(const SpheresOptions& options, const Part& part, const PartFit& f
           {"spheres_volume", or_null(fit.spheres_volume)},
           {"volume_error", or_null(uncovered_share(fit, options.request.contract))},
           {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},
-          {"check", fit.certificate ? Json(fit.certificate->passed() ? "passed" : "failed") : Json(nullptr)},
+          {"check", is_checked ? Json(record.certificates[index]->passed() ? "passed" : "failed") : Json(nullptr)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.best}, {"worst", reach.worst}}},
           {"seconds", fit.seconds}};
 }
@@ -54,7 +58,7 @@ Json part_json(const SpheresOptions& options, const Part& part, const PartFit& f
 std::string spheres_report(const SpheresOptions& options, const SpheresRecord& record) {
   Json parts = Json::array();
   for (std::size_t i = 0; i < record.parts.size(); ++i) {
-    parts.push_back(part_json(options, record.parts[i], record.fits[i]));
+    parts.push_back(part_json(options, record, i));
   }
   Json seconds = Json::object();
   for (const StageTime& time : record.times) seconds[time.stage] = time.seconds;

@@ -7,6 +7,7 @@
 #include "cli/spheres/spheres_record.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
+#include "output/charts/measures_output.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -143,8 +144,8 @@ std::optional<double> uncovered_share(const SpheresRecord& record, SphereContrac
 reference::Certificate joint_certificate(const SpheresRecord& record) {
   reference::Certificate joint;
   for (std::size_t i = 0; i < record.fits.size(); ++i) {
-    if (!record.fits[i].certificate) continue;
-    for (const reference::CertificateLine& line : record.fits[i].certificate->lines) {
+    if (i >= record.certificates.size() || !record.certificates[i]) continue;
+    for (const reference::CertificateLine& line : record.certificates[i]->lines) {
       const auto same = std::ranges::find(joint.lines, line.condition, &reference::CertificateLine::condition);
       if (same == joint.lines.end()) {
         joint.lines.push_back(line);
@@ -184,9 +185,9 @@ std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& 
 
 std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& record,
                             std::span<const OutputFile> files) {
-  const SphereRequest& request = options.request;
+  const SphereOptions& request = options.request;
   std::string spheres = grouped(count_spheres(record));
-  if (options.levels) spheres += fmt::format(", in {} levels", record.fits.front().levels.size());
+  if (options.request.levels) spheres += fmt::format(", in {} levels", record.fits.front().levels.size());
   std::string text = line("spheres", spheres);
   text += line("contract", promise(request.contract));
   text += line("certified", certificate_text(request.contract, record));

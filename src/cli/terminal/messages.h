@@ -10,6 +10,12 @@ namespace medial_vk::cli {
 /// What an interrupted run says: kInterrupted.
 Error stopped();
 
+/// Messages of the library name its parameters, in backticks; this names the options of the tool instead.
+std::string in_words_of_options(std::string message);
+
+/// The exit code that stands for an error.
+int exit_code(ErrorCode code);
+
 /// An error kNoDevice with what to do about it; others as they are. `wanted` is what --device named, or empty.
 Error with_hint(Error error, const std::string& wanted = {});
 

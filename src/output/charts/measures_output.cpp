@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "output/charts/measures_output.h"
 #include "output/charts/svg_drawing.h"
-#include "spheres/measures/measures.h"
 
 namespace medial_vk {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "medial_mesh/medial_mesh.h"
+#include "medial_vk/medial_mesh.h"
 #include "output/medial_file.h"
 
 namespace medial_vk {

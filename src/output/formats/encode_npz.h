@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "medial_vk/sheets.h"
 #include "output/medial_file.h"
-#include "sheets/sheets.h"
 
 namespace medial_vk {
 

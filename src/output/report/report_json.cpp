@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;  // Keys stay in the order in which a reade
 constexpr int kReportFormat = 1;
 
 Json parameters_json(const RunRecord& record) {
-  const ExtractionParameters& parameters = record.parameters;
+  const ExtractionOptions& parameters = record.parameters;
   const bool thesis = parameters.mode == Mode::kThesis;
   Json json = {{"mode", thesis ? "thesis" : "certified"},
                {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
@@ -33,8 +33,8 @@ Json parameters_json(const RunRecord& record) {
                {"seed", record.seed},
                {"memory_bytes", parameters.memory_budget}};
   if (thesis) {
-    json["samples"] = parameters.samples;
-    json["narrow_features"] = parameters.narrow_features;
+    json["samples"] = parameters.thesis.samples;
+    json["narrow_features"] = parameters.thesis.narrow_features;
   }
   return json;
 }
@@ -186,7 +186,7 @@ Json orders_json(const RunRecord& record) {
           {"topology", order_json(record.keeping_topology)}};
 }
 
-Json grouping_json(const SheetParameters& parameters, const Sheets& sheets) {
+Json grouping_json(const SheetOptions& parameters, const Sheets& sheets) {
   return {{"sheet_angle", parameters.angle},
           {"sheet_crease", parameters.crease},
           {"sheet_border", parameters.border},

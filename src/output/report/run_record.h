@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/extract.h"
 #include "cpu_reference/certificate.h"
-#include "medial_mesh/medial_mesh.h"
+#include "judge/backend.h"
+#include "medial_vk/certify.h"
 #include "medial_vk/context.h"
-#include "sheets/sheets.h"
-#include "sheets/significance.h"
+#include "medial_vk/medial_mesh.h"
+#include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 
 namespace medial_vk {
 
@@ -36,7 +37,7 @@ struct UnionRecord {
 struct RunRecord {
   std::string input;
   std::string output;
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   Backend backend = Backend::kVulkan;
   std::uint64_t seed = 0;
   double perturb = 0;  ///< Amplitude as a fraction of the longest side; 0: off.
@@ -53,7 +54,7 @@ struct RunRecord {
   std::optional<Range> radii;
   std::optional<Range> object_angles;
 
-  SheetParameters sheet_parameters;
+  SheetOptions sheet_parameters;
   Sheets sheets;
   std::optional<UnionRecord> ball_union;         ///< Nothing: no output tells of volumes.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 #include "medial_vk/result.h"
-#include "spheres/measures/reach_out.h"
+#include "medial_vk/sphere_measures.h"
 
 namespace medial_vk {
 

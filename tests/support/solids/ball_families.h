@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk::test {
 

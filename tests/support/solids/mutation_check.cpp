@@ -52,7 +52,7 @@ Answers answers_of(const reference::Result& result) {
   return out;
 }
 
-void compare(const Extraction& device, const reference::Result& reference, const ExtractionParameters& parameters,
+void compare(const Extraction& device, const reference::Result& reference, const ExtractionOptions& parameters,
              std::vector<std::string>& faults) {
   const double threshold = parameters.object_angle;
   const double least_radius = kLeastRadius * parameters.resolution * reference.voxel_size;
@@ -86,7 +86,7 @@ MutationOutcome check_mutation(Context& context, std::uint64_t seed) {
     return out;
   }
   const PreparedMesh& mesh = prepared.value();
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 14;
   parameters.extra_levels = 2;
   const Result<CertifiedExtraction> extracted = extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1);

@@ -44,7 +44,7 @@ class CertifyTest : public testing::TestWithParam<double> {
   }
   void add(const MedialSphere& s) {
     extraction_.spheres.push_back(s);
-    ++extraction_.counters.found;
+    ++extraction_.measurements.counters.found;
   }
   CertifyReport certify(unsigned threads = 1) {
     return certify_spheres(bvh_, parameters_, kLongest, extraction_, threads);
@@ -54,7 +54,7 @@ class CertifyTest : public testing::TestWithParam<double> {
   double offset_;
   Mesh mesh_;
   Bvh bvh_;
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
   Extraction extraction_;
 };
 
@@ -104,14 +104,14 @@ TEST_P(CertifyTest, DropsWhatFailsAndKeepsTheOrder) {
   add(elsewhere);
   add(sphere_at(2.53, 1.97, 0.0));  // on the boundary
   add(sphere_at(3.03, 1.97, 0.5 - 0.2 * epsilon()));
-  extraction_.counters.undecided = 10;
+  extraction_.measurements.counters.undecided = 10;
   const CertifyReport report = certify();
   EXPECT_EQ(report.passed, 2u);
   EXPECT_EQ(report.rejected, 3u);
   ASSERT_EQ(extraction_.spheres.size(), 2u);
   EXPECT_LT(extraction_.spheres[0].voxel[0], extraction_.spheres[1].voxel[0]);
-  EXPECT_EQ(extraction_.counters.found, 2u);
-  EXPECT_EQ(extraction_.counters.undecided, 13u);
+  EXPECT_EQ(extraction_.measurements.counters.found, 2u);
+  EXPECT_EQ(extraction_.measurements.counters.undecided, 13u);
 }
 
 // On the sheet that leaves an edge of the slab at 45 degrees the object angle is pi/4.

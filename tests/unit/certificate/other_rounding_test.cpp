@@ -43,7 +43,7 @@ class OtherKernels {
 
 // Clearly salient points of `here` in voxels that `there` has dismissed. (A point nearer to a face, or to the
 // threshold, may stand for a medial point in the next voxel, or for one below the threshold.)
-std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionParameters& parameters) {
+std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionOptions& parameters) {
   std::set<std::array<std::uint32_t, 3>> kept;
   for (const MedialSphere& s : there.spheres) kept.insert(s.voxel);
   for (const UndecidedVoxel& u : there.undecided) kept.insert(u.voxel);
@@ -62,13 +62,13 @@ bool same_bytes(const Extraction& a, const Extraction& b) {
 }
 
 // Extracts by the kernels as they are and rewritten. True if both gave the same bytes.
-bool agree(Mesh solid, const ExtractionParameters& parameters, const Rewrite& rewrite) {
+bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewrite) {
   const PreparedMesh mesh = test::prepare(std::move(solid));
   Context context = test::make_context();
   const Extraction plain = test::extract_on_device(context, mesh, parameters).extraction;
   const OtherKernels kernels(rewrite);
   Context other_context = test::make_context();
-  other_context.impl().extra_shaders = kernels.shaders();
+  Internals::of(other_context).extra_shaders = kernels.shaders();
   const CertifiedExtraction other = test::extract_on_device(other_context, mesh, parameters);
   EXPECT_GT(plain.spheres.size(), 500u);
   EXPECT_TRUE(test::passes_certificate(mesh, other.extraction, parameters));
@@ -97,7 +97,7 @@ class OtherRoundingTest : public testing::TestWithParam<float> {
   test::OtherRounding rounding() const { return {GetParam() * 2.4e-7f, GetParam() * 4e-7f, GetParam() * 2.4e-4f}; }
 
   void expect_the_same(Mesh solid, std::uint32_t resolution) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = resolution;
     const Rewrite rewrite = [&](auto words) { return test::round_otherwise(words, rounding()); };
     EXPECT_FALSE(agree(std::move(solid), parameters, rewrite)) << "the kernels round as they did";
@@ -151,13 +151,13 @@ std::vector<float> make_specials(Context::Impl& context, std::span<const std::ui
 }
 
 TEST_F(MakeSpecials, AreThereAndAreReplaced) {
-  const std::vector<float> plain = make_specials(context_->impl(), kMakeSpecialsSpirv);
+  const std::vector<float> plain = make_specials(Internals::of(*context_), kMakeSpecialsSpirv);
   EXPECT_TRUE(std::isinf(plain[0]));
   EXPECT_TRUE(std::isnan(plain[1]));
   EXPECT_TRUE(std::isinf(plain[10]));
   Context other = test::make_context();
   const std::vector<std::uint32_t> words = test::replace_specials(kMakeSpecialsSpirv, {-0.0f, 7.0f});
-  const std::vector<float> found = make_specials(other.impl(), words);
+  const std::vector<float> found = make_specials(Internals::of(other), words);
   const std::vector<float> expected = {7, 7, 7, 7, 0, 0, 0x1p125f, 0x1p126f, 0x1p-126f, 1, 7, 7};
   EXPECT_EQ(found, expected);
   for (const std::size_t zero : {4, 5}) EXPECT_TRUE(std::signbit(found[zero]));
@@ -166,7 +166,7 @@ TEST_F(MakeSpecials, AreThereAndAreReplaced) {
 class OtherSpecialsTest : public testing::TestWithParam<test::OtherSpecials> {
  protected:
   void expect_the_same(Mesh solid, std::uint32_t resolution, Mode mode = Mode::kCertified) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = resolution;
     parameters.mode = mode;
     const Rewrite rewrite = [&](auto words) { return test::replace_specials(words, GetParam()); };

@@ -134,10 +134,10 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
 }
 
 TEST(Options, SheetsAreGroupedAsAskedFor) {
-  EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetParameters());
-  const SheetParameters sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border", "60",
-                                         "--sheet-width", "0.1", "--absorb-fragments", "20"})
-                                     .sheets;
+  EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetOptions());
+  const SheetOptions sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border", "60",
+                                      "--sheet-width", "0.1", "--absorb-fragments", "20"})
+                                  .sheets;
   EXPECT_EQ(sheets.angle, 10);
   EXPECT_EQ(sheets.crease, 0);
   EXPECT_EQ(sheets.border, 60);
@@ -211,7 +211,7 @@ TEST(Options, EveryOptionIsUnderstood) {
   EXPECT_EQ(options.output, "b.csv");
   EXPECT_EQ(options.format, MedialFormat::kCsv);
   EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
-  EXPECT_TRUE(options.parameters.kernel_times);
+  EXPECT_TRUE(options.parameters.measurements.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
   EXPECT_EQ(options.html, "p.html");

@@ -43,7 +43,7 @@ class ContextTest : public testing::Test {
     Result<Context> context = Context::create(options);
     EXPECT_TRUE(context.ok()) << context.error().message;
     if (!context.ok()) return {};
-    Context::Impl& impl = context.value().impl();
+    Context::Impl& impl = Internals::of(context.value());
     impl.extra_shaders = kTestShaders;
     const auto program = impl.program(test_program());
     EXPECT_TRUE(program.ok()) << program.error().message;
@@ -138,19 +138,19 @@ TEST_F(ContextTest, UnknownDeviceListsWhatExists) {
 TEST_F(ContextTest, MovesKeepTheDevice) {
   Result<Context> created = Context::create(options());
   ASSERT_TRUE(created.ok());
-  const VkDevice device = created.value().impl().device;
+  const VkDevice device = Internals::of(created.value()).device;
   Context moved = std::move(created.value());
-  EXPECT_EQ(moved.impl().device, device);
+  EXPECT_EQ(Internals::of(moved).device, device);
   Result<Context> other = Context::create(options());
   ASSERT_TRUE(other.ok());
   moved = std::move(other.value());  // closes the first
-  EXPECT_NE(moved.impl().device, VkDevice{VK_NULL_HANDLE});
+  EXPECT_NE(Internals::of(moved).device, VkDevice{VK_NULL_HANDLE});
 }
 
 TEST_F(ContextTest, ProgramsAreMadeOnce) {
   Result<Context> context = Context::create(options());
   ASSERT_TRUE(context.ok());
-  Context::Impl& impl = context.value().impl();
+  Context::Impl& impl = Internals::of(context.value());
   impl.extra_shaders = kTestShaders;
   const auto first = impl.program(test_program());
   ASSERT_TRUE(first.ok()) << first.error().message;
@@ -163,7 +163,7 @@ TEST_F(ContextTest, ProgramsAreMadeOnce) {
 TEST_F(ContextTest, ProgramErrorsNameTheShader) {
   Result<Context> context = Context::create(options());
   ASSERT_TRUE(context.ok());
-  Context::Impl& impl = context.value().impl();
+  Context::Impl& impl = Internals::of(context.value());
   impl.extra_shaders = kTestShaders;
   ProgramKey key = test_program();
   key.shader = "no_such_kernel";
@@ -192,12 +192,12 @@ TEST_F(ContextTest, PipelineCacheIsWrittenWhenProgramsAreClosed) {
   const std::string written = contents(file);
   fs::remove(file);
   Context context = Context::create(options()).value();
-  context.impl().extra_shaders = kTestShaders;
-  ASSERT_TRUE(context.impl().program(test_program()).ok());
+  Internals::of(context).extra_shaders = kTestShaders;
+  ASSERT_TRUE(Internals::of(context).program(test_program()).ok());
   context.close_programs();
   EXPECT_EQ(find_cache_file(), file);
   EXPECT_EQ(contents(file).size(), written.size());
-  EXPECT_TRUE(context.impl().program(test_program()).ok());
+  EXPECT_TRUE(Internals::of(context).program(test_program()).ok());
 }
 
 TEST_F(ContextTest, DamagedPipelineCacheIsReplaced) {

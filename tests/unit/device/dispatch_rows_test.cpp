@@ -35,7 +35,7 @@ class DispatchRowsTest : public testing::Test {
   void SetUp() override {
     MEDIAL_VK_SKIP_WITHOUT_DEVICE();
     context_.emplace(test::make_context(test::no_validation_reason().empty()));
-    context_->impl().extra_shaders = kTestShaders;
+    Internals::of(*context_).extra_shaders = kTestShaders;
   }
   void TearDown() override {
     if (context_) {
@@ -55,7 +55,7 @@ class DispatchRowsTest : public testing::Test {
     d.list_counter = gpu::kNoCounter;
     d.threads = threads;
 
-    Context::Impl& impl = context_->impl();
+    Context::Impl& impl = Internals::of(*context_);
     Arena arena(impl);
     const auto create = [&arena](VkDeviceSize bytes, MemoryKind kind) {
       return arena.create_buffer(bytes, kind, "a test").value();
@@ -126,7 +126,7 @@ TEST_F(DispatchRowsTest, NoGroupRunsBeyondALimit) {
 
 TEST_F(DispatchRowsTest, WhatTheHostSizesGoesToRowsToo) {
   constexpr std::uint32_t kGroups = 3 * gpu::kGroupsInRow + 5;
-  Context::Impl& impl = context_->impl();
+  Context::Impl& impl = Internals::of(*context_);
   Arena arena(impl);
   const Buffer runs = arena.create_buffer(VkDeviceSize{kGroups + 1} * 4, MemoryKind::kDevice, "a test").value();
   const Buffer back = arena.create_buffer(runs.size, MemoryKind::kReadback, "a test").value();
@@ -160,14 +160,14 @@ TEST_F(DispatchRowsTest, ResultsAreTheSameForAnyNumberOfThreads) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
   for (const Mode mode : {Mode::kCertified, Mode::kThesis}) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = 40;
     parameters.mode = mode;
-    context_->impl().dispatch_threads = 1;
+    Internals::of(*context_).dispatch_threads = 1;
     const Extraction one = test::extract_on_device(*context_, mesh, parameters).extraction;
     ASSERT_GT(one.spheres.size(), 500u);
     for (const std::uint32_t threads : {2u, 3u, 5u}) {
-      context_->impl().dispatch_threads = threads;
+      Internals::of(*context_).dispatch_threads = threads;
       const Extraction several = test::extract_on_device(*context_, mesh, parameters).extraction;
       ASSERT_EQ(several.spheres.size(), one.spheres.size()) << threads;
       for (std::size_t i = 0; i < one.spheres.size(); ++i)

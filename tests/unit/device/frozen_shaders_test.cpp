@@ -38,7 +38,7 @@ std::vector<EmbeddedShader> frozen_shaders() {
 
 // What the extraction from a mesh whose normals can all be trusted asks for, as the frozen variants are named.
 std::set<std::string> names_asked(Context::Impl& context, const PreparedMesh& mesh,
-                                  const ExtractionParameters& parameters) {
+                                  const ExtractionOptions& parameters) {
   Result<DeviceMesh> device = DeviceMesh::create(context, mesh.view());
   EXPECT_TRUE(device.ok() && device.value().add_links(context, mesh.view()).ok());
   Result<StopWord> stop = StopWord::create(context);
@@ -62,14 +62,14 @@ class FrozenShadersTest : public testing::Test {
   FrozenShadersTest() : mesh_(test::prepare(test::make_torus(1.0, 0.4, 24, 48, 0.5))) { parameters_.resolution = 40; }
 
   PreparedMesh mesh_;
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
 };
 
 TEST_F(FrozenShadersTest, AreAskedFor) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Context context = test::make_context();
-  if (!context.impl().has_lockstep_lanes) GTEST_SKIP() << "this device takes the general kernels";
-  const std::set<std::string> asked = names_asked(context.impl(), mesh_, parameters_);
+  if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "this device takes the general kernels";
+  const std::set<std::string> asked = names_asked(Internals::of(context), mesh_, parameters_);
   ASSERT_THAT(frozen_shaders(), testing::Not(testing::IsEmpty()));
   for (const EmbeddedShader& frozen : frozen_shaders())
     EXPECT_TRUE(asked.contains(std::string(frozen.name))) << frozen.name << " is never used";
@@ -80,7 +80,7 @@ TEST_F(FrozenShadersTest, ComputeTheSame) {
   Context context = test::make_context(), other_context = test::make_context();
   std::vector<EmbeddedShader> general = frozen_shaders();
   for (EmbeddedShader& shader : general) shader.words = general_of(shader).words;
-  other_context.impl().extra_shaders = general;
+  Internals::of(other_context).extra_shaders = general;
   const auto frozen = test::extract_on_device(context, mesh_, parameters_).extraction;
   const auto other = test::extract_on_device(other_context, mesh_, parameters_).extraction;
   ASSERT_GT(frozen.spheres.size(), 500u);

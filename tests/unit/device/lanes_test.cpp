@@ -16,12 +16,12 @@ namespace {
 void expect_the_same(Mesh solid, std::uint32_t resolution) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = resolution;
   Context context = test::make_context();
-  if (!context.impl().has_lockstep_lanes) GTEST_SKIP() << "the device has no lanes in lockstep";
+  if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "the device has no lanes in lockstep";
   const Extraction shuffled = test::extract_on_device(context, mesh, parameters).extraction;
-  context.impl().has_lockstep_lanes = false;
+  Internals::of(context).has_lockstep_lanes = false;
   const Extraction shared = test::extract_on_device(context, mesh, parameters).extraction;
   EXPECT_EQ(context.validation_messages(), 0u);
   ASSERT_GT(shuffled.spheres.size(), 500u);

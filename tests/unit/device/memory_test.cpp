@@ -36,7 +36,7 @@ class MemoryTest : public testing::Test {
       EXPECT_EQ(context_->validation_messages(), 0u);
     }
   }
-  Context::Impl& impl() { return context_->impl(); }
+  Context::Impl& impl() { return Internals::of(*context_); }
 
   std::optional<Context> context_;
 };

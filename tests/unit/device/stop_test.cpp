@@ -17,8 +17,8 @@ namespace {
 
 class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
  protected:
-  static ExtractionParameters parameters(std::uint32_t resolution) {
-    ExtractionParameters p;
+  static ExtractionOptions parameters(std::uint32_t resolution) {
+    ExtractionOptions p;
     p.mode = GetParam();
     p.resolution = resolution;
     return p;

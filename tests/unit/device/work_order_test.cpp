@@ -29,10 +29,10 @@ std::vector<std::uint32_t> order_of(const std::vector<std::uint32_t>& work, std:
   Context context = test::make_context();
   std::vector<std::uint32_t> order;
   {
-    Arena arena(context.impl());
+    Arena arena(Internals::of(context));
     const auto on_device = [&](const std::vector<std::uint32_t>& words) {
       const Buffer buffer = arena.create_buffer(4 * words.size(), MemoryKind::kDevice, "a test").value();
-      EXPECT_TRUE(upload(context.impl(), buffer, std::as_bytes(std::span(words))).ok());
+      EXPECT_TRUE(upload(Internals::of(context), buffer, std::as_bytes(std::span(words))).ok());
       return buffer;
     };
     std::vector<std::uint32_t> counters(gpu::kCounterCount);
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> order_of(const std::vector<std::uint32_t>& work, std:
     step.items_counter = gpu::kLines;
     step.items_multiplier = 1;
     step.first_item = first_item;
-    const auto ran = run_commands(context.impl(), [&](Recorder& r) {
+    const auto ran = run_commands(Internals::of(context), [&](Recorder& r) {
       r.dispatch({"sort_by_work", 3, 0, sizeof(step), 64, {}}, buffers, {}, bytes_of(step), blocks * 64);
       r.barrier();
       r.copy(ordered, 0, back, 0, back.size);

@@ -22,8 +22,8 @@ namespace {
 
 class MeshIndexTest : public test::DeviceTest {};
 
-ExtractionParameters small_job() {
-  ExtractionParameters parameters;
+ExtractionOptions small_job() {
+  ExtractionOptions parameters;
   parameters.resolution = 24;
   return parameters;
 }
@@ -67,7 +67,7 @@ TEST_F(MeshIndexTest, OfAnotherMeshIsRefused) {
 
 TEST_F(MeshIndexTest, ModeThesisDoesWithoutOne) {
   const PreparedMesh mesh = test::prepare(test::make_turned_torus());
-  ExtractionParameters parameters = small_job();
+  ExtractionOptions parameters = small_job();
   parameters.mode = Mode::kThesis;
   const auto without = extract_medial_spheres(*context_, mesh.view(), parameters);
   const auto with = extract_medial_spheres(*context_, mesh.view(), MeshIndex::create(mesh.view()).value(), parameters);
@@ -85,9 +85,9 @@ TEST_F(MeshIndexTest, StaysWhereItIsWhenADeviceMeshMoves) {
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
   const MeshIndex index = MeshIndex::create(test::view_of(before)).value();
   const std::vector<std::array<Point, 3>> corners = index.bvh().corners();
-  DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(before), index).value();
+  DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(before), index).value();
   ASSERT_TRUE(device.finish_uploads().ok());
-  ASSERT_TRUE(device.update(context_->impl(), test::view_of(after)).ok());
+  ASSERT_TRUE(device.update(Internals::of(*context_), test::view_of(after)).ok());
   EXPECT_TRUE(index.bvh().corners() == corners);
   EXPECT_NE(device.upper, index.bvh().nodes()[0].box.upper);
 }

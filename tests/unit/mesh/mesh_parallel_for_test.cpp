@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 
 namespace medial_vk {
 namespace {

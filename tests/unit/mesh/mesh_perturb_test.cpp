@@ -14,9 +14,9 @@ using namespace test;
 TEST(Perturb, SeededAndBounded) {
   const Mesh mesh = make_box({1, 2, 4});
   Mesh a = mesh, b = mesh, c = mesh;
-  perturb_mesh(a, 1e-3, 7);
-  perturb_mesh(b, 1e-3, 7);
-  perturb_mesh(c, 1e-3, 8);
+  perturb_vertices(a, 1e-3, 7);
+  perturb_vertices(b, 1e-3, 7);
+  perturb_vertices(c, 1e-3, 8);
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_NE(a.vertices, c.vertices);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

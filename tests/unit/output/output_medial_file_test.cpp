@@ -227,7 +227,7 @@ TEST(OutputMedialFile, FormatIsThatOfTheExtension) {
 }
 
 TEST(OutputMedialFile, HeaderTurnsFractionsIntoLengths) {
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.radius = 0.25;
   const MedialHeader header = make_header({{1, 2, 3}, 0.5, {4, 4, 4}}, parameters, 80.0);
   EXPECT_EQ(header.version, version());

@@ -32,7 +32,7 @@ class PacketQueriesTest : public test::DeviceTest {
   /// Runs `record(recorder, slots, queries, nearest, hits)` over the queries; results that it leaves alone are zero.
   template <class Record>
   Answers run(std::span<const Texel> queries, std::span<const std::uint32_t> slots, const Record& record) {
-    Context::Impl& context = context_->impl();
+    Context::Impl& context = Internals::of(*context_);
     Arena arena(context);
     const std::size_t count = queries.size();
     const auto make = [&](VkDeviceSize bytes, MemoryKind kind) {
@@ -64,7 +64,8 @@ class PacketQueriesTest : public test::DeviceTest {
   Answers ask_packets(const DeviceMesh& device, const Mesh& mesh, const PacketShape& shape,
                       std::span<const Texel> queries, std::span<const Point> group, std::uint32_t* unresolved) {
     const auto count = static_cast<std::uint32_t>(queries.size());
-    PacketQueries packets = PacketQueries::create(context_->impl(), device, test::view_of(mesh), count, shape).value();
+    PacketQueries packets =
+        PacketQueries::create(Internals::of(*context_), device, test::view_of(mesh), count, shape).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, group);
     const auto size = static_cast<std::uint32_t>(group.size());
     const Answers answers = run(queries, slots, [&](Recorder& r, auto table, auto asked, auto nearest, auto hits) {
@@ -77,7 +78,7 @@ class PacketQueriesTest : public test::DeviceTest {
 
   Answers ask_one_by_one(const DeviceMesh& device, std::span<const Texel> queries) {
     TreeQueries single =
-        TreeQueries::create(context_->impl(), device, static_cast<std::uint32_t>(queries.size())).value();
+        TreeQueries::create(Internals::of(*context_), device, static_cast<std::uint32_t>(queries.size())).value();
     const std::vector<std::uint32_t> unused(4);
     return run(queries, unused, [&](Recorder& r, auto, auto asked, auto nearest, auto hits) {
       single.closest(r, QueryCount::of(static_cast<std::uint32_t>(queries.size())), asked, nearest, hits,
@@ -106,14 +107,14 @@ std::vector<PacketShape> all_shapes(const Context::Impl& context) {
 
 TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
   const Mesh mesh = test::make_turned_torus();
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
   for (const std::uint32_t samples : {1u, 9u, 51u, 130u}) {
     const std::vector<Point> directions = spiral_points(samples);
     std::vector<Texel> queries = samples_of_spheres(directions, 60);
     for (std::size_t i = 0; i < queries.size(); i += 7) queries[i][3] = -1;       // passed over
     for (std::size_t i = 3; i < queries.size(); i += 7) queries[i][3] = 0.0004f;  // nothing is that near, or few are
     const Answers single = ask_one_by_one(device, queries);
-    for (const PacketShape& shape : all_shapes(context_->impl())) {
+    for (const PacketShape& shape : all_shapes(Internals::of(*context_))) {
       SCOPED_TRACE(testing::Message() << samples << " samples, width " << shape.width << ", shared memory "
                                       << shape.through_shared_memory);
       std::uint32_t unresolved = 1;
@@ -134,7 +135,7 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
 // At the centre of a sphere every triangle is as near as any other: the walk gives up, a look at all triangles answers.
 TEST_F(PacketQueriesTest, CentreOfASphere) {
   const Mesh mesh = test::make_sphere(1.0, 100000);
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
   const std::vector<Point> around = spiral_points(51);
   std::vector<Texel> queries;
   for (const Point& d : around) {
@@ -143,7 +144,7 @@ TEST_F(PacketQueriesTest, CentreOfASphere) {
   }
   std::uint32_t unresolved = 0;
   const Answers answers =
-      ask_packets(device, mesh, PacketShape::best_for(context_->impl()), queries, around, &unresolved);
+      ask_packets(device, mesh, PacketShape::best_for(Internals::of(*context_)), queries, around, &unresolved);
   EXPECT_EQ(unresolved, 51u);
   for (const Texel& nearest : answers.nearest) EXPECT_NEAR(std::sqrt(nearest[3]), 0.5, 1e-4);
 }
@@ -210,7 +211,7 @@ TEST(PointOrder, IsAPermutationThatKeepsNeighboursTogether) {
 // dispatch is followed by the next question whether to go on.
 TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
   const Mesh mesh = test::make_turned_torus();
-  Context::Impl& context = context_->impl();
+  Context::Impl& context = Internals::of(*context_);
   const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   const std::vector<Texel> queries = samples_of_spheres(spiral_points(50), 20);
   const Answers expected = ask_one_by_one(device, queries);

@@ -14,7 +14,7 @@
 #include "commands/uploads.h"
 #include "device/context_impl.h"
 #include "device_mesh/device_tree.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "queries/scene_impl.h"
 #include "queries/tree_queries.h"
 #include "support/device/device_test.h"
@@ -32,12 +32,12 @@ Mesh rotated_torus() {
 class SceneTest : public test::DeviceTest {};
 
 TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
-  const VkPhysicalDeviceLimits& limits = context_->impl().limits;
+  const VkPhysicalDeviceLimits& limits = Internals::of(*context_).limits;
   const std::uint64_t seen = std::max(limits.maxStorageBufferRange / 64, limits.maxTexelBufferElements / 4);
   const auto most = std::min<std::uint64_t>(seen, DeviceMesh::kMostTriangles);
   Mesh mesh = test::make_box({1, 1, 1});
   mesh.triangles.resize(most + 1, mesh.triangles[0]);
-  const Result<DeviceMesh> device = DeviceMesh::create(context_->impl(), test::view_of(mesh));
+  const Result<DeviceMesh> device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh));
   ASSERT_FALSE(device.ok());
   EXPECT_EQ(device.error().code, ErrorCode::kOutOfMemory);
   EXPECT_NE(device.error().message.find("the mesh has " + std::to_string(most + 1) + " triangles"), std::string::npos);
@@ -46,7 +46,7 @@ TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
 
 TEST_F(SceneTest, UnitBox) {
   const Mesh mesh = rotated_torus();
-  const DeviceMesh device = DeviceMesh::create(context_->impl(), test::view_of(mesh)).value();
+  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
   double largest = 0;
   for (const Point& p : mesh.vertices) {
     const Point unit = device.to_unit(p);
@@ -69,7 +69,7 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   Scene with_texels = Scene::create(*context_, test::view_of(mesh)).value();
   const auto expected = with_texels.closest_points(points).value();
   const auto expected_numbers = with_texels.winding_numbers(points).value();
-  context_->impl().limits.maxTexelBufferElements = 1000;
+  Internals::of(*context_).limits.maxTexelBufferElements = 1000;
   Scene without = Scene::create(*context_, test::view_of(mesh)).value();
   const auto found = without.closest_points(points).value();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -86,8 +86,8 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   for (const Point& d : spiral_points(5100)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
   Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
   Scene copying = Scene::create(*context_, test::view_of(mesh)).value();
-  EXPECT_EQ(scene.impl().shares_memory, context_->impl().description.type == "cpu");
-  copying.impl().shares_memory = false;
+  EXPECT_EQ(Internals::of(scene).shares_memory, Internals::of(*context_).description.type == "cpu");
+  Internals::of(copying).shares_memory = false;
   const auto same = [](const std::vector<ClosestPoint>& a, const std::vector<ClosestPoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ClosestPoint& p, const ClosestPoint& q) {
       return p.point == q.point && p.distance == q.distance && p.triangle == q.triangle && p.feature == q.feature;
@@ -105,7 +105,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
 
 // At the centre of a sphere every walk gives up, a little off it none does.
 TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
-  Context::Impl& context = context_->impl();
+  Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 100000);
   const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   TreeQueries queries = TreeQueries::create(context, device, 64).value();
@@ -134,7 +134,7 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
 // What a stop saves is measured by bench/stops.cpp; here, that nothing is written any more. With no tolerance every
 // walk goes to all triangles and gives up.
 TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
-  Context::Impl& context = context_->impl();
+  Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 20000);
   const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   StopWord stop = StopWord::create(context).value();

@@ -13,7 +13,7 @@
 #include "device/context_impl.h"
 #include "device_mesh/device_mesh.h"
 #include "device_mesh/device_tree.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/scene.h"
 #include "queries/tree_queries.h"
 #include "support/device/device_test.h"
 #include "support/solids/solids.h"
@@ -31,7 +31,7 @@ class SceneUpdate : public test::DeviceTest {
 
   /// By `queries`, made for `mesh` before or after it was updated; ties go to the smallest index.
   std::vector<Nearest> closest(const TreeQueries& queries, const DeviceMesh& mesh, const std::vector<Point>& points) {
-    Context::Impl& context = context_->impl();
+    Context::Impl& context = Internals::of(*context_);
     const auto count = static_cast<std::uint32_t>(points.size());
     std::vector<Texel> texels;
     for (const Point& p : points) {
@@ -76,7 +76,7 @@ std::vector<Point> points_around(const Point& centre) {
 }
 
 TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
-  Context::Impl& context = context_->impl();
+  Context::Impl& context = Internals::of(*context_);
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
   for (const bool texels : {true, false}) {
     SCOPED_TRACE(texels);
@@ -100,7 +100,7 @@ TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
 }
 
 TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
-  Context::Impl& context = context_->impl();
+  Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_turned_torus();
   DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
   const TreeQueries queries = TreeQueries::create(context, device, 1024).value();

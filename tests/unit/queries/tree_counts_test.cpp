@@ -31,7 +31,7 @@ class TreeCounts : public test::DeviceTest {
   void SetUp() override {
     test::DeviceTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    Context::Impl& context = context_->impl();
+    Context::Impl& context = Internals::of(*context_);
     mesh_ = test::make_sphere(1.0, 2000);
     device_.emplace(DeviceMesh::create(context, test::view_of(mesh_)).value());
     arena_.emplace(context);
@@ -51,8 +51,8 @@ class TreeCounts : public test::DeviceTest {
   template <class Queries, class Record>
   Tests tests_of(const Queries& queries, const Texel& query, const Record& record) {
     const std::vector<Texel> all(kQueries, query);
-    EXPECT_TRUE(upload(context_->impl(), at_, std::as_bytes(std::span(all))).ok());
-    const auto done = run_commands(context_->impl(), [&](Recorder& r) {
+    EXPECT_TRUE(upload(Internals::of(*context_), at_, std::as_bytes(std::span(all))).ok());
+    const auto done = run_commands(Internals::of(*context_), [&](Recorder& r) {
       queries.clear_tests(r);
       record(r);
       queries.copy_tests(r, counts_, 0);
@@ -75,7 +75,7 @@ class TreeCounts : public test::DeviceTest {
 };
 
 TEST_F(TreeCounts, WithoutToleranceAWindingNumberOpensEveryNode) {
-  const TreeQueries queries = TreeQueries::create(context_->impl(), *device_, kQueries, {}, true).value();
+  const TreeQueries queries = TreeQueries::create(Internals::of(*context_), *device_, kQueries, {}, true).value();
   const Tests tests = tests_of(queries, {0.5f, 0.5f, 0.5f, kFar}, [&](Recorder& r) {
     queries.winding(r, QueryCount::of(kQueries), at_.range(), out_.range(), 0.0f);
   });
@@ -85,7 +85,7 @@ TEST_F(TreeCounts, WithoutToleranceAWindingNumberOpensEveryNode) {
 
 TEST_F(TreeCounts, WhoSeeksNothingTestsTheRoot) {
   const Texel outside = {2, 2, 2, 0};
-  const TreeQueries single = TreeQueries::create(context_->impl(), *device_, kQueries, {}, true).value();
+  const TreeQueries single = TreeQueries::create(Internals::of(*context_), *device_, kQueries, {}, true).value();
   for (const bool empty : {false, true}) {
     const Tests tests = tests_of(single, outside, [&](Recorder& r) {
       if (empty) return single.empty(r, QueryCount::of(kQueries), at_.range(), out_.range());
@@ -97,13 +97,13 @@ TEST_F(TreeCounts, WhoSeeksNothingTestsTheRoot) {
 }
 
 TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
-  for (const PacketShape& shape : {PacketShape::best_for(context_->impl()), PacketShape::of(16, true)}) {
+  for (const PacketShape& shape : {PacketShape::best_for(Internals::of(*context_)), PacketShape::of(16, true)}) {
     ASSERT_EQ(shape.packets(kQueries), 1u);
     const PacketQueries packets =
-        PacketQueries::create(context_->impl(), *device_, test::view_of(mesh_), kQueries, shape, true).value();
+        PacketQueries::create(Internals::of(*context_), *device_, test::view_of(mesh_), kQueries, shape, true).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, kQueries);
     const Buffer table = arena_->create_buffer(slots.size() * 4, MemoryKind::kDevice, "a test").value();
-    ASSERT_TRUE(upload(context_->impl(), table, std::as_bytes(std::span(slots))).ok());
+    ASSERT_TRUE(upload(Internals::of(*context_), table, std::as_bytes(std::span(slots))).ok());
     const auto ask = [&](Recorder& r) {
       packets.closest(r, {.groups = 1, .group_size = kQueries}, table.range(0, slots.size() * 4), at_.range(),
                       out_.range(), hits_.range());
@@ -123,7 +123,7 @@ TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
 }
 
 TEST_F(TreeCounts, TheHighWordTakesWhatTheLowOneCannot) {
-  const TreeQueries queries = TreeQueries::create(context_->impl(), *device_, kQueries, {}, true).value();
+  const TreeQueries queries = TreeQueries::create(Internals::of(*context_), *device_, kQueries, {}, true).value();
   const BufferRange list = queries.unresolved();
   const Buffer words{list.buffer, list.size};
   const Tests tests = tests_of(queries, {2, 2, 2, 0}, [&](Recorder& r) {
@@ -135,7 +135,7 @@ TEST_F(TreeCounts, TheHighWordTakesWhatTheLowOneCannot) {
 }
 
 TEST_F(TreeCounts, WhoIsNotAskedToCountDoesNot) {
-  const TreeQueries queries = TreeQueries::create(context_->impl(), *device_, kQueries).value();
+  const TreeQueries queries = TreeQueries::create(Internals::of(*context_), *device_, kQueries).value();
   const Tests tests = tests_of(queries, {0.5f, 0.5f, 0.02f, kFar}, [&](Recorder& r) {
     queries.closest(r, QueryCount::of(kQueries), at_.range(), out_.range(), hits_.range());
   });

@@ -1,5 +1,5 @@
 // The medial mesh of points that are put down by hand, and its files.
-#include "medial_mesh/medial_mesh.h"
+#include "medial_vk/medial_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,9 +63,9 @@ struct Meshed {
   MedialMesh mesh;
 };
 
-Meshed meshed(std::vector<MedialSphere> spheres, const SheetParameters& parameters = {}) {
+Meshed meshed(std::vector<MedialSphere> spheres, const SheetOptions& parameters = {}) {
   Meshed out;
-  out.sheets = find_sheets(spheres, {{0, 0, 0}, 1, {32, 32, 32}}, ExtractionParameters(), parameters);
+  out.sheets = find_sheets(spheres, {{0, 0, 0}, 1, {32, 32, 32}}, ExtractionOptions(), parameters);
   out.mesh = make_medial_mesh(spheres, out.sheets, {1, 0.01, 1}).value();
   out.spheres = std::move(spheres);
   return out;

@@ -158,7 +158,7 @@ TEST(JoinPieces, AsAPlainProgramWould) {
     const VoxelGraph graph(spheres);
     const Pieces pieces = grown(graph);
     for (const double border : {0.0, 30.0, 77.0, 110.0, 180.0}) {
-      SheetParameters parameters;
+      SheetOptions parameters;
       parameters.border = border;
       Pieces joined = pieces;
       join_pieces(graph, parameters, joined);
@@ -190,7 +190,7 @@ class Drawn {
     for (const char letter : letters_) {
       piece_of.push_back(static_cast<std::uint32_t>(std::ranges::find(alphabet, letter) - alphabet.begin()));
     }
-    SheetParameters parameters;
+    SheetOptions parameters;
     parameters.width = 0;
     parameters.absorb_fragments = points;
     absorb_pieces(VoxelGraph(spheres_), 1, parameters, piece_of);

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/point_ops.h"
+#include "medial_vk/sheets.h"
 #include "output/charts/volume_curve.h"
-#include "sheets/sheets.h"
 #include "sheets/sheets_around.h"
 
 namespace medial_vk {

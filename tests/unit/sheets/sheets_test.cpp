@@ -1,5 +1,5 @@
 // Sheets of points that are put down by hand.
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,15 +54,15 @@ std::vector<MedialSphere> together(std::vector<MedialSphere> a, const std::vecto
 }
 
 /// Only the published test.
-SheetParameters as_published(double angle = 5.7) {
-  SheetParameters parameters;
+SheetOptions as_published(double angle = 5.7) {
+  SheetOptions parameters;
   parameters.angle = angle;
   parameters.crease = parameters.width = 0;
   return parameters;
 }
 
-Sheets find(const std::vector<MedialSphere>& spheres, const SheetParameters& parameters) {
-  return find_sheets(spheres, kGrid, ExtractionParameters(), parameters);
+Sheets find(const std::vector<MedialSphere>& spheres, const SheetOptions& parameters) {
+  return find_sheets(spheres, kGrid, ExtractionOptions(), parameters);
 }
 
 std::vector<std::uint64_t> sizes(const Sheets& sheets) {
@@ -86,7 +86,7 @@ TEST(Sheets, ASquareIsOneSheetOfItsArea) {
 }
 
 TEST(Sheets, NothingHasNoSheets) {
-  const Sheets sheets = find({}, SheetParameters());
+  const Sheets sheets = find({}, SheetOptions());
   EXPECT_TRUE(sheets.sheets.empty());
   EXPECT_TRUE(sheets.of_point.empty());
 }
@@ -104,7 +104,7 @@ TEST(Sheets, TheAngleDecidesAndTheSignDoesNot) {
 // A facet's crease turns both spokes by its angle.
 TEST(Sheets, CreasesJoin) {
   const std::vector<MedialSphere> bent = together(square(6), square(6, 20, 7));
-  SheetParameters parameters = as_published();
+  SheetOptions parameters = as_published();
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u) << "as published, normals alone decide";
   parameters.crease = 21;
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
@@ -128,7 +128,7 @@ TEST(Sheets, AllOfABorderDecides) {
     for (std::uint32_t x = 1; x <= 4; ++x) spheres.push_back(point_at(x, row, 8, {0, 0, 1}));
     for (std::uint32_t x = 5; x <= 8; ++x) spheres.push_back(point_at(x, row, 8, twisted));
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 0;
   parameters.border = 31;
   EXPECT_EQ(sizes(find(spheres, parameters)).size(), 2u);
@@ -149,7 +149,7 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
     }
     return out;
   };
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 0;
   EXPECT_EQ(sizes(find(touching(19), parameters)).size(), 1u);
   EXPECT_EQ(sizes(find(touching(20), parameters)).size(), 2u);
@@ -160,7 +160,7 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
 // Between two that differ by 60 degrees one that differs from them by 29 and 31.
 TEST(Sheets, PiecesJoinUpToTheTurnOfABorder) {
   const std::vector<MedialSphere> spheres = together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.border = 28;
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(36, 36, 36));
   parameters.border = 30;
@@ -176,7 +176,7 @@ TEST(Sheets, OppositeBisectorsAreTwoSheets) {
   const auto root = static_cast<float>(std::sqrt(0.5));
   for (MedialSphere& s : a) s.spoke_a = {-root, 0, root}, s.spoke_b = {-root, 0, -root};
   for (MedialSphere& s : b) s.spoke_a = {root, 0, root}, s.spoke_b = {root, 0, -root};
-  EXPECT_EQ(sizes(find(together(a, b), SheetParameters())).size(), 2u);
+  EXPECT_EQ(sizes(find(together(a, b), SheetOptions())).size(), 2u);
   EXPECT_EQ(sizes(find(together(a, b), as_published())).size(), 1u) << "as published, normals alone decide";
 }
 
@@ -197,7 +197,7 @@ TEST(Sheets, DecreasingNumberOfPointsThenFirstVoxel) {
   // Apart from each other: 9, 16, 9 points.
   const std::vector<MedialSphere> spheres =
       together(together(square(3, 0, 1, 20), square(4, 0, 1, 10)), square(3, 0, 20, 10));
-  const Sheets sheets = find(spheres, SheetParameters());
+  const Sheets sheets = find(spheres, SheetOptions());
   EXPECT_THAT(sizes(sheets), ElementsAre(16, 9, 9));
   EXPECT_EQ(sheets.of_point.front(), 2) << "z = 20 comes after z = 10";
   EXPECT_EQ(sheets.of_point.back(), 1);
@@ -227,8 +227,7 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
     shuffled.reserve(order.size());
     for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
 
-    for (const SheetParameters& parameters :
-         {SheetParameters(), as_published(), SheetParameters{5.7, 20, 45, 0.2, 30}}) {
+    for (const SheetOptions& parameters : {SheetOptions(), as_published(), SheetOptions{5.7, 20, 45, 0.2, 30}}) {
       const Sheets a = find(spheres, parameters), b = find(shuffled, parameters);
       ASSERT_EQ(a.sheets.size(), b.sheets.size());
       for (std::size_t i = 0; i < order.size(); ++i) {
@@ -252,7 +251,7 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
     const auto side = static_cast<float>(std::sin(std::numbers::pi / 3));
     spheres.push_back(strip ? point_at(s.voxel[0], s.voxel[1], s.voxel[2], {side, 0, 0.5f}) : s);
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.border = 55;
   parameters.width = 0;
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(130, 65, 39));
@@ -274,7 +273,7 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
 // Six columns, and two of another sheet beside them, one at the border and one at the rim: those are 0 deep. Whether
 // they are too narrow is not asked where a quarter of the diameter is less than a voxel.
 TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 0.25;
   const auto sizes_with = [&](double radius) {
     std::vector<MedialSphere> spheres;
@@ -296,7 +295,7 @@ TEST(Sheets, MarksWhatIsSmall) {
       spheres.push_back(point_at(x, y, 8, x > 6 ? std::array{1.f, 0.f, 0.f} : std::array{0.f, 0.f, 1.f}, 40));
     }
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 0;
   parameters.absorb_fragments = 25;
   const Sheets sheets = find(spheres, parameters);
@@ -313,7 +312,7 @@ TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
     spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
                                {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 0;
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(4, 4, 4, 4));
   parameters.width = 0.3;
@@ -336,7 +335,7 @@ TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
     spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
                                {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.border = 60;
   for (const double width : {0.3, 1.0}) {
     SCOPED_TRACE(width);
@@ -360,7 +359,7 @@ TEST(Sheets, WhatIsClosedIsNotSmall) {
     spheres.push_back(
         point_at(x, y, z, {static_cast<float>(out[0]), static_cast<float>(out[1]), static_cast<float>(out[2])}));
   }
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 1;
   parameters.absorb_fragments = 10000;
   const Sheets sheets = find(spheres, parameters);
@@ -370,7 +369,7 @@ TEST(Sheets, WhatIsClosedIsNotSmall) {
 }
 
 TEST(Sheets, APieceWithoutNeighboursStays) {
-  SheetParameters parameters;
+  SheetOptions parameters;
   parameters.width = 1;
   parameters.absorb_fragments = 1000;
   const Sheets sheets = find(together(square(2), square(2, 0, 30)), parameters);
@@ -380,7 +379,7 @@ TEST(Sheets, APieceWithoutNeighboursStays) {
 
 TEST(Sheets, CheckFindsPartsAndWrongNumbers) {
   std::vector<MedialSphere> spheres = together(square(4), square(3, 0, 20));
-  const Sheets sheets = find(spheres, SheetParameters());
+  const Sheets sheets = find(spheres, SheetOptions());
   for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].sheet = sheets.of_point[i];
   for (const auto& line : check_sheets(spheres)) EXPECT_EQ(line.failed, 0u) << line.first_failure;
   for (MedialSphere& s : spheres) s.sheet = 0;
@@ -431,7 +430,7 @@ TEST(Sheets, ASheetInAWallCountsOnce) {
   std::vector<MedialSphere> below = square(10), above = square(10, 0, 1, 9);
   for (MedialSphere& s : below) s.centre[2] = 9 - 0.003;
   for (MedialSphere& s : above) s.centre[2] = 9 + 0.003;
-  const Sheets sheets = find(together(below, above), SheetParameters());
+  const Sheets sheets = find(together(below, above), SheetOptions());
   ASSERT_EQ(sheets.sheets.size(), 1u);
   EXPECT_NEAR(sheets.sheets[0].area, 64 + 36 / 2.0, 1e-6);
 }

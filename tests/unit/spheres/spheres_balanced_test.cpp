@@ -27,7 +27,7 @@ struct Shape {
   Shape(const Shape&) = delete;
 
   std::vector<SphereSet> balanced(std::size_t count, bool levels = false) const {
-    SphereRequest request;
+    SphereOptions request;
     request.contract = SphereContract::kBalanced;
     request.count = count;
     if (levels) return approximate_in_levels(solid, request, Backend::kCpu, nullptr).value();
@@ -167,7 +167,7 @@ TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
 
 TEST(BalancedSpheres, AreBetterThanBallsInsideAndThanTheSources) {
   const Shape shape(test::make_l_shape(2.0, 0.6, 0.8));
-  SphereRequest request;
+  SphereOptions request;
   request.count = 24;
   const SphereSet inside = approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).value();
   const SphereSet dilated = dilate_to_boundary(shape.solid, inside).value();
@@ -198,7 +198,7 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
 TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
   for (const Point& size : {Point{1, 0.8, 0.6}, Point{1, 0.02, 0.006}}) {
     const Shape box(test::make_box(size));
-    SphereRequest request;
+    SphereOptions request;
     request.contract = SphereContract::kBalanced;
     request.error = 0.25;
     const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, Backend::kCpu, nullptr).value().balls;
@@ -217,7 +217,7 @@ TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
 
 TEST(BalancedSpheres, LevelsOfAnErrorAreHalves) {
   const Shape box(test::make_box({1, 1, 1}));
-  SphereRequest request;
+  SphereOptions request;
   request.contract = SphereContract::kBalanced;
   request.error = 0.2;
   const std::vector<SphereSet> levels = approximate_in_levels(box.solid, request, Backend::kCpu, nullptr).value();
@@ -232,7 +232,7 @@ TEST(BalancedSpheres, OfAnOpenMeshAreRefused) {
   Mesh open = test::make_box({1, 1, 1});
   open.triangles.pop_back();
   const Shape shape(std::move(open));
-  SphereRequest request;
+  SphereOptions request;
   request.contract = SphereContract::kBalanced;
   request.count = 6;
   EXPECT_EQ(approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).error().code, ErrorCode::kUsage);

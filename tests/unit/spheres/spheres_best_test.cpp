@@ -30,7 +30,7 @@ struct Shape {
   explicit Shape(Mesh raw) : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(mesh).value()) {}
   Shape(const Shape&) = delete;
 
-  Result<SphereSet> fit(const SphereRequest& request) const {
+  Result<SphereSet> fit(const SphereOptions& request) const {
     return best_spheres(solid, request, Backend::kCpu, nullptr, {});
   }
   double error_of(const std::vector<Ball>& balls) const {
@@ -191,7 +191,7 @@ TEST(BestMethod, NeedsNoMedialPoints) {
 TEST(BestMethod, BeatsItsOwnCandidatesByFar) {
   // Of 30 fixed candidates the greedy choice is the best that is known in general; sliding must find more.
   const Shape shape(turned_l_shape());
-  ExtractionParameters parameters;
+  ExtractionOptions parameters;
   parameters.resolution = 16;
   parameters.object_angle = 0.3;
   const auto found = extract_and_certify(shape.mesh, parameters, Backend::kCpu, nullptr).value();
@@ -226,7 +226,7 @@ TEST(BestMethod, GapsAreFilledWhenCandidatesAreUsedUp) {
 
 TEST(BestMethod, StopsWhenAsked) {
   const Shape shape(turned_l_shape());
-  SphereRequest request{.count = 50, .resolution = 16};
+  SphereOptions request{.count = 50, .resolution = 16};
   const Result<SphereSet> set =
       best_spheres(shape.solid, request, Backend::kCpu, nullptr, [](const char*, double done) { return done < 0.3; });
   ASSERT_FALSE(set.ok());

@@ -39,7 +39,7 @@ class SourceMethod : public testing::Test {
 
   PreparedMesh mesh_;
   Solid solid_;
-  SphereRequest request_;
+  SphereOptions request_;
 };
 
 TEST_F(SourceMethod, KeepsTheCountAndStaysInside) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {

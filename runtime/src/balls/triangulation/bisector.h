@@ -13,8 +13,8 @@
 
 #include "balls/triangulation/double_double.h"
 #include "balls/triangulation/expansion.h"
+#include "medial_vk/ball.h"
 #include "medial_vk/mesh_view.h"
-#include "medial_vk/queries.h"
 
 namespace medial_vk {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "balls/triangulation/bisector.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 

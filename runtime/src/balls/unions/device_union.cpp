@@ -8,7 +8,7 @@
 #include "balls/unions/split_balls.h"
 #include "balls/unions/unit_balls.h"
 #include "base/host_memory.h"
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "commands/commands.h"
 #include "commands/uploads.h"
 #include "device/context_impl.h"
@@ -180,7 +180,7 @@ Result<DeviceBallUnion> measure_ball_union(Context& context, std::span<const Bal
   return catch_out_of_memory("measuring a union of balls", [&]() -> Result<DeviceBallUnion> {
     const double scale = scale_of(balls);
     const std::vector<Ball> unit_balls = scaled_balls(balls, scale);
-    Result<DeviceBallUnion> result = DeviceMeasuring(context.impl(), unit_balls, options).run();
+    Result<DeviceBallUnion> result = DeviceMeasuring(Internals::of(context), unit_balls, options).run();
     if (result.ok()) scale_back(result.value(), scale);
     return result;
   });

@@ -12,7 +12,7 @@
 #include "balls/unions/simplex_lists.h"
 #include "balls/unions/unit_balls.h"
 #include "base/host_memory.h"
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {

@@ -3,7 +3,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include "base/parallel_blocks.h"
+#include "base/parallel.h"
 #include "base/point_math.h"
 
 namespace medial_vk {

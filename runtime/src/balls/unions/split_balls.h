@@ -7,7 +7,7 @@
 
 #include "ball_types.h"
 #include "balls/cells/ball_tree.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 

@@ -62,7 +62,7 @@ class CertifiedRun {
       if (!fill.ok()) return fill.error();
       if (fill.value().overflow) {
         if (!fill.value().too_few_rounds && count == 1) return too_small();
-        ++extraction_.counters.retries;
+        ++extraction_.measurements.counters.retries;
       } else {
         first += count;
       }
@@ -91,7 +91,7 @@ class CertifiedRun {
 
   static Error too_small() {
     return {ErrorCode::kOutOfMemory,
-            "the contacts of a single top cell do not fit the memory budget; raise --memory or the resolution"};
+            "the contacts of a single top cell do not fit the memory budget; raise `memory_budget` or the resolution"};
   }
 
   // The host takes the points of the chunk before while the device is at work.
@@ -102,7 +102,7 @@ class CertifiedRun {
       if (Status done = part->wait([&] { watch_.stopped(); }); !done.ok()) return done.error();
       Result<std::vector<StageTime>> times = part->recorder().stage_times();
       if (!times.ok()) return times.error();
-      add_times(times.value(), extraction_.device_times);  // chunks that are run again cost time too
+      add_times(times.value(), extraction_.measurements.device_times);  // chunks that are run again cost time too
     }
     if (watch_.stopped()) return StopWatch::error();
     const auto counters = pipeline_.read_counters();
@@ -110,7 +110,7 @@ class CertifiedRun {
     const Fill fill{counters[gpu::kUtilisation] / 1024.0, overflow != 0, overflow == gpu::kTooFewRounds};
     if (fill.too_few_rounds) pipeline_.add_rounds();
     if (fill.overflow) return fill;
-    add_counters(counters, extraction_.counters);
+    add_counters(counters, extraction_.measurements.counters);
     Status started =
         download_.start(pipeline_.result(), counters[gpu::kFound], pipeline_.undecided(), counters[gpu::kUndecided]);
     if (!started.ok()) return started.error();
@@ -152,28 +152,25 @@ class CertifiedRun {
 
 }  // namespace
 
-Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view, const MeshIndex& index,
-                                     const ExtractionParameters& parameters, StopWatch& watch) {
+Result<Extraction> extract_certified(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+                                     StopWatch& watch) {
   Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();
-  Result<DeviceMesh> mesh = DeviceMesh::create(context, view, index);
-  if (!mesh.ok()) return mesh.error();
-  if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
-  extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  auto pipeline = CertifiedPipeline::create(context, mesh.value(), parameters, extraction.grid.size, *stop.value());
+  extraction.grid = make_grid(mesh, options.resolution);
+  auto pipeline = CertifiedPipeline::create(context, mesh, options, extraction.grid.size, *stop.value());
   if (!pipeline.ok()) return pipeline.error();
-  extraction.counters.levels.resize(pipeline.value().level_count());
+  extraction.measurements.counters.levels.resize(pipeline.value().level_count());
   for (std::uint32_t level = 0; level < pipeline.value().level_count(); ++level)
-    extraction.counters.levels[level].cell_size = pipeline.value().cell_size(level);
+    extraction.measurements.counters.levels[level].cell_size = pipeline.value().cell_size(level);
   const auto record_one = [&](Recorder& r) { return pipeline.value().record(r, 0, 1); };
   if (Status made = make_programs(context, record_one); !made.ok()) return made.error();
-  if (Status there = mesh.value().finish_uploads(); !there.ok()) return there.error();
-  CertifiedRun run(context, mesh.value(), pipeline.value(), watch, extraction);
+  if (Status there = mesh.finish_uploads(); !there.ok()) return there.error();
+  CertifiedRun run(context, mesh, pipeline.value(), watch, extraction);
   if (Status s = run.run(); !s.ok()) return s.error();
-  ExtractionCounters& c = extraction.counters;
+  ExtractionCounters& c = extraction.measurements.counters;
   c.narrowing_steps = pipeline.value().narrowing_steps();
-  const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+  const std::size_t finest = c.levels.size() - 1 - options.extra_levels;
   c.proved_empty = c.levels[finest].visited - c.found - c.undecided;
   sort_by_voxel(extraction.spheres);
   sort_by_voxel(extraction.undecided);

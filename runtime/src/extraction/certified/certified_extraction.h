@@ -3,13 +3,13 @@
 
 #include "commands/stop_word.h"
 #include "device/context_impl.h"
+#include "device_mesh/device_mesh.h"
 #include "medial_vk/extraction.h"
-#include "medial_vk/mesh_index.h"
 
 namespace medial_vk {
 
 /// As extract_medial_spheres() with Mode::kCertified, whose errors it has. The parameters have been checked.
-Result<Extraction> extract_certified(Context::Impl& context, const MeshView& view, const MeshIndex& index,
-                                     const ExtractionParameters& parameters, StopWatch& watch);
+Result<Extraction> extract_certified(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+                                     StopWatch& watch);
 
 }  // namespace medial_vk

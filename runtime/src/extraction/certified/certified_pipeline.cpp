@@ -56,11 +56,11 @@ std::uint32_t steps_to_narrow(double from, double to) {
 }  // namespace
 
 CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh,
-                                     const ExtractionParameters& parameters, const StopWord& stop)
+                                     const ExtractionOptions& parameters, const StopWord& stop)
     : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
 
 Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
-                                                    const ExtractionParameters& parameters,
+                                                    const ExtractionOptions& parameters,
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   CertifiedPipeline p(context, mesh, parameters, stop);
   // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side, but at least 4 voxels: their children's
@@ -182,7 +182,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   Result<Buffer> readback = arena_.create_buffer(gpu::kCounterCount * 4, MemoryKind::kReadback, "counters");
   if (!readback.ok()) return readback.error();
   counters_readback_ = readback.value();
-  return arguments_.create(arena_, counters_, *stop_, parameters_.kernel_times);
+  return arguments_.create(arena_, counters_, *stop_, parameters_.measurements.kernel_times);
 }
 
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
@@ -230,7 +230,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
 }
 
 void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
-  if (!parameters_.kernel_times) r.begin_stage(stage);
+  if (!parameters_.measurements.kernel_times) r.begin_stage(stage);
 }
 
 VkDeviceSize CertifiedPipeline::prepare(Recorder& r, gpu::DispatchConstants constants) {
@@ -255,7 +255,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.first_entry = extent.list_counter == gpu::kNoCounter ? 0 : step.first_entry;
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
-  if (parameters_.kernel_times) {
+  if (parameters_.measurements.kernel_times) {
     const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
     const std::string task = step.second_task == 0 ? "" : "/second";
     r.begin_stage(kernel.shader + variant + task + "@" + std::to_string(step.level));
@@ -314,7 +314,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   d.list_counter = gpu::kNoCounter;
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
-  if (parameters_.kernel_times) r.begin_stage("scan");
+  if (parameters_.measurements.kernel_times) r.begin_stage("scan");
   const auto push = bytes_of(constants);
   const BufferRange blocks[] = {states_.range(), block_sums_.range(), counters_.range()};
   r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_.buffer(), groups);

@@ -37,8 +37,8 @@ class CertifiedPipeline {
  public:
   /// Allocates all buffers for one mesh and one set of parameters; `stop` outlives it. Errors: kOutOfMemory, kInternal.
   static Result<CertifiedPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
-                                          const ExtractionParameters& parameters,
-                                          const std::array<std::uint32_t, 3>& grid, const StopWord& stop);
+                                          const ExtractionOptions& parameters, const std::array<std::uint32_t, 3>& grid,
+                                          const StopWord& stop);
 
   /// Another box for the next record(), of the same longest side; memory stays that of create()'s.
   void set_grid(const std::array<std::uint32_t, 3>& grid);
@@ -73,7 +73,7 @@ class CertifiedPipeline {
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
 
  private:
-  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
+  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
                     const StopWord& stop);
 
   // Where one level reads and writes.
@@ -162,7 +162,7 @@ class CertifiedPipeline {
   Context::Impl* context_;
   const DeviceMesh* mesh_;
   const StopWord* stop_;
-  ExtractionParameters parameters_;
+  ExtractionOptions parameters_;
   PipelineCapacity capacity_;
   Arena arena_;
   std::array<std::uint32_t, 3> grid_{};      // finest voxels

@@ -7,6 +7,6 @@
 namespace medial_vk {
 
 /// Error: kUsage, which names the parameter and its range.
-Status check_parameters(const ExtractionParameters& parameters);
+Status check_parameters(const ExtractionOptions& parameters);
 
 }  // namespace medial_vk

@@ -46,29 +46,25 @@ Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline&
         context, [&](Recorder& r) { return pipeline.record_part(r, part, first, count); }, [&] { watch.stopped(); });
     if (!times.ok()) return times.error();
     if (watch.stopped()) return StopWatch::error();
-    add_times(times.value(), extraction.device_times);
+    add_times(times.value(), extraction.measurements.device_times);
   }
   const auto counters = pipeline.read_counters();
   auto points = pipeline.read_points(counters[gpu::kThesisFound]);
   if (!points.ok()) return points.error();
   for (const gpu::FoundPoint& point : points.value()) extraction.spheres.push_back(to_input_units(point, mesh));
-  add_counters(counters, pipeline, extraction.counters);
+  add_counters(counters, pipeline, extraction.measurements.counters);
   return {};
 }
 
 }  // namespace
 
-Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
+Result<Extraction> extract_thesis(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                   StopWatch& watch) {
   Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();
-  Result<DeviceMesh> mesh = DeviceMesh::create(context, view);
-  if (!mesh.ok()) return mesh.error();
-  if (watch.stopped()) return StopWatch::error();
   Extraction extraction;
-  extraction.grid = make_grid(mesh.value(), parameters.resolution);
-  Result<ThesisPipeline> created =
-      ThesisPipeline::create(context, mesh.value(), view, parameters, extraction.grid.size, *stop.value());
+  extraction.grid = make_grid(mesh, options.resolution);
+  Result<ThesisPipeline> created = ThesisPipeline::create(context, mesh, options, extraction.grid.size, *stop.value());
   if (!created.ok()) return created.error();
   if (watch.stopped()) return StopWatch::error();
   const auto record_one = [&](Recorder& r) {
@@ -79,17 +75,18 @@ Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, 
     return status;
   };
   if (Status s = make_programs(context, record_one); !s.ok()) return s.error();
+  if (Status there = mesh.finish_uploads(); !there.ok()) return there.error();
   ThesisPipeline pipeline = std::move(created).value();
-  extraction.counters.levels.resize(pipeline.level_count());
+  extraction.measurements.counters.levels.resize(pipeline.level_count());
   for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {
-    extraction.counters.levels[level].cell_size = pipeline.cell_size(level);
+    extraction.measurements.counters.levels[level].cell_size = pipeline.cell_size(level);
   }
   const std::uint32_t total = pipeline.top_cells();
   for (std::uint32_t first = 0; first < total; first += pipeline.chunk_size()) {
     watch.set_done(static_cast<double>(first) / total);
     if (watch.stopped()) return StopWatch::error();
     const std::uint32_t count = std::min(pipeline.chunk_size(), total - first);
-    Status status = run_chunk(context, mesh.value(), pipeline, first, count, watch, extraction);
+    Status status = run_chunk(context, mesh, pipeline, first, count, watch, extraction);
     if (!status.ok()) return status.error();
   }
   sort_by_voxel(extraction.spheres);

@@ -3,12 +3,13 @@
 
 #include "commands/stop_word.h"
 #include "device/context_impl.h"
+#include "device_mesh/device_mesh.h"
 #include "medial_vk/extraction.h"
 
 namespace medial_vk {
 
 /// As extract_medial_spheres() with Mode::kThesis, whose errors it has. The parameters have been checked.
-Result<Extraction> extract_thesis(Context::Impl& context, const MeshView& view, const ExtractionParameters& parameters,
+Result<Extraction> extract_thesis(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                   StopWatch& watch);
 
 }  // namespace medial_vk

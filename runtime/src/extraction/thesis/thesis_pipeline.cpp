@@ -37,14 +37,14 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) /
 
 }  // namespace
 
-ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionParameters& parameters,
+ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
                                const StopWord& stop)
     : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
 
-Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh, const MeshView& view,
-                                              const ExtractionParameters& parameters,
+Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
+                                              const ExtractionOptions& parameters,
                                               const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
-  for (const std::uint32_t samples : parameters.samples) {
+  for (const std::uint32_t samples : parameters.thesis.samples) {
     if (samples >= 1 && samples <= 4096) continue;
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to 4096"};
   }
@@ -53,7 +53,7 @@ Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const Devi
   // Four levels as in the source; fewer while a top cell would be more than half of the longest side.
   while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > parameters.resolution) --p.levels_;
   for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << (p.levels_ - 1));
-  if (Status status = p.allocate(view); !status.ok()) return status.error();
+  if (Status status = p.allocate(); !status.ok()) return status.error();
   if (Status status = p.upload_directions(); !status.ok()) return status.error();
   return p;
 }
@@ -62,7 +62,7 @@ double ThesisPipeline::cell_size(std::uint32_t level) const {
   return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(levels_ - 1 - level));
 }
 
-Status ThesisPipeline::allocate(const MeshView& view) {
+Status ThesisPipeline::allocate() {
   std::uint64_t cells_per_top = 1;    // at the finest level
   std::uint64_t samples_per_top = 1;  // at any level, and never none
   for (std::uint32_t level = 0; level < levels_; ++level) {
@@ -83,7 +83,7 @@ Status ThesisPipeline::allocate(const MeshView& view) {
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
     return Error{ErrorCode::kOutOfMemory, "the thesis mode needs " + std::to_string(bytes_per_top * 10 / 9) +
-                                              " bytes of device memory; raise --memory or ask fewer samples"};
+                                              " bytes of device memory; raise `memory_budget` or ask fewer samples"};
   }
   chunk_ = static_cast<std::uint32_t>(fitting);
   const VkDeviceSize cells = chunk_ * cells_per_top, lines = chunk_ * lines_per_top;
@@ -135,7 +135,7 @@ Status ThesisPipeline::allocate(const MeshView& view) {
   if (!queries.ok()) return queries.error();
   queries_ = std::make_unique<TreeQueries>(std::move(queries).value());
   Result<PacketQueries> packets =
-      PacketQueries::create(*context_, *mesh_, view, capacity, PacketShape::best_for(*context_), kCounts);
+      PacketQueries::create(*context_, *mesh_, capacity, PacketShape::best_for(*context_), kCounts);
   if (!packets.ok()) return packets.error();
   packets_ = std::make_unique<PacketQueries>(std::move(packets).value());
   Result<FluxSampler> flux = FluxSampler::create(*context_, *packets_, capacity);
@@ -190,7 +190,7 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   step.level = level;
   step.finest = finest ? 1 : 0;
   step.closed = mesh_->closed ? 1 : 0;
-  step.narrow = parameters_.narrow_features ? 1 : 0;
+  step.narrow = parameters_.thesis.narrow_features ? 1 : 0;
   step.samples = samples(levels_ - 1);
   return step;
 }

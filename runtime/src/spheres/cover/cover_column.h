@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/point_ops.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 

@@ -9,14 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "medial_vk/sphere_measures.h"
 #include "spheres/measures/threads.h"
 
 namespace medial_vk {
-
-/// What is known of a number.
-struct Bounds {
-  double lower = 0, upper = 0;
-};
 
 /// What is known of a function over a cell.
 struct CellBounds {

@@ -1,25 +1,12 @@
 // How far a solid and a union of balls are apart, in every sense that is in use, each between proved bounds.
 #pragma once
 
+#include "medial_vk/sphere_measures.h"
 #include "mesh/solid.h"
 #include "spheres/measures/branch_and_bound.h"
 #include "spheres/measures/envelope.h"
 
 namespace medial_vk {
-
-/// Suprema of distances, mesh units. The boundary is that of the mesh; the envelope is that of the balls.
-struct EnvelopeDistances {
-  Bounds solid_to_balls;        ///< From points of the solid to the balls: 0 if they cover it.
-  Bounds balls_to_solid;        ///< From points of the balls to the solid: 0 if they lie inside.
-  Bounds boundary_to_balls;     ///< From points of the boundary to the balls, 0 in them: the greatest gap.
-  Bounds boundary_to_envelope;  ///< From points of the boundary to the envelope, from either side.
-  Bounds envelope_to_boundary;  ///< From points of the envelope to the boundary, from either side.
-
-  /// Two-sided, of solid and balls as sets.
-  Bounds between_sets() const;
-  /// Two-sided, of boundary and envelope.
-  Bounds between_surfaces() const;
-};
 
 struct DistanceOptions {
   double tolerance = 1e-3;        ///< Of the diagonal of the solid's box: how far apart the bounds may be.

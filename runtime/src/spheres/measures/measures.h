@@ -1,66 +1,14 @@
 // How good a set of balls is as a stand-in for a solid: volume, distances, and the numbers that others report.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
+#include <cstdint>
+#include <span>
 
+#include "medial_vk/sphere_measures.h"
 #include "spheres/measures/envelope_distance.h"
 #include "spheres/measures/sphere_certificate.h"
 
 namespace medial_vk {
-
-/// Volumes in cubed mesh units.
-struct VolumeError {
-  double solid = 0;           ///< Of the solid.
-  double balls = 0;           ///< Of their union: exact.
-  double uncovered = 0;       ///< Of the solid outside the balls.
-  double outside = 0;         ///< Of the balls outside the solid.
-  double standard_error = 0;  ///< Of `uncovered` and `outside`, which then are estimates from samples; 0: exact.
-
-  /// Err of Section 7.3.1 over the volume of the solid.
-  double normalized() const { return solid > 0 ? (uncovered + outside) / solid : 0; }
-  double normalized_standard_error() const { return solid > 0 ? 2 * standard_error / solid : 0; }
-  /// What Err cannot be below (Lemma 7.1), over the volume of the solid.
-  double normalized_lower_bound() const;
-};
-
-/// Under the names, and by the definitions, of cuRobo's SphereFitMetrics, but for what is said here. Lengths in mesh
-/// units.
-struct SphereFitMetrics {
-  std::size_t num_spheres = 0;
-  double coverage = 0;              ///< Share of the solid's volume that is in a ball (exact where VolumeError is).
-  double protrusion = 0;            ///< Share of points of all spheres, as many on each, that are outside the solid.
-  double protrusion_dist_mean = 0;  ///< Distance of those to the boundary; 0 without any.
-  double protrusion_dist_p95 = 0;
-  double surface_gap_mean = 0;  ///< Distance of points of the boundary to the balls, 0 in them.
-  double surface_gap_p95 = 0;
-  double max_uncovered_gap = 0;  ///< The greatest of these: not of samples, but the proved upper bound.
-  double volume_ratio = 0;  ///< Sum of the volumes of all balls, overlaps counted as often, over that of the solid.
-};
-
-/// Distances with a sign over an area, in bins of equal width. Positive: the envelope is outside the solid.
-struct SignedDistances {
-  double lower = 0, upper = 0;  ///< Of the bins.
-  std::vector<double> share;    ///< Of the area, by bin.
-  double least = 0, greatest = 0, mean = 0, mean_absolute = 0;
-};
-
-/// Figure 8-2; both have the same bins.
-struct DistanceHistograms {
-  SignedDistances boundary_to_envelope;  ///< By area of the boundary.
-  SignedDistances envelope_to_boundary;  ///< By area of the envelope.
-};
-
-struct SphereMeasures {
-  double diagonal = 0;  ///< Of the solid's box, mesh units.
-  InsideProof inside;
-  CoverProof cover;
-  VolumeError volume;
-  EnvelopeDistances distances;
-  SphereFitMetrics metrics;
-  DistanceHistograms histograms;
-};
 
 struct MeasureOptions {
   double tolerance = 2e-4;       ///< Of the bounds of distances, as a share of the diagonal.
@@ -80,19 +28,5 @@ Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball>
 /// measure_ball_union().
 Result<VolumeError> estimate_volume_error(const Solid& solid, std::span<const Ball> balls,
                                           const MeasureOptions& options = {});
-
-/// The volume of a shape that facets stand for, from within (of balls proved to lie inside these) or from without (of
-/// balls proved to cover them), takes the place of the facets' own: the error is then exactly that of the shape. Other
-/// balls keep the facets for their measure; returns whether anything changed.
-bool measure_against(double shape_volume, SphereMeasures& measures);
-
-/// For the report: everything but the pictures' bins has its own key; see docs/report.md.
-nlohmann::ordered_json measures_json(const SphereMeasures& measures);
-/// For people: one line each, lengths also in percent of the diagonal.
-std::string measures_text(const SphereMeasures& measures);
-/// Both histograms above each other (Figure 8-2).
-std::string encode_histograms_svg(const SphereMeasures& measures);
-/// The same as a table: `surface,lower,upper,share`.
-std::string encode_histograms_csv(const SphereMeasures& measures);
 
 }  // namespace medial_vk

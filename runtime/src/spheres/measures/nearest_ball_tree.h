@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 

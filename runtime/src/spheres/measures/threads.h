@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "base/parallel_for.h"
+#include "base/parallel.h"
 
 namespace medial_vk {
 
@@ -24,8 +24,8 @@ struct Threads {
   }
 };
 
-/// parallel_for(), or a plain loop for one thread, that now and then asks whether to go on. Bodies that take longer
-/// than some milliseconds should ask, too.
+/// parallel_for() that checks every few items whether it may go on. Bodies that take longer than some milliseconds
+/// call threads.check() themselves, too.
 template <class Body>
 void for_all(std::size_t count, std::size_t block, const Threads& threads, Body body) {
   constexpr std::size_t kAsked = 8;
@@ -33,8 +33,7 @@ void for_all(std::size_t count, std::size_t block, const Threads& threads, Body 
     if (i % kAsked == 0) threads.check();
     body(i);
   };
-  if (threads.count != 1) return parallel_for(count, block, run);
-  for (std::size_t i = 0; i < count; ++i) run(i);
+  parallel_for(count, block, threads.count, run);
 }
 
 }  // namespace medial_vk

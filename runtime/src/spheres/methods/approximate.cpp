@@ -17,19 +17,19 @@ namespace {
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
 /// Balls inside the solid, whatever the contract: the others begin with these.
-Result<SphereSet> inside_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                  const SphereProgress& progress) {
   switch (request.method) {
     case SphereMethod::kSource:
-      return source_spheres(solid, request, backend, context, progress);
+      return source_spheres(solid, request, extractor, progress);
     case SphereMethod::kBest:
       break;
   }
-  return best_spheres(solid, request, backend, context, progress);
+  return best_spheres(solid, request, extractor, progress);
 }
 
 /// The set as the contract wants it.
-Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereRequest& request,
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& request,
                                 const SphereProgress& progress) {
   switch (request.contract) {
     case SphereContract::kInside:
@@ -42,7 +42,7 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
   return inside;
 }
 
-Status check_request(const Solid& solid, const SphereRequest& request) {
+Status check_request(const Solid& solid, const SphereOptions& request) {
   const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
   if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
     return usage("an error is a share below 1, and a gap a length; neither is negative");
@@ -69,18 +69,18 @@ Status check_request(const Solid& solid, const SphereRequest& request) {
 }
 
 /// Balls inside that covers of `count` balls begin with: more, by the next number that covers are searched for.
-Result<SphereSet> cover_starts(const Solid& solid, const SphereRequest& request, std::size_t count, Backend backend,
-                               Context* context, const SphereProgress& progress) {
-  SphereRequest start = request;
+Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& request, std::size_t count,
+                               const Extractor& extractor, const SphereProgress& progress) {
+  SphereOptions start = request;
   start.contract = SphereContract::kInside;
   start.error = 0;
   start.count = cover_top(count);
-  return best_spheres(solid, start, backend, context, progress);
+  return best_spheres(solid, start, extractor, progress);
 }
 
 /// A cover that adds no more than the error: by the numbers that covers are searched for, one after the other, then by
 /// fewer.
-Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                   const SphereProgress& progress) {
   const std::size_t most = request.count > 0 ? request.count : kMostBalls;
   const double volume = (1 + request.error) * solid.volume();
@@ -88,7 +88,7 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& reque
   CoverFamily family(solid, starts, request.threads, progress);
   for (std::size_t top = 1;; top = cover_top(top + 1)) {
     const std::size_t count = std::min(top, most);
-    Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+    Result<SphereSet> inside = cover_starts(solid, request, count, extractor, progress);
     if (!inside) return inside.error();
     starts = std::move(inside.value().stages);  // the same as before, and one more
     if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
@@ -97,12 +97,12 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereRequest& reque
 }
 
 /// The smaller levels of a cover, and itself.
-Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                            SphereSet cover, Backend backend, Context* context,
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& request, bool all_levels,
+                                            SphereSet cover, const Extractor& extractor,
                                             const SphereProgress& progress) {
   std::vector<SphereSet> levels;
   if (const std::size_t next = cover.balls.size() / 2; all_levels && next > 0) {
-    const Result<SphereSet> inside = cover_starts(solid, request, next, backend, context, progress);
+    const Result<SphereSet> inside = cover_starts(solid, request, next, extractor, progress);
     if (!inside) return inside.error();
     Result<std::vector<SphereSet>> smaller =
         cover_by_counts(solid, inside.value().stages, level_counts(next), request.threads, progress);
@@ -113,31 +113,31 @@ Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereRequ
   return levels;
 }
 
-Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                           Backend backend, Context* context, const SphereProgress& progress) {
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptions& request, bool all_levels,
+                                           const Extractor& extractor, const SphereProgress& progress) {
   const std::size_t count = request.count;
   if (request.error > 0) {
-    Result<SphereSet> cover = cover_for_error(solid, request, backend, context, progress);
+    Result<SphereSet> cover = cover_for_error(solid, request, extractor, progress);
     if (!cover) return cover.error();
-    return levels_below(solid, request, all_levels, std::move(cover).value(), backend, context, progress);
+    return levels_below(solid, request, all_levels, std::move(cover).value(), extractor, progress);
   }
   if (count == 0) return usage("say how many balls shall cover the solid");
-  const Result<SphereSet> inside = cover_starts(solid, request, count, backend, context, progress);
+  const Result<SphereSet> inside = cover_starts(solid, request, count, extractor, progress);
   if (!inside) return inside.error();
   const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
   return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
 }
 
 /// Every level is what the method has when it has so many balls.
-Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                             Backend backend, Context* context, const SphereProgress& progress) {
-  Result<SphereSet> found = best_spheres(solid, request, backend, context, progress);
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& request, bool all_levels,
+                                             const Extractor& extractor, const SphereProgress& progress) {
+  Result<SphereSet> found = best_spheres(solid, request, extractor, progress);
   if (found && all_levels && (request.error > 0 || request.max_gap > 0)) {
     // Only now it is known which numbers the levels have.
-    SphereRequest again = request;
+    SphereOptions again = request;
     again.count = found.value().balls.size();
     again.error = again.max_gap = 0;
-    found = best_spheres(solid, again, backend, context, progress);
+    found = best_spheres(solid, again, extractor, progress);
   }
   if (!found) return found.error();
   SphereSet& last = found.value();
@@ -149,16 +149,16 @@ Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereReq
   return levels;
 }
 
-Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                         Backend backend, Context* context, const SphereProgress& progress) {
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions& request, bool all_levels,
+                                         const Extractor& extractor, const SphereProgress& progress) {
   if (Status status = check_request(solid, request); !status) return status.error();
   if (request.contract == SphereContract::kCover && request.method == SphereMethod::kBest) {
-    return best_covers(solid, request, all_levels, backend, context, progress);
+    return best_covers(solid, request, all_levels, extractor, progress);
   }
   if (request.contract == SphereContract::kBalanced && request.method == SphereMethod::kBest) {
-    return best_balanced(solid, request, all_levels, backend, context, progress);
+    return best_balanced(solid, request, all_levels, extractor, progress);
   }
-  Result<SphereSet> inside = inside_spheres(solid, request, backend, context, progress);
+  Result<SphereSet> inside = inside_spheres(solid, request, extractor, progress);
   if (!inside) return inside.error();
   const std::vector<Ball>& balls = inside.value().balls;
   const std::vector<std::size_t> counts =
@@ -174,10 +174,10 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereRequest
 }
 
 /// No exception leaves here.
-Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereRequest& request, bool all_levels,
-                                              Backend backend, Context* context, const SphereProgress& progress) {
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& request, bool all_levels,
+                                              const Extractor& extractor, const SphereProgress& progress) {
   try {
-    return levels_of(solid, request, all_levels, backend, context, progress);
+    return levels_of(solid, request, all_levels, extractor, progress);
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
@@ -189,17 +189,22 @@ Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereRe
 
 }  // namespace
 
-Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest& request, Backend backend,
-                                         Context* context, const SphereProgress& progress) {
-  Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, backend, context, progress);
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+                                         const SphereProgress& progress) {
+  Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, extractor, progress);
   if (!levels) return levels.error();
   SphereSet last = std::move(levels.value().back());
   return last;
 }
 
-Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereRequest& request, Backend backend,
-                                                     Context* context, const SphereProgress& progress) {
-  return guarded_levels(solid, request, true, backend, context, progress);
+Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereOptions& request,
+                                                const Extractor& extractor, const SphereProgress& progress) {
+  return guarded_levels(solid, request, false, extractor, progress);
+}
+
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& request,
+                                                     const Extractor& extractor, const SphereProgress& progress) {
+  return guarded_levels(solid, request, true, extractor, progress);
 }
 
 }  // namespace medial_vk

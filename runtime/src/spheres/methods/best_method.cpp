@@ -46,12 +46,11 @@ constexpr double kEnough = 2e-3;  // of what the new ball added: a sweep that ga
 
 class Placing {
  public:
-  Placing(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
-          const SphereProgress& progress, DynamicUnion balls)
+  Placing(const Solid& solid, const SphereOptions& request, const Extractor& extractor, const SphereProgress& progress,
+          DynamicUnion balls)
       : solid_(solid),
         request_(request),
-        backend_(backend),
-        context_(context),
+        extractor_(extractor),
         progress_(progress),
         balls_(std::move(balls)),
         moves_(request.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
@@ -167,20 +166,17 @@ class Placing {
 
   Status extract(std::uint32_t resolution) {
     ++levels_;
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
     // Not every voxel needs its point: what parts of voxels are searched for is little, and takes time.
     parameters.extra_levels = 0;
-    const StageProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
-    Result<CertifiedExtraction> found =
-        extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);
-    if (!found) return found.error();
-    std::vector<Ball> balls;
-    for (const MedialSphere& s : found.value().extraction.spheres) {
-      if (const Ball ball = {s.centre, s.radius}; stays_inside(solid_, ball)) balls.push_back(ball);
-    }
-    candidates_.add(balls);
+    parameters.threads = request_.threads;
+    const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
+    Result<std::vector<Ball>> balls = find_medial_balls(solid_, parameters, extractor_, part);
+    if (!balls) return balls.error();
+    std::erase_if(balls.value(), [&](const Ball& ball) { return !stays_inside(solid_, ball); });
+    candidates_.add(balls.value());
     return {};
   }
 
@@ -307,9 +303,8 @@ class Placing {
   }
 
   const Solid& solid_;
-  const SphereRequest& request_;
-  Backend backend_;
-  Context* context_;
+  const SphereOptions& request_;
+  const Extractor& extractor_;
   const SphereProgress& progress_;
   DynamicUnion balls_;
   Candidates candidates_;
@@ -335,13 +330,13 @@ double largest_number(const MeshReport& report) {
 
 }  // namespace
 
-Result<SphereSet> best_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                const SphereProgress& progress) {
   const std::size_t most = request.count > 0 ? request.count : kMostBalls;
   Result<DynamicUnion> balls =
       DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report));
   if (!balls) return balls.error();
-  return Placing(solid, request, backend, context, progress, std::move(balls).value()).run();
+  return Placing(solid, request, extractor, progress, std::move(balls).value()).run();
 }
 
 }  // namespace medial_vk

@@ -12,7 +12,7 @@ namespace medial_vk {
 /// union shrink: more balls never leave more volume uncovered. With the contract balanced they also grow and move
 /// beyond the boundary, to where SymmetricDifference is least, and more balls never make that larger. Errors: those of
 /// approximate_by_spheres().
-Result<SphereSet> best_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                const SphereProgress& progress);
 
 }  // namespace medial_vk

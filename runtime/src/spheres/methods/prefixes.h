@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 #include "medial_vk/result.h"
 #include "spheres/methods/sphere_set.h"
 

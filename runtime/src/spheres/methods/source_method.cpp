@@ -15,15 +15,15 @@ namespace {
 
 Error usage(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
 
-constexpr std::uint32_t kFinestGrid = 4096;  // the range of ExtractionParameters::resolution
+constexpr std::uint32_t kFinestGrid = 4096;  // the range of ExtractionOptions::resolution
 constexpr std::uint32_t kFirstGrid = 4;
 
 /// Looks for the grid; every attempt is an extraction.
 class GridSearch {
  public:
-  GridSearch(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+  GridSearch(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
              const SphereProgress& progress)
-      : solid_(solid), request_(request), backend_(backend), context_(context), progress_(progress) {}
+      : solid_(solid), request_(request), extractor_(extractor), progress_(progress) {}
 
   Result<SphereSet> run() {
     const bool by_count = request_.count > 0, by_error = request_.error > 0;
@@ -41,20 +41,16 @@ class GridSearch {
 
  private:
   Result<std::vector<Ball>> balls_at(std::uint32_t resolution) {
-    ExtractionParameters parameters;
+    ExtractionOptions parameters;
     parameters.resolution = resolution;
     parameters.object_angle = request_.object_angle;
     const double begun = static_cast<double>(attempts_++);
     // How many attempts there will be is not known: each takes half of what is left of the bar.
-    const StageProgress part = [&](const char*, double done) {
+    parameters.threads = request_.threads;
+    const SphereProgress part = [&](const char*, double done) {
       return !progress_ || progress_("spheres", 1 - 1 / (1 + 0.25 * (begun + done)));
     };
-    Result<CertifiedExtraction> found =
-        extract_and_certify(solid_.mesh(), parameters, backend_, context_, request_.threads, part);
-    if (!found) return found.error();
-    std::vector<Ball> balls;
-    for (const MedialSphere& s : found.value().extraction.spheres) balls.push_back({s.centre, s.radius});
-    return balls;
+    return find_medial_balls(solid_, parameters, extractor_, part);
   }
 
   /// Share of the volume that no ball covers (Lemma 7.1: exact, as no ball is outside); nothing for solids without one.
@@ -135,9 +131,8 @@ class GridSearch {
   }
 
   const Solid& solid_;
-  const SphereRequest& request_;
-  Backend backend_;
-  Context* context_;
+  const SphereOptions& request_;
+  const Extractor& extractor_;
   const SphereProgress& progress_;
   std::vector<Ball> best_;
   std::size_t fewest_ = SIZE_MAX;  // balls on any grid that has some
@@ -146,7 +141,7 @@ class GridSearch {
 
 }  // namespace
 
-Result<SphereSet> source_spheres(const Solid& solid, const SphereRequest& request, Backend backend, Context* context,
+Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                  const SphereProgress& progress) {
   if (request.max_gap > 0) return usage("the method source knows no greatest gap; use the method best");
   const bool has_goal = request.count > 0 || request.error > 0;
@@ -154,7 +149,7 @@ Result<SphereSet> source_spheres(const Solid& solid, const SphereRequest& reques
     return usage("the method source finds its own resolution; give either that or a count or error");
   }
   if (!has_goal && request.resolution == 0) return usage("there is no goal: give a count, an error or a resolution");
-  return GridSearch(solid, request, backend, context, progress).run();
+  return GridSearch(solid, request, extractor, progress).run();
 }
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// A solid as a given number of balls.
+// Sets of balls as the methods make them.
 #pragma once
 
 #include <cstddef>
@@ -6,42 +6,11 @@
 #include <map>
 #include <vector>
 
-#include "analysis/extract.h"
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
+#include "medial_vk/spheres.h"
 #include "mesh/solid.h"
 
 namespace medial_vk {
-
-/// What the balls are promised to do (docs/theory.md, "Tight spheres").
-enum class SphereContract {
-  kInside,    ///< No point of a ball lies outside the solid.
-  kCover,     ///< No point of the solid lies outside the balls.
-  kBalanced,  ///< None; as little volume as possible between balls and solid, on both sides of the boundary.
-};
-
-enum class SphereMethod {
-  kBest,    ///< Chosen and moved for what the contract asks for.
-  kSource,  ///< One ball per voxel, the largest voxels that give no more balls than wanted (Section 7.3.2).
-};
-
-/// Goals that are given together must all be met, with as few balls as the method finds.
-struct SphereRequest {
-  SphereMethod method = SphereMethod::kBest;
-  SphereContract contract = SphereContract::kInside;
-  std::size_t count = 0;  ///< At most so many; 0: as many as the other goals take, which must be given then.
-  /// Share of the solid's volume that is uncovered; kCover: that is added; kBalanced: both, by an estimate. 0: no such
-  /// goal.
-  double error = 0;
-  double max_gap = 0;            ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
-  std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionParameters; 0: by the count.
-  double object_angle = 0.6;     ///< Of the method source.
-  unsigned threads = 0;          ///< 0: all. The result does not depend on it.
-
-  bool operator==(const SphereRequest&) const = default;
-};
-
-/// Where no count is given.
-constexpr std::size_t kMostBalls = 20000;
 
 struct SphereSet {
   /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).
@@ -54,12 +23,15 @@ struct SphereSet {
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };
 
-/// Stage and share of it done; return false to stop.
-using SphereProgress = StageProgress;
+/// Stage and share of it done; false: stop. For one thread at a time.
+using SphereProgress = std::function<bool(const char* stage, double done)>;
 
-/// Approximates the solid. `context` is needed by Backend::kVulkan only. Does not throw. Errors: those of
-/// extract_and_certify(); kUsage (no goal; a goal that the contract does not know); kInterrupted.
-Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereRequest& request, Backend backend,
-                                         Context* context, const SphereProgress& progress = {});
+/// Certified balls of the medial points of the solid. Errors: those of extract_and_certify().
+Result<std::vector<Ball>> find_medial_balls(const Solid& solid, const ExtractionOptions& options,
+                                            const Extractor& extractor, const SphereProgress& progress);
+
+/// Approximates the solid. Does not throw. Errors: those of fit_spheres().
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                                         const SphereProgress& progress = {});
 
 }  // namespace medial_vk

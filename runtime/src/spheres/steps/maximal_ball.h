@@ -1,7 +1,7 @@
 // Balls inside a solid that cannot grow.
 #pragma once
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 #include "mesh/solid.h"
 
 namespace medial_vk {

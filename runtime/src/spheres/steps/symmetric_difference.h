@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "medial_vk/queries.h"
+#include "medial_vk/ball.h"
 #include "spheres/steps/solid_lines.h"
 
 namespace medial_vk {

@@ -9,7 +9,7 @@
 #include "medial_vk/ball_union.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
-#include "sheets/sheets.h"
+#include "medial_vk/sheets.h"
 
 namespace medial_vk {
 
@@ -35,7 +35,7 @@ struct MedialMesh {
 };
 
 /// Lengths in the units of the spheres.
-struct MedialMeshParameters {
+struct MedialMeshOptions {
   /// Balls are joined as if their radii r were sqrt(r^2 + growth^2): so small balls overlap that are a voxel apart.
   /// Large balls hardly change. The side of a voxel.
   double growth = 0;
@@ -47,6 +47,6 @@ struct MedialMeshParameters {
 /// `sheets` are those of the same spheres. The mesh does not depend on the order of the spheres. Errors: those of
 /// measure_ball_union().
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
-                                    const MedialMeshParameters& parameters);
+                                    const MedialMeshOptions& parameters);
 
 }  // namespace medial_vk

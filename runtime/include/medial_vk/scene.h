@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 
@@ -25,12 +27,6 @@ struct ClosestPoint {
   Feature feature = Feature::kFace;
 };
 
-/// A ball in mesh units.
-struct Ball {
-  Point centre;
-  double radius = 0;
-};
-
 struct FluxSample {
   double flux = 0;               ///< Average outward flux (equation 2.4), two-sided fans left out (Definition 2.4).
   double greatest_distance = 0;  ///< Largest distance from a sampled point to the boundary (2.4.2).
@@ -42,13 +38,12 @@ struct FluxSample {
 /// further away than 1e15 box sizes), kOutOfMemory, kInternal (device lost).
 class Scene {
  public:
-  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite), kOutOfMemory.
-  static Result<Scene> create(Context& context, const MeshView& mesh);
-  /// Follows vertices that have moved; `mesh` has the triangles that create() was given. The tree is refitted, not
-  /// built anew: answers are as exact, and as fast as long as neighbours stay neighbours. Errors: kInvalidMesh (another
-  /// number of triangles, an index out of range, a coordinate that is not finite: the scene stays as it was; no extent:
-  /// it is of no use until an update succeeds), kOutOfMemory.
-  Status update(const MeshView& mesh);
+  /// Uploads the mesh. Errors: kInvalidMesh (no extent), kOutOfMemory.
+  static Result<Scene> create(Context& context, const IndexedMesh& mesh);
+  /// Follows vertices that have moved; `moved` is the mesh that create() was given, after move_vertices(). Errors:
+  /// kUsage (another mesh: the scene stays as it was), kInvalidMesh (no extent: it is of no use until an update
+  /// succeeds), kOutOfMemory (likewise).
+  Status update(const IndexedMesh& moved);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
@@ -73,9 +68,9 @@ class Scene {
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
 
   class Impl;
-  Impl& impl() { return *impl_; }
 
  private:
+  friend struct Internals;
   explicit Scene(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

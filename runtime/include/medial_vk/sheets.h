@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-struct SheetParameters {
+struct SheetOptions {
   /// tau of Section 2.5, degrees: neighbours whose normals differ by no more are of one sheet.
   double angle = 5.7;
   /// Degrees: so are neighbours both of whose spokes turn by no more, as they do from facet to facet of a round shape.
@@ -24,8 +24,9 @@ struct SheetParameters {
   double width = 0.17;
   /// So do pieces of fewer points; 0: none.
   std::uint64_t absorb_fragments = 0;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The sheets do not depend on it.
 
-  bool operator==(const SheetParameters&) const = default;
+  bool operator==(const SheetOptions&) const = default;
 };
 
 /// Sheets of fewer points are counted as fragments.
@@ -69,7 +70,7 @@ enum class SheetAreas { kMeasured, kLeftOut };
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` is what the points were found with: its object angle and epsilon. Precondition: at most one point per
 /// voxel of `grid`.
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionParameters& extraction,
-                   const SheetParameters& parameters, SheetAreas areas = SheetAreas::kMeasured);
+Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
+                   const SheetOptions& parameters, SheetAreas areas = SheetAreas::kMeasured);
 
 }  // namespace medial_vk

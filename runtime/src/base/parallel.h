@@ -1,4 +1,4 @@
-// A loop over blocks of independent items on several threads.
+// Loops over independent items on several threads of the host.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,14 @@
 
 namespace medial_vk {
 
-/// Calls body(begin, end) for the blocks of `block` items that cover [0, count), on up to `threads` threads, the
-/// caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either. What a body
-/// throws ends the loop early, and one such exception is thrown here once all threads have ended.
+/// The number of threads that 0 stands for: one per core.
+inline unsigned thread_count(unsigned threads) {
+  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// Calls body(begin, end) for the blocks of `block` items that cover [0, count), on up to `threads` threads (0: one per
+/// core), the caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either.
+/// What a body throws ends the loop early, and one such exception is thrown here once all threads have ended.
 template <class Body>
 void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
   std::atomic<std::size_t> next = 0;
@@ -32,12 +37,12 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
       next = count;  // the blocks that are left
     }
   };
-  const std::size_t useful = std::min<std::size_t>(threads, (count + block - 1) / block);
+  const std::size_t useful = std::min<std::size_t>(thread_count(threads), (count + block - 1) / block);
   std::vector<std::thread> others;
   try {
     for (std::size_t i = 1; i < useful; ++i) others.emplace_back(work);
   } catch (const std::system_error&) {
-    // No more threads to be had: those there are do it all.
+    // No further thread is to be had: those that exist do all of the work.
   } catch (const std::bad_alloc&) {
     // Likewise.
   }
@@ -46,9 +51,12 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// The number of threads that 0 stands for.
-inline unsigned thread_count(unsigned threads) {
-  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+/// Calls body(i) for every i in [0, count), in blocks as parallel_blocks() has them.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
+  parallel_blocks(count, block, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 }  // namespace medial_vk

@@ -1,0 +1,56 @@
+// A mesh with its index: what extraction, certificate, queries, recorded jobs and fits of spheres all share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "medial_vk/bvh.h"
+#include "medial_vk/mesh.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// A prepared mesh, the tree over its triangles, and what its triangles share at edges and vertices. It is made once,
+/// on the host and without a device, and every step takes it. Copies share what they hold; a copy that is moved leaves
+/// the others as they were.
+class IndexedMesh {
+ public:
+  /// `threads` 0: one per core. Errors: those of Bvh::build().
+  static Result<IndexedMesh> create(PreparedMesh mesh, unsigned threads = 0);
+  /// From a mesh for whose flags the caller vouches, without preparation: arrays are copied, and the report holds what
+  /// the arrays tell (counts, box). For meshes that are known to be clean, such as those of a renderer.
+  static Result<IndexedMesh> create(const MeshView& mesh, unsigned threads = 0);
+
+  // Moving is copying: none is ever empty.
+  IndexedMesh(const IndexedMesh&) = default;
+  IndexedMesh& operator=(const IndexedMesh&) = default;
+  ~IndexedMesh() = default;
+
+  /// The mesh, its flags and its report. After move_vertices() the box in the report is that of the moved mesh, all
+  /// else is as it was.
+  const PreparedMesh& prepared() const;
+  MeshView view() const;
+  /// Do both share what they hold? Then they are the same mesh at the same positions.
+  bool is_same(const IndexedMesh& other) const { return impl_ == other.impl_; }
+  /// The tree over the triangles, in the units of the mesh.
+  const Bvh& bvh() const;
+  /// Longest side of the bounding box: the unit of every fraction in ExtractionOptions.
+  double longest_side() const;
+
+  /// Follows vertices that have moved; there are as many as before. The tree is refitted: answers are as exact as those
+  /// of a new one, and as fast while neighbours stay neighbours. `flags`: TriangleFlags of the new positions, for which
+  /// the caller vouches; empty: those that it has. Errors: kInvalidMesh (another number of vertices or flags, a
+  /// coordinate that is not finite: all stays as it was), kOutOfMemory (likewise).
+  Status move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags = {}, unsigned threads = 0);
+
+  struct Impl;
+
+ private:
+  friend struct Internals;
+  explicit IndexedMesh(std::shared_ptr<const Impl> impl);
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,98 @@
+#include "medial_vk/indexed_mesh.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/host_memory.h"
+#include "device_mesh/device_mesh.h"
+#include "device_mesh/indexed_mesh_impl.h"
+
+namespace medial_vk {
+namespace {
+
+/// What the arrays of a mesh tell without an inspection.
+MeshReport report_of(const MeshView& mesh) {
+  MeshReport report;
+  report.vertices = mesh.vertices.size();
+  report.triangles = mesh.triangles.size();
+  report.closed = mesh.closed;
+  report.trusted_triangles = static_cast<std::uint64_t>(
+      std::ranges::count_if(mesh.flags, [](std::uint8_t f) { return (f & kTrustedNormal) != 0; }));
+  return report;
+}
+
+void take_box(const Bvh& bvh, MeshReport& report) {
+  report.lower = bvh.nodes().front().box.lower;
+  report.upper = bvh.nodes().front().box.upper;
+}
+
+Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, std::span<const std::uint8_t> flags) {
+  if (vertices.size() != mesh.mesh.vertices.size()) {
+    return Error{ErrorCode::kInvalidMesh, "the moved mesh has " + std::to_string(vertices.size()) +
+                                              " vertices, the mesh has " + std::to_string(mesh.mesh.vertices.size())};
+  }
+  if (!flags.empty() && flags.size() != mesh.mesh.triangles.size()) {
+    return Error{ErrorCode::kInvalidMesh, "there are " + std::to_string(flags.size()) + " flags for " +
+                                              std::to_string(mesh.mesh.triangles.size()) + " triangles"};
+  }
+  return {};
+}
+
+}  // namespace
+
+IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+Result<IndexedMesh> IndexedMesh::create(PreparedMesh mesh, unsigned threads) {
+  return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
+    Result<Bvh> bvh = Bvh::build(mesh.view(), DeviceMesh::kLeafSize, threads);
+    if (!bvh.ok()) return bvh.error();
+    MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), threads);
+    return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(mesh), std::move(bvh).value(), std::move(links)}));
+  });
+}
+
+Result<IndexedMesh> IndexedMesh::create(const MeshView& mesh, unsigned threads) {
+  return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
+    PreparedMesh copy;
+    copy.mesh.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
+    copy.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    copy.flags.assign(mesh.flags.begin(), mesh.flags.end());
+    copy.report = report_of(mesh);
+    Result<Bvh> bvh = Bvh::build(copy.view(), DeviceMesh::kLeafSize, threads);
+    if (!bvh.ok()) return bvh.error();
+    take_box(bvh.value(), copy.report);
+    MeshLinks links = make_mesh_links(copy.view(), bvh.value().order(), threads);
+    return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(copy), std::move(bvh).value(), std::move(links)}));
+  });
+}
+
+const PreparedMesh& IndexedMesh::prepared() const { return impl_->prepared; }
+MeshView IndexedMesh::view() const { return impl_->prepared.view(); }
+const Bvh& IndexedMesh::bvh() const { return impl_->bvh; }
+
+double IndexedMesh::longest_side() const {
+  const MeshReport& report = impl_->prepared.report;
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, report.upper[axis] - report.lower[axis]);
+  return longest;
+}
+
+Status IndexedMesh::move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags,
+                                  unsigned threads) {
+  if (Status status = check_moved(impl_->prepared, vertices, flags); !status.ok()) return status;
+  return catch_out_of_memory("moving a mesh", [&]() -> Status {
+    // A copy, since others may share what was there, and since an error leaves that as it is.
+    auto moved = std::make_shared<Impl>(*impl_);
+    moved->prepared.mesh.vertices.assign(vertices.begin(), vertices.end());
+    if (!flags.empty()) moved->prepared.flags.assign(flags.begin(), flags.end());
+    const MeshView view = moved->prepared.view();
+    if (Status status = moved->bvh.refit(view, threads); !status.ok()) return status;
+    take_box(moved->bvh, moved->prepared.report);
+    moved->links = make_mesh_links(view, moved->bvh.order(), threads);
+    impl_ = std::move(moved);
+    return {};
+  });
+}
+
+}  // namespace medial_vk

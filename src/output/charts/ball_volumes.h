@@ -1,0 +1,15 @@
+// Volumes of the balls of a union as a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "medial_vk/extraction.h"
+#include "medial_vk/significance.h"
+
+namespace medial_vk {
+
+/// `point,sheet,volume,area,significance`: a row for each sphere.
+std::string encode_ball_volumes(const Significance& significance, const std::vector<MedialSphere>& spheres);
+
+}  // namespace medial_vk
