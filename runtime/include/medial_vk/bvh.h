@@ -40,6 +40,10 @@ class Bvh {
   /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
+  /// The same tree with its leaves split further, for scattered queries on the host: what build() makes of the same
+  /// triangles for `leaf_size`, if none has moved since, without sorting them again. Errors: kOutOfMemory.
+  Result<Bvh> refined(std::uint32_t leaf_size) const;
+
   /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
   /// triangles below it; which triangles that are, and the order of the leaves, stays. Triangle t of `mesh` takes the
   /// place of triangle t. All answers are as right as those of a new tree, and nearly as quick while triangles that

@@ -58,14 +58,16 @@ std::array<Point, 3> corners_of(const MeshView& mesh, std::size_t triangle) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
+BvhPrimitive make_primitive(const std::array<Point, 3>& corners, std::size_t triangle) {
+  const auto& [a, b, c] = corners;
+  const Point lower = least(a, least(b, c)), upper = greatest(a, greatest(b, c));
+  return {{lower[0], lower[1], lower[2], -upper[0], -upper[1], -upper[2]}, static_cast<std::uint32_t>(triangle)};
+}
+
 std::vector<BvhPrimitive> make_primitives(const MeshView& mesh, unsigned threads) {
   std::vector<BvhPrimitive> primitives(mesh.triangles.size());
   parallel_blocks(primitives.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = corners_of(mesh, t);
-      const Point lower = least(a, least(b, c)), upper = greatest(a, greatest(b, c));
-      primitives[t] = {{lower[0], lower[1], lower[2], -upper[0], -upper[1], -upper[2]}, static_cast<std::uint32_t>(t)};
-    }
+    for (std::size_t t = begin; t < end; ++t) primitives[t] = make_primitive(corners_of(mesh, t), t);
   });
   return primitives;
 }
@@ -140,6 +142,23 @@ Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned t
     bvh.corners_.resize(bvh.order_.size());
     bvh.take_corners(mesh, threads);
     return bvh;
+  });
+}
+
+Result<Bvh> Bvh::refined(std::uint32_t leaf_size) const {
+  return catch_out_of_memory("refining the tree over the triangles", [&]() -> Result<Bvh> {
+    std::vector<BvhPrimitive> primitives(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) primitives[i] = make_primitive(corners_[i], order_[i]);
+    BvhBuilder builder(std::move(primitives), std::max(1u, leaf_size), 1);
+    Bvh fine;
+    fine.nodes_ = builder.refine(nodes_);
+    fine.order_ = builder.take_order();
+    std::vector<std::uint32_t> position_of(order_.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i) position_of[order_[i]] = i;
+    fine.corners_.reserve(order_.size());
+    for (const std::uint32_t triangle : fine.order_) fine.corners_.push_back(corners_[position_of[triangle]]);
+    fit_boxes(fine.nodes_, fine.corners_, 1);
+    return fine;
   });
 }
 

@@ -80,6 +80,33 @@ void BvhBuilder::build_subtree(const Piece& piece, std::uint32_t place, std::vec
   build_subtree(pair.right, first + 1, out);
 }
 
+std::vector<BvhNode> BvhBuilder::refine(const std::vector<BvhNode>& coarse) {
+  std::vector<Link> links(1);
+  links.reserve(2 * coarse.size());
+  refine_subtree(coarse, 0, 0, 0, links);
+  std::vector<BvhNode> nodes(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    nodes[i].first = links[i].first;
+    nodes[i].count = links[i].count;
+  }
+  return nodes;
+}
+
+void BvhBuilder::refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_t node, std::uint32_t depth,
+                                std::uint32_t place, std::vector<Link>& out) {
+  const BvhNode& from = coarse[node];
+  if (from.count != 0) {
+    Piece piece = {from.first, from.first + from.count, depth, 0, kEmptyBox};
+    for (std::uint32_t i = piece.begin; i < piece.end; ++i) grow_by_centre(piece.centres, arrays_[0][i]);
+    return build_subtree(piece, place, out);
+  }
+  const auto first = static_cast<std::uint32_t>(out.size());
+  out[place] = {first, 0};
+  out.resize(out.size() + 2);
+  refine_subtree(coarse, from.first, depth + 1, first, out);
+  refine_subtree(coarse, from.first + 1, depth + 1, first + 1, out);
+}
+
 void BvhBuilder::make_leaf(const Piece& piece, Link& leaf) {
   leaf = {piece.begin, piece.count()};
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) order_[i] = arrays_[piece.array][i].triangle;

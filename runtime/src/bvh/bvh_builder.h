@@ -20,7 +20,10 @@ class BvhBuilder {
   /// Links and leaves, boxes still empty. Root first, depth at most Bvh::kMaxDepth. Siblings are neighbours; after a
   /// pair come all nodes below the first of the two, then all below the second (fit_boxes() relies on it).
   std::vector<BvhNode> build();
-  /// After build(): triangle by leaf position.
+  /// Instead of build(), if the primitives are in the leaf order of `coarse`: that tree with its leaves split further,
+  /// which is the tree that build() makes of the same primitives.
+  std::vector<BvhNode> refine(const std::vector<BvhNode>& coarse);
+  /// After either: triangle by leaf position.
   std::vector<std::uint32_t> take_order() { return std::move(order_); }
 
  private:
@@ -59,6 +62,8 @@ class BvhBuilder {
   void split_tops();
   void build_subtrees();
   void build_subtree(const Piece& piece, std::uint32_t place, std::vector<Link>& out);
+  void refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_t node, std::uint32_t depth, std::uint32_t place,
+                      std::vector<Link>& out);
   void make_leaf(const Piece& piece, Link& leaf);
   std::vector<BvhNode> lay_out();
   std::uint32_t levels_of_halving(std::uint32_t count) const;

@@ -22,11 +22,19 @@ double distance_rounding(const Bvh& bvh) {
   return 32 * u * longest + 4 * u * magnitude;
 }
 
-Solid::Solid(const IndexedMesh& mesh)
+Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
     : mesh_(mesh),
-      rounding_(distance_rounding(mesh.bvh())),
+      bvh_(std::move(bvh)),
+      rounding_(distance_rounding(bvh_)),
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
       winding_(std::make_unique<WindingTree>(*triangles_)) {}
+
+Result<Solid> Solid::create(const IndexedMesh& mesh) {
+  constexpr std::uint32_t kLeafSize = 4;
+  Result<Bvh> bvh = mesh.bvh().refined(kLeafSize);
+  if (!bvh) return bvh.error();
+  return Solid(mesh, std::move(bvh).value());
+}
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 

@@ -17,12 +17,12 @@ double distance_rounding(const Bvh& bvh);
 /// Questions may come from several threads at once.
 class Solid {
  public:
-  /// Shares what the mesh holds.
-  explicit Solid(const IndexedMesh& mesh);
+  /// Shares the mesh, and refines its tree: small leaves suit scattered queries. Errors: kOutOfMemory.
+  static Result<Solid> create(const IndexedMesh& mesh);
 
   const IndexedMesh& indexed() const { return mesh_; }
   const PreparedMesh& mesh() const { return mesh_.prepared(); }
-  const Bvh& bvh() const { return mesh_.bvh(); }
+  const Bvh& bvh() const { return bvh_; }
   /// Nearest point of the boundary.
   BvhHit closest(const Point& p) const { return bvh().closest(p); }
   /// To the boundary, within rounding() of the exact distance.
@@ -38,7 +38,10 @@ class Solid {
   double volume() const { return mesh().report.signed_volume; }
 
  private:
+  Solid(const IndexedMesh& mesh, Bvh bvh);
+
   IndexedMesh mesh_;
+  Bvh bvh_;
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;

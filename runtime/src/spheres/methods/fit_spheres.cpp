@@ -109,7 +109,9 @@ template <class Work>
 auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
     -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {
   try {
-    return work(Solid(mesh), guarded(progress, stop));
+    const Result<Solid> solid = Solid::create(mesh);
+    if (!solid) return solid.error();
+    return work(solid.value(), guarded(progress, stop));
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
   } catch (const std::exception& error) {
