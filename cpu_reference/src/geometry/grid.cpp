@@ -1,4 +1,4 @@
-#include "search/grid.h"
+#include "geometry/grid.h"
 
 #include <algorithm>
 #include <cmath>
