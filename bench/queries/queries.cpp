@@ -15,11 +15,11 @@
 #include <string>
 #include <thread>
 
+#include "common/version.h"
 #include "device_run.h"
 #include "embree_peer.h"
 #include "input/read_mesh.h"
 #include "medial_vk/queries.h"
-#include "output/version.h"
 #include "query_table.h"
 #include "query_workload.h"
 #include "support/solids/solids.h"

@@ -12,6 +12,7 @@
 #include "analysis/simplify.h"
 #include "base/host_threads.h"
 #include "base/stopwatch.h"
+#include "checks/check_sheets.h"
 #include "cli/extract/device_opening.h"
 #include "cli/extract/load.h"
 #include "cli/extract/summary.h"
@@ -23,17 +24,16 @@
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
-#include "judge/check_sheets.h"
-#include "judge/reference_bridge.h"
+#include "common/version.h"
+#include "judge/check_balls.h"
 #include "medial_mesh/medial_mesh.h"
 #include "mesh/inspect_mesh.h"
 #include "output/files/atomic_file.h"
 #include "output/formats/encode_medial_mesh.h"
 #include "output/formats/encode_points.h"
-#include "output/page.h"
-#include "output/picture.h"
+#include "output/page/page.h"
+#include "output/picture/picture.h"
 #include "output/report/report_json.h"
-#include "output/version.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -239,9 +239,9 @@ class ExtractionRun {
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
     const MedialHeader& header = written.value().header;
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-    record_.certificate = reference::check(to_reference(mesh_), to_reference(grid, written.value().spheres),
-                                           header.epsilon, header.object_angle, header.radius_threshold);
-    for (reference::CertificateLine& line : check_sheets(written.value().spheres, !record_.removal)) {
+    record_.certificate = check_medial_spheres(mesh_, grid, written.value().spheres, header.epsilon,
+                                               header.object_angle, header.radius_threshold);
+    for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
       record_.certificate->lines.push_back(std::move(line));
     }
     record_.host_times.push_back({"check", stopwatch.lap()});

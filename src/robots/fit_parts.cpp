@@ -11,9 +11,8 @@
 
 #include "base/point_ops.h"
 #include "base/stopwatch.h"
-#include "cpu_reference/sphere_certificate.h"
 #include "input/text_scanner.h"
-#include "judge/reference_bridge.h"
+#include "judge/check_balls.h"
 #include "medial_vk/ball_union.h"
 #include "robots/share_out.h"
 #include "spheres/methods/approximate.h"
@@ -245,7 +244,8 @@ class Fitting {
     fit.spheres_volume = fit.measures->volume.balls;
     if (goals_.check) {
       if (progress_ && !progress_(FitStage::kCheck, part, 1)) return Error{ErrorCode::kInterrupted, "interrupted"};
-      fit.certificate = check_by_reference(solid.mesh(), balls);
+      fit.certificate = goals_.request.contract == SphereContract::kCover ? check_balls_cover(solid.mesh(), balls)
+                                                                          : check_balls_inside(solid.mesh(), balls);
     }
     for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
     return {};
@@ -263,17 +263,6 @@ class Fitting {
       return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid; nothing was written"};
     }
     return {};
-  }
-
-  reference::Certificate check_by_reference(const PreparedMesh& mesh, const std::vector<Ball>& balls) const {
-    std::vector<reference::UnionBall> copies;
-    copies.reserve(balls.size());
-    for (const Ball& ball : balls) {
-      copies.push_back({{ball.centre[0], ball.centre[1], ball.centre[2]}, ball.radius});
-    }
-    const bool cover = goals_.request.contract == SphereContract::kCover;
-    return cover ? reference::check_cover(to_reference(mesh), copies)
-                 : reference::check_inside(to_reference(mesh), copies);
   }
 
   /// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the

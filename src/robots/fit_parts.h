@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cpu_reference/certificate.h"
+#include "checks/check_report.h"
 #include "robots/parts.h"
 #include "spheres/measures/measures.h"
 #include "spheres/measures/reach_out.h"
@@ -35,7 +35,7 @@ struct PartFit {
   std::optional<double> spheres_volume;  ///< Of the union of the last level.
   // Of the last level, too; in the frame of the part, where its contract is proved. Not of parts that are balls.
   std::optional<SphereMeasures> measures;
-  std::optional<reference::Certificate> certificate;  ///< If it was asked for.
+  std::optional<CheckReport> certificate;  ///< If it was asked for.
   double seconds = 0;
 };
 

@@ -2,9 +2,9 @@
 // them in double precision. The command line and every later product use this.
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "base/stage_progress.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
@@ -17,9 +17,6 @@ enum class Backend {
   kVulkan,  ///< The device of a Context.
   kCpu,     ///< The CPU reference: double precision, one thread, no Vulkan at all.
 };
-
-/// Called with the stage ("extract", "certify") and the share of it done; return false to stop.
-using StageProgress = std::function<bool(const char* stage, double done)>;
 
 struct CertifiedExtraction {
   Extraction extraction;

@@ -1,12 +1,10 @@
 #include "cli/extract/volumes.h"
 
-#include <fmt/format.h>
-
-#include <iterator>
 #include <utility>
 
+#include "common/file_extension.h"
+#include "output/charts/ball_volumes.h"
 #include "output/charts/volume_curve.h"
-#include "output/files/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -16,16 +14,6 @@ std::vector<Ball> balls_of(const std::vector<MedialSphere>& spheres) {
   balls.reserve(spheres.size());
   for (const MedialSphere& sphere : spheres) balls.push_back({sphere.centre, sphere.radius});
   return balls;
-}
-
-std::string encode_ball_volumes(const Significance& significance, const std::vector<MedialSphere>& spheres) {
-  std::string text = "point,sheet,volume,area,significance\n";
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const double share = significance.of_ball[i];
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", i, spheres[i].sheet, share * significance.volume,
-                   significance.areas[i], share);
-  }
-  return text;
 }
 
 template <class T>

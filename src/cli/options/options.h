@@ -11,8 +11,8 @@
 #include "cli/options/parse_picture.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
-#include "output/medial_file.h"
-#include "output/picture/options.h"
+#include "output/medial_file/medial_file.h"
+#include "output/picture/panels/options.h"
 #include "sheets/sheets.h"
 
 namespace medial_vk::cli {

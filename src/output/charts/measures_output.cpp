@@ -1,4 +1,5 @@
-// Measures of a set of balls for reports, people and pictures.
+#include "output/charts/measures_output.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "output/charts/svg_drawing.h"
-#include "spheres/measures/measures.h"
 
 namespace medial_vk {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "medial_mesh/medial_mesh.h"
-#include "output/medial_file.h"
+#include "output/medial_file/medial_file.h"
 
 namespace medial_vk {
 

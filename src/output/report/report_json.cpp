@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "output/version.h"
+#include "common/version.h"
 
 namespace medial_vk {
 namespace {
@@ -215,10 +215,10 @@ Json medial_mesh_json(const RunRecord& record) {
           {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
 }
 
-Json certificate_json(const std::optional<reference::Certificate>& certificate) {
+Json certificate_json(const std::optional<CheckReport>& certificate) {
   if (!certificate) return nullptr;
   Json lines = Json::array();
-  for (const reference::CertificateLine& line : certificate->lines) {
+  for (const CheckLine& line : certificate->lines) {
     lines.push_back({{"condition", line.condition},
                      {"tested", line.tested},
                      {"failed", line.failed},

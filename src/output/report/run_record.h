@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/extract.h"
-#include "cpu_reference/certificate.h"
+#include "checks/check_report.h"
 #include "medial_mesh/medial_mesh.h"
 #include "medial_vk/context.h"
 #include "sheets/sheets.h"
@@ -68,8 +68,8 @@ struct RunRecord {
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
   std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
   std::optional<DeviceDescription> device;
-  std::string picture_drawn_by;                       ///< Empty: there is no picture.
-  std::optional<reference::Certificate> certificate;  ///< Of --check.
+  std::string picture_drawn_by;            ///< Empty: there is no picture.
+  std::optional<CheckReport> certificate;  ///< Of --check.
 };
 
 }  // namespace medial_vk

@@ -222,7 +222,7 @@ TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
 }
 
 TEST(ReportTables, CertificateNamesTheFirstFailure) {
-  reference::Certificate certificate;
+  CheckReport certificate;
   certificate.lines = {{"centre inside", 10, 0, 0, "", ""}, {"radius", 10, 2, 0.5, "voxels", "ball 3 at (1, 2, 3)"}};
   const std::string table = cli::certificate_table(certificate);
   EXPECT_THAT(table, HasSubstr("condition"));

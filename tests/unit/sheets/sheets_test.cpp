@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "base/point_ops.h"
-#include "judge/check_sheets.h"
+#include "checks/check_sheets.h"
 #include "sheets/concurrent_sets.h"
 #include "sheets/voxel_graph.h"
 #include "sheets/voxel_section.h"

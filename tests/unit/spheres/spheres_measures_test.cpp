@@ -1,4 +1,5 @@
 // The numbers that are reported of a set of balls: where a formula gives them, and how they are written.
+#include "output/charts/measures_output.h"
 #include "spheres/measures/measures.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,6 @@
 // How good a set of balls is as a stand-in for a solid: volume, distances, and the numbers that others report.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <string>
 #include <vector>
 
 #include "spheres/measures/envelope_distance.h"
@@ -85,14 +83,5 @@ Result<VolumeError> estimate_volume_error(const Solid& solid, std::span<const Ba
 /// balls proved to cover them), takes the place of the facets' own: the error is then exactly that of the shape. Other
 /// balls keep the facets for their measure; returns whether anything changed.
 bool measure_against(double shape_volume, SphereMeasures& measures);
-
-/// For the report: everything but the pictures' bins has its own key; see docs/report.md.
-nlohmann::ordered_json measures_json(const SphereMeasures& measures);
-/// For people: one line each, lengths also in percent of the diagonal.
-std::string measures_text(const SphereMeasures& measures);
-/// Both histograms above each other (Figure 8-2).
-std::string encode_histograms_svg(const SphereMeasures& measures);
-/// The same as a table: `surface,lower,upper,share`.
-std::string encode_histograms_csv(const SphereMeasures& measures);
 
 }  // namespace medial_vk
