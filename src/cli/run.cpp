@@ -239,10 +239,10 @@ class ExtractionRun {
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
     const MedialHeader& header = written.value().header;
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-    record_.certificate = check_medial_spheres(mesh_, grid, written.value().spheres, header.epsilon,
-                                               header.object_angle, header.radius_threshold);
+    record_.check = check_medial_spheres(mesh_, grid, written.value().spheres, header.epsilon, header.object_angle,
+                                         header.radius_threshold);
     for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
-      record_.certificate->lines.push_back(std::move(line));
+      record_.check->lines.push_back(std::move(line));
     }
     record_.host_times.push_back({"check", stopwatch.lap()});
     progress_.clear();
@@ -293,14 +293,14 @@ class ExtractionRun {
   Status conclude() {
     if (!options_.quiet) print_message(summary(record_, files_));
     if (options_.verbose) print_message(details(record_));
-    if (!record_.certificate) return {};
-    const std::string table = certificate_table(*record_.certificate);
+    if (!record_.check) return {};
+    const std::string table = check_table(*record_.check);
     if (standard_output_taken()) {
       print_message(table);
     } else if (Status status = print_result(table); !status) {
       return status;
     }
-    return verdict(*record_.certificate);
+    return verdict(*record_.check);
   }
 
   const Options& options_;

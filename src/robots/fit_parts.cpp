@@ -244,8 +244,8 @@ class Fitting {
     fit.spheres_volume = fit.measures->volume.balls;
     if (goals_.check) {
       if (progress_ && !progress_(FitStage::kCheck, part, 1)) return Error{ErrorCode::kInterrupted, "interrupted"};
-      fit.certificate = goals_.request.contract == SphereContract::kCover ? check_balls_cover(solid.mesh(), balls)
-                                                                          : check_balls_inside(solid.mesh(), balls);
+      fit.check = goals_.request.contract == SphereContract::kCover ? check_balls_cover(solid.mesh(), balls)
+                                                                    : check_balls_inside(solid.mesh(), balls);
     }
     for (const SphereSet& set : sets) fit.reach.push_back(reach_of(solid, set));
     return {};

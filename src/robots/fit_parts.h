@@ -35,7 +35,7 @@ struct PartFit {
   std::optional<double> spheres_volume;  ///< Of the union of the last level.
   // Of the last level, too; in the frame of the part, where its contract is proved. Not of parts that are balls.
   std::optional<SphereMeasures> measures;
-  std::optional<CheckReport> certificate;  ///< If it was asked for.
+  std::optional<CheckReport> check;  ///< If it was asked for.
   double seconds = 0;
 };
 

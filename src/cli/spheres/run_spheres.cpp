@@ -185,15 +185,15 @@ class SpheresRun {
   /// All parts in one table, a row for each condition.
   Status conclude() const {
     if (!options_.check) return {};
-    const CheckReport certificate = joint_certificate(record_);
-    const std::string table = certificate_table(certificate);
+    const CheckReport check = joint_check(record_);
+    const std::string table = check_table(check);
     const bool taken = std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
     if (taken) {
       print_message(table);
     } else if (Status status = print_result(table); !status) {
       return status;
     }
-    return verdict(certificate);
+    return verdict(check);
   }
 
   const SpheresOptions& options_;

@@ -113,11 +113,11 @@ double seconds(const FitsRecord& record) {
 
 }  // namespace
 
-CheckReport joint_certificate(const FitsRecord& record) {
+CheckReport joint_check(const FitsRecord& record) {
   CheckReport joint;
   for (std::size_t i = 0; i < record.fits.size(); ++i) {
-    if (!record.fits[i].certificate) continue;
-    for (const CheckLine& line : record.fits[i].certificate->lines) {
+    if (!record.fits[i].check) continue;
+    for (const CheckLine& line : record.fits[i].check->lines) {
       const auto same = std::ranges::find(joint.lines, line.condition, &CheckLine::condition);
       if (same == joint.lines.end()) {
         joint.lines.push_back(line);

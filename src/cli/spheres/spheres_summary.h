@@ -12,7 +12,7 @@
 namespace medial_vk::cli {
 
 /// Of all parts, one line for each condition; `first_failure` names the link.
-CheckReport joint_certificate(const FitsRecord& record);
+CheckReport joint_check(const FitsRecord& record);
 
 /// One line before the work: what was read, where it runs.
 std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record);

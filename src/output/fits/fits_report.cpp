@@ -46,7 +46,7 @@ Json part_json(const FitsRecord& record, const Part& part, const PartFit& fit) {
           {"spheres_volume", or_null(fit.spheres_volume)},
           {"volume_error", or_null(uncovered_share(fit, record.request.contract))},
           {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},
-          {"check", fit.certificate ? Json(fit.certificate->passed() ? "passed" : "failed") : Json(nullptr)},
+          {"check", fit.check ? Json(fit.check->passed() ? "passed" : "failed") : Json(nullptr)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.best}, {"worst", reach.worst}}},
           {"seconds", fit.seconds}};
 }

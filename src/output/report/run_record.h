@@ -68,8 +68,8 @@ struct RunRecord {
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
   std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
   std::optional<DeviceDescription> device;
-  std::string picture_drawn_by;            ///< Empty: there is no picture.
-  std::optional<CheckReport> certificate;  ///< Of --check.
+  std::string picture_drawn_by;      ///< Empty: there is no picture.
+  std::optional<CheckReport> check;  ///< Of --check.
 };
 
 }  // namespace medial_vk
