@@ -5,6 +5,7 @@
 
 namespace medial_vk::cli {
 
+// long: one text.
 std::string help_text() {
   return R"(medial-vk finds the medial spheres of a solid: balls inside a triangle mesh
 that touch its surface in two places, at most one per voxel.
