@@ -10,6 +10,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/point_ops.h"
 #include "checks/check_sheets.h"
 
 namespace medial_vk {
@@ -322,8 +323,7 @@ std::size_t small_points(const Sheets& sheets) {
   return static_cast<std::size_t>(std::ranges::count_if(sheets.marks, [](std::uint8_t m) { return m & kSmall; }));
 }
 
-// Eight columns, each turned by 80 degrees against those beside it, of balls of the diameter 8: together they are 6
-// wide between the rims.
+// Eight columns, each turned by 80 degrees against those beside it, of balls of the diameter 8; 6 wide between rims.
 TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
   std::vector<MedialSphere> spheres;
   for (const MedialSphere& s : square(8)) {
