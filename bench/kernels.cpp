@@ -58,7 +58,9 @@ class Subject {
       : context_(&context), name_(std::move(name)) {
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh));
     if (!prepared.ok()) give_up(name_ + ": " + prepared.error().message);
-    mesh_ = std::move(prepared).value();
+    Result<IndexedMesh> indexed = IndexedMesh::create(std::move(prepared).value());
+    if (!indexed.ok()) give_up(name_ + ": " + indexed.error().message);
+    mesh_.emplace(std::move(indexed).value());
     parameters_.resolution = resolution;
     parameters_.measurements.kernel_times = true;
     first_ = extract();
@@ -73,7 +75,7 @@ class Subject {
 
  private:
   Run extract() {
-    const Result<Extraction> made = extract_medial_spheres(*context_, mesh_.view(), parameters_);
+    const Result<Extraction> made = extract_medial_spheres(*context_, *mesh_, parameters_);
     if (!made.ok()) give_up(name_ + ": " + made.error().message);
     Run run;
     for (const StageTime& stage : made.value().measurements.device_times) {
@@ -88,7 +90,7 @@ class Subject {
 
   Context* context_;
   std::string name_;
-  PreparedMesh mesh_;
+  std::optional<IndexedMesh> mesh_;
   ExtractionOptions parameters_;
   Run first_;
   std::vector<Run> runs_;

@@ -40,16 +40,20 @@ struct Latencies {
 };
 
 /// Seconds of a run, `most` at most.
-double time_run(Context& context, const MeshView& mesh, const ExtractionOptions& parameters, double most) {
+double time_run(Context& context, const IndexedMesh& mesh, const ExtractionOptions& parameters, double most) {
   const Clock::time_point begin = Clock::now();
   const auto seconds = [&] { return Seconds(Clock::now() - begin).count(); };
-  const Result<Extraction> ran =
-      extract_medial_spheres(context, mesh, parameters, [&](double) { return seconds() < most; });
+  std::stop_source stop;
+  const auto on_progress = [&](double) {
+    if (seconds() >= most) stop.request_stop();
+  };
+  const Result<Extraction> ran = extract_medial_spheres(context, mesh, parameters, on_progress, stop.get_token());
   if (!ran.ok() && ran.error().code != ErrorCode::kInterrupted) or_exit(ran);
   return std::min(seconds(), most);
 }
 
-Latencies measure(Context& context, const MeshView& mesh, const ExtractionOptions& parameters, int count, double most) {
+Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOptions& parameters, int count,
+                  double most) {
   Latencies out;
   for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, parameters, most);  // the first one compiles
   for (int i = 0; i < count; ++i) {
@@ -96,11 +100,11 @@ int main(int argc, char** argv) {
       "|---|---|---|---|---|---|---|\n",
       context.device().name, context.device().driver);
   for (const std::string& path : meshes) {
-    const PreparedMesh mesh = or_exit(prepare_mesh(or_exit(read_mesh(path))));
-    const Latencies l = measure(context, mesh.view(), parameters, count, seconds);
+    const IndexedMesh mesh = or_exit(IndexedMesh::create(or_exit(prepare_mesh(or_exit(read_mesh(path))))));
+    const Latencies l = measure(context, mesh, parameters, count, seconds);
     if (l.stops.empty()) continue;
     fmt::print("| {} | {} | {:.2f} | {} | {:.0f} | {:.0f} | {:.0f} |\n", path.substr(path.find_last_of('/') + 1),
-               mesh.mesh.triangles.size(), l.run, l.stops.size(), 1e3 * l.stops[l.stops.size() / 2],
+               mesh.view().triangles.size(), l.run, l.stops.size(), 1e3 * l.stops[l.stops.size() / 2],
                1e3 * l.stops.back(), 1e3 * l.most_work);
     std::fflush(stdout);
   }

@@ -5,7 +5,8 @@
 # that is included before everything else gives every one of them the prefix medial_vk_.
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
 
-function(medial_vk_prefix_volk target)
+# Once for all targets: there are thousands of names.
+function(_medial_vk_write_volk_prefix header)
   file(STRINGS ${VOLK_INCLUDE_DIR}/volk.h declarations REGEX "^extern PFN_vk|volk[A-Z][A-Za-z]*\\(.*\\);")
   set(names)
   foreach(declaration IN LISTS declarations)
@@ -20,7 +21,11 @@ function(medial_vk_prefix_volk target)
   endif()
   list(TRANSFORM names REPLACE "(.+)" "#define \\1 medial_vk_\\1\n")
   string(JOIN "" text ${names})
-  set(header ${CMAKE_CURRENT_BINARY_DIR}/prefix_volk.h)
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made by cmake/PrefixVolk.cmake. */\n${text}" @ONLY)
-  target_compile_options(${target} PRIVATE "SHELL:-include \"${header}\"")
+endfunction()
+
+_medial_vk_write_volk_prefix(${PROJECT_BINARY_DIR}/prefix_volk.h)
+
+function(medial_vk_prefix_volk target)
+  target_compile_options(${target} PRIVATE "SHELL:-include \"${PROJECT_BINARY_DIR}/prefix_volk.h\"")
 endfunction()

@@ -128,7 +128,8 @@ int main() {
     medial_vk::ExtractionOptions parameters;
     parameters.resolution = 40;
     parameters.memory_budget = 256u << 20;
-    auto job = take(medial_vk::ExtractionJob::create(context, mesh, parameters));
+    const auto indexed = take(medial_vk::IndexedMesh::create(mesh));
+    auto job = take(medial_vk::ExtractionJob::create(context, indexed, parameters));
     const VkCommandBuffer commands = begin_commands(host.device, pool);
     check(medial_vk::record(commands, job));
     run(host, commands);

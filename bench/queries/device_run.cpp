@@ -15,12 +15,15 @@ Result<std::unique_ptr<DeviceRun>> DeviceRun::create(Context::Impl& context, con
                                                      std::span<const Point> spheres, std::uint32_t group_size,
                                                      std::span<const Point> scattered) {
   std::unique_ptr<DeviceRun> run(new DeviceRun(context));
-  Result<DeviceMesh> device = DeviceMesh::create(context, mesh);
+  const Result<IndexedMesh> indexed = IndexedMesh::create(mesh);
+  if (!indexed.ok()) return indexed.error();
+  Result<DeviceMesh> device = DeviceMesh::create(context, indexed.value(), false);
   if (!device.ok()) return device.error();
+  if (Status there = device.value().finish_uploads(); !there.ok()) return there.error();
   run->mesh_ = std::make_unique<DeviceMesh>(std::move(device).value());
   const PacketShape shape = PacketShape::best_for(context);
   const auto most = static_cast<std::uint32_t>(std::max(spheres.size(), scattered.size())) + shape.slots();
-  Result<PacketQueries> packets = PacketQueries::create(context, *run->mesh_, mesh, most, shape);
+  Result<PacketQueries> packets = PacketQueries::create(context, *run->mesh_, most, shape);
   if (!packets.ok()) return packets.error();
   run->packets_ = std::make_unique<PacketQueries>(std::move(packets).value());
   Result<TreeQueries> single = TreeQueries::create(context, *run->mesh_, most);

@@ -74,7 +74,9 @@ Result<Workload> make_workload(Context& context, std::string name, Mesh mesh, st
   w.name = std::move(name);
   const Point sides = normalise(mesh);
   w.mesh = std::move(mesh);
-  Result<Scene> scene = Scene::create(context, {w.mesh.vertices, w.mesh.triangles, {}, true});
+  const Result<IndexedMesh> indexed = IndexedMesh::create(MeshView{w.mesh.vertices, w.mesh.triangles, {}, true});
+  if (!indexed.ok()) return indexed.error();
+  Result<Scene> scene = Scene::create(context, indexed.value());
   if (!scene.ok()) return scene.error();
   std::mt19937 random(1);
   const std::vector<Point> directions = spiral_points(kSamples);

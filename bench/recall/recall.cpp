@@ -15,6 +15,7 @@
 
 #include "input/read_mesh.h"
 #include "judge/reference_bridge.h"
+#include "judge/reference_extractor.h"
 #include "medial_vk/prepare.h"
 #include "recall_count.h"
 #include "recall_table.h"
@@ -149,6 +150,9 @@ std::vector<std::uint32_t> resolutions_for(const Subject& subject, const std::ve
 
 Status measure(const Subject& subject, const Options& options, Context* context, std::vector<RecallRow>& rows) {
   const std::vector<MedialSample> samples = draw_samples(subject, options);
+  const Result<IndexedMesh> made = IndexedMesh::create(PreparedMesh(subject.mesh), options.threads);
+  if (!made.ok()) return made.error();
+  const IndexedMesh& indexed = made.value();
   for (const std::string& mode : options.modes) {
     const bool thesis = mode == "thesis";
     for (const std::uint32_t resolution :
@@ -159,8 +163,9 @@ Status measure(const Subject& subject, const Options& options, Context* context,
         parameters.mode = thesis ? Mode::kThesis : Mode::kCertified;
         parameters.resolution = resolution;
         parameters.object_angle = angle;
-        const auto result = extract_and_certify(
-            subject.mesh, parameters, context != nullptr ? Backend::kVulkan : Backend::kCpu, context, options.threads);
+        parameters.threads = options.threads;
+        const Extractor extractor = context != nullptr ? device_extractor(*context) : reference_extractor();
+        const auto result = extract_and_certify(indexed, parameters, extractor);
         if (!result.ok()) return result.error();
         rows.push_back(bench::count_recall(subject.name, samples, parameters, result.value().extraction));
         log(rows.back(), seconds_since(start));

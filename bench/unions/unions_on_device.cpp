@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "medial_vk/ball_union.h"
-#include "medial_vk/ball_union_device.h"
 #include "medial_vk/context.h"
 
 namespace {

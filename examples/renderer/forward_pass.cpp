@@ -137,6 +137,7 @@ VkShaderModule ForwardPass::create_shader(const std::uint32_t* code, std::size_t
   return shader;
 }
 
+// long: all of a pipeline's state, one member after the other.
 VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {

@@ -83,7 +83,8 @@ class Renderer {
       : folder_(std::move(folder)),
         torus_(kAround, kAlong),
         context_(take(medial_vk::Context::adopt(adopted()))),
-        job_(take(medial_vk::ExtractionJob::create(context_, torus_.view(), parameters(), {kFramesInFlight, 4}))),
+        mesh_(take(medial_vk::IndexedMesh::create(torus_.view()))),
+        job_(take(medial_vk::ExtractionJob::create(context_, mesh_, parameters(), {kFramesInFlight, 4}))),
         pass_(host_, kSize, job_.buffers()) {
     auto pool = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
@@ -161,7 +162,8 @@ class Renderer {
     torus_.deform(phase);
     torus_.write_vertices(static_cast<float*>(frame.vertices.mapped));
     if (number >= static_cast<int>(kFramesInFlight)) count_spheres();
-    check(job_.move_vertices(torus_.view()));
+    check(mesh_.move_vertices(torus_.view().vertices));
+    check(job_.update(mesh_));
     const auto moved = Clock::now();
     const auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     ::check(vkBeginCommandBuffer(frame.commands, &begin), "vkBeginCommandBuffer");
@@ -201,6 +203,7 @@ class Renderer {
   DeformingTorus torus_;
   VulkanHost host_;
   medial_vk::Context context_;
+  medial_vk::IndexedMesh mesh_;
   medial_vk::ExtractionJob job_;
   ForwardPass pass_;
   VkCommandPool pool_ = VK_NULL_HANDLE;

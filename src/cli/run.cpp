@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "checks/check_sheets.h"
 #include "cli/extract/device_opening.h"
 #include "cli/extract/load.h"
 #include "cli/extract/summary.h"
@@ -22,20 +23,19 @@
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
-#include "judge/check_sheets.h"
-#include "judge/reference_bridge.h"
+#include "common/file_extension.h"
+#include "judge/check_balls.h"
 #include "judge/reference_extractor.h"
 #include "medial_vk/analysis.h"
+#include "medial_vk/version.h"
 #include "output/charts/ball_volumes.h"
 #include "output/charts/volume_curve.h"
 #include "output/files/atomic_file.h"
-#include "output/files/file_extension.h"
 #include "output/formats/encode_medial_mesh.h"
 #include "output/formats/encode_points.h"
-#include "output/page.h"
-#include "output/picture.h"
+#include "output/page/page.h"
+#include "output/picture/picture.h"
 #include "output/report/report_json.h"
-#include "output/version.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -245,10 +245,10 @@ class ExtractionRun {
     if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
     const MedialHeader& header = written.value().header;
     const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-    record_.certificate = reference::check(to_reference(mesh_->prepared()), to_reference(grid, written.value().spheres),
-                                           header.epsilon, header.object_angle, header.radius_threshold);
-    for (reference::CertificateLine& line : check_sheets(written.value().spheres, !record_.removal)) {
-      record_.certificate->lines.push_back(std::move(line));
+    record_.check = check_medial_spheres(mesh_->prepared(), grid, written.value().spheres, header.epsilon,
+                                         header.object_angle, header.radius_threshold);
+    for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
+      record_.check->lines.push_back(std::move(line));
     }
     record_.host_times.push_back({"check", stopwatch.lap()});
     progress_.clear();
@@ -300,14 +300,14 @@ class ExtractionRun {
   Status conclude() {
     if (!options_.quiet) print_message(summary(record_, files_));
     if (options_.verbose) print_message(details(record_));
-    if (!record_.certificate) return {};
-    const std::string table = certificate_table(*record_.certificate);
+    if (!record_.check) return {};
+    const std::string table = check_table(*record_.check);
     if (standard_output_taken()) {
       print_message(table);
     } else if (Status status = print_result(table); !status) {
       return status;
     }
-    return verdict(*record_.certificate);
+    return verdict(*record_.check);
   }
 
   const Options& options_;

@@ -106,7 +106,8 @@ Extraction from_reference(const reference::Result& result) {
     out.undecided.push_back(from_reference(undecided));
   }
   for (const reference::LevelCount& level : result.levels) {
-    out.measurements.counters.levels.push_back({level.cell_size, level.visited, level.kept, level.contacts, level.found, 0, 0});
+    out.measurements.counters.levels.push_back(
+        {level.cell_size, level.visited, level.kept, level.contacts, level.found, 0, 0});
   }
   out.measurements.counters.found = result.found;
   out.measurements.counters.undecided = result.undecided;

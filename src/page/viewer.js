@@ -10,7 +10,7 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 
 const kFieldOfView = 32;  // Degrees, of the shorter side.
 const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
-// Turns that bring an axis up, about x, y and z: those of --picture (src/output/up_axis.h).
+// Turns that bring an axis up, about x, y and z: those of --picture (src/common/up_axis.h).
 const kTurns = {
   y: [0, 0, 0], '-y': [Math.PI, 0, 0], z: [-Math.PI / 2, 0, 0], '-z': [Math.PI / 2, 0, 0], x: [0, 0, Math.PI / 2],
   '-x': [0, 0, -Math.PI / 2],

@@ -8,10 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "common/file_extension.h"
 #include "input/read_mesh.h"
 #include "input/text_scanner.h"
 #include "medial_vk/prepare.h"
-#include "output/files/file_extension.h"
 #include "robots/read_collada.h"
 
 namespace medial_vk {

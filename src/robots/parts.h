@@ -7,8 +7,8 @@
 
 #include "medial_vk/mesh.h"
 #include "robots/find_mesh.h"
+#include "robots/model/robot.h"
 #include "robots/primitive_mesh.h"
-#include "robots/robot.h"
 
 namespace medial_vk {
 

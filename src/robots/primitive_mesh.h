@@ -2,7 +2,7 @@
 #pragma once
 
 #include "medial_vk/mesh.h"
-#include "robots/robot.h"
+#include "robots/model/robot.h"
 
 namespace medial_vk {
 

@@ -5,78 +5,25 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
-#include "input/read_mesh.h"
-#include "medial_vk/prepare.h"
-#include "mesh/solid.h"
-#include "spheres/measures/sphere_certificate.h"
+#include "spheres_command.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
-#include "tool_test.h"
 
 namespace medial_vk {
 namespace {
 
 using nlohmann::json;
 using test::read_file;
+using test::SpheresCommand;
 using test::ToolResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-constexpr const char* kRobot = R"(<robot name="two">
-  <link name="a">
-    <collision><geometry><mesh filename="part.obj"/></geometry></collision>
-    <collision><origin xyz="0 0 3"/><geometry><sphere radius="0.5"/></geometry></collision>
-  </link>
-  <link name="b">
-    <visual><geometry><mesh filename="part.obj"/></geometry></visual>
-    <collision>
-      <origin xyz="1 0 0" rpy="0.1 0.2 0.3"/>
-      <geometry><mesh filename="package://here/part.obj" scale="0.5 0.5 0.5"/></geometry>
-    </collision>
-  </link>
-  <link name="c"/>
-  <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
-</robot>
-)";
-
-class SpheresCommand : public test::ToolTest {
- protected:
-  SpheresCommand() {
-    Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);
-    test::rotate(mesh, {1, 2, 3}, 0.4);
-    test::write_file(path("part.obj"), test::to_obj(mesh));
-    test::write_file(path("two.urdf"), kRobot);
-  }
-
-  /// By the source's method on the CPU.
-  ToolResult spheres(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"spheres", "--method", "source", "--backend", "cpu"});
-    return run(std::move(arguments));
-  }
-
-  /// By the best method on the CPU, with few candidates: a second at most. The report is in report().
-  ToolResult best(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"spheres", "--backend", "cpu", "--resolution", "20", "--report", "r.json"});
-    return run(std::move(arguments));
-  }
-  json report() const { return json::parse(read_file(path("r.json"))); }
-  json measures() const { return report()["parts"][0]["measures"]; }
-
-  /// As the library sees part.obj.
-  PreparedMesh part() const { return std::move(prepare_mesh(std::move(read_mesh(path("part.obj"))).value())).value(); }
-
-  std::vector<std::string> robot_arguments(const std::string& goal, const std::string& number) const {
-    return {"two.urdf", "--package", "here=" + path(""), goal, number};
-  }
-};
 
 TEST_F(SpheresCommand, HelpGoesToStandardOutput) {
   const ToolResult help = run({"spheres", "--help"});
@@ -293,186 +240,6 @@ TEST_F(SpheresCommand, VisualGeometryIsThereForTheAsking) {
   const json links = json::parse(read_file(path("v.json")))["links"];
   EXPECT_EQ(links.size(), 1u);
   EXPECT_TRUE(links.contains("b"));
-}
-
-TEST_F(SpheresCommand, BestBallsInsideAreProvedCheckedAndMeasured) {
-  const ToolResult result = best({"part.obj", "--count", "12", "--check", "-v"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("certified 12 spheres with centre inside and radius at most the exact distance"));
-  EXPECT_THAT(result.err, HasSubstr("max_uncovered_gap"));
-  EXPECT_THAT(result.out, StartsWith("condition"));
-  EXPECT_EQ(report()["method"], "best");
-  EXPECT_EQ(report()["parts"][0]["check"], "passed");
-  const json all = measures();
-  EXPECT_EQ(all["certificate"]["inside"]["proved"], true);
-  EXPECT_EQ(all["certificate"]["inside"]["balls"], 12);
-  const double error = all["volume"]["error"];
-  EXPECT_EQ(all["volume"]["standard_error"], 0);
-  EXPECT_EQ(all["volume"]["outside"], 0);
-  EXPECT_DOUBLE_EQ(report()["volume_error"], error);
-  EXPECT_NEAR(all["metrics"]["coverage"], 1 - error, 1e-12);
-  EXPECT_EQ(all["metrics"]["protrusion"], 0);
-  EXPECT_EQ(all["metrics"]["max_uncovered_gap"], all["distances"]["boundary_to_balls"]["upper"]);
-  EXPECT_EQ(all["distances"]["balls_to_solid"]["upper"], 0);
-}
-
-TEST_F(SpheresCommand, CoversAreProvedCheckedAndMeasured) {
-  const ToolResult result = best({"part.obj", "--count", "4", "--contract", "cover", "--check"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("20 triangles covered piece by piece, no hole within"));
-  EXPECT_THAT(result.out, HasSubstr("the balls cover every triangle"));
-  EXPECT_EQ(report()["parts"][0]["check"], "passed");
-  EXPECT_TRUE(report()["volume_error"].is_null());
-  EXPECT_GT(report()["parts"][0]["reach_out"]["worst"], 0);
-  const json all = measures();
-  EXPECT_EQ(all["certificate"]["cover"]["proved"], true);
-  EXPECT_EQ(all["certificate"]["cover"]["triangles"], 20);
-  EXPECT_EQ(all["volume"]["uncovered"], 0);
-  EXPECT_EQ(all["volume"]["standard_error"], 0);
-  EXPECT_GT(all["volume"]["outside"], 0);
-  EXPECT_EQ(all["metrics"]["coverage"], 1);
-}
-
-TEST_F(SpheresCommand, BalancedBallsSayHowFarTheyReachOut) {
-  const ToolResult result = best({"part.obj", "--count", "12", "--contract", "balanced"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("no sphere reaches out by more than "));
-  EXPECT_GT(measures()["volume"]["standard_error"], 0);
-  EXPECT_EQ(best({"part.obj", "--count", "12", "--contract", "balanced", "--check"}).exit_code, 2);
-}
-
-TEST_F(SpheresCommand, ErrorAndGapAreMetTogether) {
-  ASSERT_EQ(best({"part.obj", "--error", "0.4", "-q"}).exit_code, 0);
-  const int by_error = report()["num_spheres"];
-  EXPECT_LE(report()["volume_error"], 0.4);
-  ASSERT_EQ(best({"part.obj", "--error", "0.4", "--max-gap", "0.25", "-q"}).exit_code, 0);
-  EXPECT_LE(report()["volume_error"], 0.4);
-  EXPECT_LE(measures()["distances"]["boundary_to_balls"]["lower"], 0.25);
-  EXPECT_LE(measures()["distances"]["boundary_to_balls"]["upper"], 0.25 * 1.01);
-  EXPECT_GE(report()["num_spheres"], by_error);
-  EXPECT_EQ(best({"part.obj", "--error", "0.01", "--count", "4", "-q"}).exit_code, 2);
-}
-
-TEST_F(SpheresCommand, CoversAndBalancedSetsMeetGoals) {
-  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "1", "-q"}).exit_code, 2);  // a share below 1
-  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.9", "-q"}).exit_code, 0);
-  const int covering = report()["num_spheres"];
-  const auto solid = measures()["volume"]["solid"].get<double>();
-  EXPECT_LE(measures()["volume"]["outside"], 0.9 * solid);
-  EXPECT_EQ(measures()["volume"]["standard_error"], 0);
-  ASSERT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.6", "-q"}).exit_code, 0);
-  EXPECT_LE(measures()["volume"]["outside"], 0.6 * solid);
-  EXPECT_GT(report()["num_spheres"], covering);
-  EXPECT_EQ(best({"part.obj", "--contract", "cover", "--error", "0.1", "--count", "4"}).exit_code, 2);
-
-  ASSERT_EQ(best({"part.obj", "--contract", "balanced", "--error", "0.25", "-q"}).exit_code, 0);
-  const int balanced = report()["num_spheres"];
-  ASSERT_EQ(best({"part.obj", "--contract", "balanced", "--error", "0.25", "--max-gap", "0.1", "-q"}).exit_code, 0);
-  EXPECT_GE(report()["num_spheres"], balanced);
-  EXPECT_LE(measures()["distances"]["boundary_to_balls"]["lower"], 0.1);
-}
-
-TEST_F(SpheresCommand, GoalsThatMeanNothingAreRefused) {
-  const ToolResult gap = best({"part.obj", "--contract", "cover", "--max-gap", "0.3"});
-  EXPECT_EQ(gap.exit_code, 2);
-  EXPECT_THAT(gap.err, HasSubstr("cover leave no gap"));
-  for (const char* contract : {"cover", "balanced"}) {
-    const ToolResult result = best({"part.obj", "--method", "source", "--contract", contract, "--error", "0.3"});
-    EXPECT_EQ(result.exit_code, 2) << contract;
-    EXPECT_THAT(result.err, HasSubstr("with --method source for --contract inside only"));
-  }
-  EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
-}
-
-TEST_F(SpheresCommand, MoreBallsAreNeverWorse) {
-  double before = 1;
-  for (const char* count : {"1", "2", "5", "16", "20", "40"}) {
-    ASSERT_EQ(best({"part.obj", "--count", count, "-q"}).exit_code, 0);
-    const double error = report()["volume_error"];
-    EXPECT_LE(error, before) << count;
-    before = error;
-  }
-}
-
-TEST_F(SpheresCommand, BestGivesTheSameBytesOnAnyNumberOfThreads) {
-  for (const auto& each : {std::pair{"inside", "20"}, {"cover", "2"}, {"balanced", "20"}}) {
-    const char *contract = each.first, *count = each.second;
-    const auto bytes = [&](const char* threads) {
-      const ToolResult result =
-          best({"part.obj", "--count", count, "--contract", contract, "--threads", threads, "-q", "-o", "a.json"});
-      EXPECT_EQ(result.exit_code, 0) << result.err;
-      return read_file(path("a.json"));
-    };
-    const std::string first = bytes("2");
-    EXPECT_EQ(bytes("2"), first) << contract;
-    EXPECT_EQ(bytes("1"), first) << contract;
-  }
-}
-
-TEST_F(SpheresCommand, EveryLevelKeepsItsContract) {
-  const PreparedMesh mesh = part();
-  const Solid solid = std::move(Solid::build(mesh)).value();
-  // A cover takes seconds: few of them.
-  for (const auto& [contract, count] : {std::pair{"inside", "8"}, {"cover", "2"}}) {
-    ASSERT_EQ(best({"part.obj", "--count", count, "--contract", contract, "--levels", "-q", "-o", "a.json"}).exit_code,
-              0);
-    const json levels = json::parse(read_file(path("a.json")))["levels"];
-    ASSERT_EQ(levels.size(), contract == std::string("cover") ? 2u : 4u);
-    json before = json::array();
-    for (const json& level : levels) {
-      std::vector<Ball> balls;
-      for (const json& sphere : level["spheres"]) {
-        const json& c = sphere["centre"];
-        balls.push_back({{c[0], c[1], c[2]}, sphere["radius"]});
-      }
-      SCOPED_TRACE(std::string(contract) + " " + std::to_string(balls.size()));
-      if (contract == std::string("cover")) {
-        EXPECT_TRUE(prove_cover(solid, balls).value().proved());
-        continue;
-      }
-      EXPECT_TRUE(prove_inside(solid, balls).proved());
-      // All of the smaller level are in the larger one.
-      ASSERT_GE(level["spheres"].size(), before.size());
-      for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(level["spheres"][i], before[i]);
-      before = level["spheres"];
-    }
-  }
-}
-
-TEST_F(SpheresCommand, HistogramsAsDrawingAndTable) {
-  ASSERT_EQ(best({"part.obj", "--count", "6", "-q", "--histogram", "h.svg"}).exit_code, 0);
-  EXPECT_THAT(read_file(path("h.svg")), StartsWith("<svg"));
-  ASSERT_EQ(best({"part.obj", "--count", "6", "-q", "--histogram", "h.csv"}).exit_code, 0);
-  std::istringstream table(read_file(path("h.csv")));
-  std::string line;
-  std::getline(table, line);
-  EXPECT_EQ(line, "surface,lower,upper,share");
-  std::map<std::string, double> sums;
-  while (std::getline(table, line)) sums[line.substr(0, line.find(','))] += std::stod(line.substr(line.rfind(',') + 1));
-  ASSERT_EQ(sums.size(), 2u);
-  EXPECT_NEAR(sums["boundary"], 1, 1e-9);
-  EXPECT_NEAR(sums["envelope"], 1, 1e-9);
-  EXPECT_EQ(best({"part.obj", "--count", "6", "--histogram", "h.png"}).exit_code, 2);
-  EXPECT_EQ(best({"two.urdf", "--total", "6", "--histogram", "h.svg"}).exit_code, 2);
-}
-
-TEST_F(SpheresCommand, RobotsKeepEveryContract) {
-  for (const char* contract : {"inside", "cover"}) {
-    std::vector<std::string> arguments = robot_arguments("--total", "5");
-    for (const char* word : {"--contract", contract, "--check", "-o", "a.json"}) arguments.emplace_back(word);
-    const ToolResult result = best(arguments);
-    ASSERT_EQ(result.exit_code, 0) << contract << result.err;
-    EXPECT_EQ(report()["num_spheres"], 5);
-    const json written = report();
-    for (const json& part : written["parts"]) {
-      if (part["geometry"] == "primitive1") {
-        EXPECT_TRUE(part["measures"].is_null());
-        continue;
-      }
-      EXPECT_EQ(part["check"], "passed");
-      EXPECT_EQ(part["measures"]["certificate"][contract]["proved"], true);
-    }
-  }
 }
 
 }  // namespace

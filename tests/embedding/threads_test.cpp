@@ -16,6 +16,8 @@
 #include "medial_vk/scene.h"
 #include "recording_host.h"
 #include "support/device/device.h"
+#include "support/indexed.h"
+#include "support/recorded_job.h"
 
 namespace medial_vk::test {
 namespace {
@@ -66,13 +68,13 @@ void append_bytes(std::string& out, const T& value) {
 /// Spheres and closest points as bytes; what went wrong if anything did.
 std::string work(Context& context, const Solid& mesh) {
   std::string out;
-  const auto extraction = extract_medial_spheres(context, mesh.view(), small_job());
+  const auto extraction = test::extract_spheres(context, mesh.view(), small_job());
   if (!extraction.ok()) return extraction.error().message;
   for (const MedialSphere& s : extraction.value().spheres) {
     append_bytes(out, s.centre);
     append_bytes(out, s.radius);
   }
-  Result<Scene> scene = Scene::create(context, mesh.view());
+  Result<Scene> scene = test::make_scene(context, mesh.view());
   if (!scene.ok()) return scene.error().message;
   std::vector<Point> points;
   for (int i = 0; i < 5000; ++i) points.push_back({std::sin(0.37 * i), std::cos(0.61 * i), std::sin(0.83 * i)});
@@ -156,13 +158,16 @@ std::string record_and_move(const Solid& mesh) {
   RecordingHost host(make_context());
   Result<Context> context = Context::adopt(host.lend());
   if (!context.ok()) return context.error().message;
-  Result<ExtractionJob> job = ExtractionJob::create(context.value(), mesh.view(), small_job());
+  Result<IndexedMesh> indexed = IndexedMesh::create(mesh.view());
+  if (!indexed.ok()) return indexed.error().message;
+  Result<ExtractionJob> job = ExtractionJob::create(context.value(), indexed.value(), small_job());
   if (!job.ok()) return job.error().message;
   std::string out;
   Solid moved = mesh;
   for (int frame = 0; frame < 3; ++frame) {
     for (Point& p : moved.vertices) p[0] *= 1.1;
-    if (const Status status = job.value().move_vertices(moved.view()); !status.ok()) return status.error().message;
+    if (const Status status = move(job.value(), indexed.value(), moved.view()); !status.ok())
+      return status.error().message;
     if (const Status status = host.run(job.value()); !status.ok()) return status.error().message;
     const RecordedCounts counts = job.value().counts();
     if (counts.complete != 1 || counts.spheres == 0) return "a frame without spheres";
@@ -194,10 +199,11 @@ TEST_F(Threads, HandAJobOn) {
   const Solid mesh = solid(1);
   RecordingHost host(make_context());
   Context context = Context::adopt(host.lend()).value();
-  ExtractionJob job = ExtractionJob::create(context, mesh.view(), small_job()).value();
+  IndexedMesh indexed = IndexedMesh::create(mesh.view()).value();
+  ExtractionJob job = ExtractionJob::create(context, indexed, small_job()).value();
   for (std::size_t i = 0; i < kThreads; ++i) {
     std::thread([&] {
-      EXPECT_TRUE(job.move_vertices(mesh.view()).ok());
+      EXPECT_TRUE(move(job, indexed, mesh.view()).ok());
       EXPECT_TRUE(host.run(job).ok());
       EXPECT_EQ(job.counts().complete, 1u);
       EXPECT_GT(job.counts().spheres, 0u);

@@ -8,6 +8,7 @@
 #include "echo_queries.h"
 #include "fault_test.h"
 #include "lent_device.h"
+#include "support/indexed.h"
 
 namespace medial_vk::test {
 namespace {
@@ -51,7 +52,7 @@ TEST_P(CopyingQueue, AnswersQueriesAlike) {
 TEST_P(CopyingQueue, FollowsAMeshThatMoves) {
   const PreparedMesh mesh = small_box(), moved = sheared(mesh);
   expect_same([&](Context& context) -> Answer {
-    Scene scene = Scene::create(context, mesh.view()).value();
+    Scene scene = test::make_scene(context, mesh.view()).value();
     const std::string before = ask_everything(scene).value();
     EXPECT_TRUE(scene.update(moved.view()).ok());
     return before + ask_everything(scene).value();
@@ -70,10 +71,8 @@ TEST_P(CopyingQueue, ExtractsChunkByChunk) {
   const ExtractionOptions parameters = job_of_many_chunks();
   expect_same([&](Context& context) -> Answer {
     std::set<double> seen;
-    const auto extraction = extract_medial_spheres(context, mesh.view(), parameters, [&](double done) {
-      seen.insert(done);
-      return true;
-    });
+    const auto extraction =
+        test::extract_spheres(context, mesh.view(), parameters, [&](double done) { seen.insert(done); });
     if (!extraction.ok()) return extraction.error();
     EXPECT_GT(seen.size(), 4u);  // chunks
     return answer_of(extraction.value());

@@ -20,6 +20,7 @@
 #include "medial_vk/scene.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 #include "vulkan_interposer.h"
 
@@ -85,7 +86,7 @@ using Answer = Result<std::string>;
 using Job = std::function<Answer(Context&)>;
 
 inline Answer extract(Context& context, const PreparedMesh& mesh, Mode mode) {
-  const auto extraction = in_runtime([&] { return extract_medial_spheres(context, mesh.view(), small_job(mode)); });
+  const auto extraction = in_runtime([&] { return test::extract_spheres(context, mesh.view(), small_job(mode)); });
   if (!extraction.ok()) return extraction.error();
   return answer_of(extraction.value());
 }
@@ -115,7 +116,7 @@ inline Answer ask_everything(Scene& scene) {
 }
 
 inline Answer make_scene_and_ask(Context& context, const PreparedMesh& mesh) {
-  Result<Scene> scene = in_runtime([&] { return Scene::create(context, mesh.view()); });
+  Result<Scene> scene = in_runtime([&] { return test::make_scene(context, mesh.view()); });
   if (!scene.ok()) return scene.error();
   return ask_everything(scene.value());
 }

@@ -7,6 +7,7 @@
 #include "fault_test.h"
 #include "medial_vk/extraction_job.h"
 #include "support/device/lend_device.h"
+#include "support/recorded_job.h"
 
 namespace medial_vk::test {
 
@@ -83,10 +84,12 @@ inline PreparedMesh sheared(PreparedMesh mesh) {
 /// A job on a context of the host's device, the mesh moved, recorded and run.
 inline Answer make_job_and_record(LentDevice& host, Context& context, const PreparedMesh& mesh,
                                   const PreparedMesh& moved) {
-  const auto create = [&] { return ExtractionJob::create(context, mesh.view(), small_job(Mode::kCertified)); };
+  Result<IndexedMesh> indexed = in_runtime([&] { return IndexedMesh::create(mesh.view()); });
+  if (!indexed.ok()) return indexed.error();
+  const auto create = [&] { return ExtractionJob::create(context, indexed.value(), small_job(Mode::kCertified)); };
   Result<ExtractionJob> job = in_runtime(create);
   if (!job.ok()) return job.error();
-  const Status status = in_runtime([&] { return job.value().move_vertices(moved.view()); });
+  const Status status = in_runtime([&] { return move(job.value(), indexed.value(), moved.view()); });
   if (!status.ok()) return status.error();
   return host.record_and_run(job.value());
 }

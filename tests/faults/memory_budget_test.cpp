@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "fault_test.h"
+#include "support/indexed.h"
 
 namespace medial_vk::test {
 namespace {
@@ -21,7 +22,7 @@ class MemoryBudget : public FaultTest {
     parameters.resolution = resolution;
     parameters.memory_budget = mebibytes << 20;
     vulkan().clear_usage();
-    const auto extraction = extract_medial_spheres(context.value(), mesh.view(), parameters);
+    const auto extraction = test::extract_spheres(context.value(), mesh.view(), parameters);
     ASSERT_TRUE(extraction.ok()) << extraction.error().message;
     EXPECT_GT(extraction.value().spheres.size(), 200u);
     EXPECT_LE(vulkan().usage().memory_bytes, parameters.memory_budget);

@@ -8,6 +8,8 @@
 #include "echo_queries.h"
 #include "fault_test.h"
 #include "lent_device.h"
+#include "support/indexed.h"
+#include "support/recorded_job.h"
 
 namespace medial_vk::test {
 namespace {
@@ -60,7 +62,7 @@ class VulkanFaults : public FaultTest {
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
     const PreparedMesh mesh = small_box();
-    Scene beside = Scene::create(context.value(), mesh.view()).value();
+    Scene beside = test::make_scene(context.value(), mesh.view()).value();
     const std::vector<Point> points = points_around(5);
     const auto ask = [&] {
       std::string out;
@@ -196,7 +198,7 @@ TEST_P(TwoQueueFaults, OfManyChunks) {
   Context context = open().value();
   const auto job = [&]() -> Answer {
     const auto extraction =
-        in_runtime([&] { return extract_medial_spheres(context, mesh.view(), job_of_many_chunks()); });
+        in_runtime([&] { return test::extract_spheres(context, mesh.view(), job_of_many_chunks()); });
     if (!extraction.ok()) return extraction.error();
     return answer_of(extraction.value());
   };
@@ -259,9 +261,10 @@ TEST_F(RecordedJobFaults, OfAJob) {
 TEST_F(RecordedJobFaults, OfASequenceThatIsRecordedAgain) {
   const PreparedMesh mesh = small_box(), moved = sheared(mesh);
   Context context = Context::adopt(host_->lend()).value();
-  ExtractionJob job = ExtractionJob::create(context, mesh.view(), small_job(Mode::kCertified)).value();
+  IndexedMesh indexed = test::indexed(mesh);
+  ExtractionJob job = ExtractionJob::create(context, indexed, small_job(Mode::kCertified)).value();
   const auto move_and_run = [&](const PreparedMesh& to) {
-    EXPECT_TRUE(job.move_vertices(to.view()).ok());
+    EXPECT_TRUE(move(job, indexed, to.view()).ok());
     return host_->record_and_run(job);
   };
   const std::string before = move_and_run(mesh).value(), after = move_and_run(moved).value();
@@ -270,7 +273,7 @@ TEST_F(RecordedJobFaults, OfASequenceThatIsRecordedAgain) {
   for (const Fault fault : kMemoryFaults) {
     for (std::uint64_t k = 1; !HasFailure(); ++k) {
       EXPECT_TRUE(move_and_run(mesh).value() == before);
-      EXPECT_TRUE(job.move_vertices(moved.view()).ok());
+      EXPECT_TRUE(move(job, indexed, moved.view()).ok());
       vulkan().fail_call(k, fault);
       const Answer answer = host_->record_and_run(job);
       const std::string call = vulkan().stop_failing();
@@ -296,7 +299,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     ASSERT_TRUE(context.ok()) << context.error().message;
     const PreparedMesh mesh = small_box();
     const PreparedMesh moved = sheared(mesh);
-    Scene scene = Scene::create(context.value(), mesh.view()).value();
+    Scene scene = test::make_scene(context.value(), mesh.view()).value();
     const std::string before = ask_everything(scene).value();
     const auto job = [&]() -> Answer {
       const Status updated = scene.update(moved.view());
@@ -343,7 +346,7 @@ TEST_F(VulkanFaults, ALostDeviceIsNamed) {
   Result<Context> context = open();
   ASSERT_TRUE(context.ok());
   const PreparedMesh mesh = small_box();
-  Scene scene = Scene::create(context.value(), mesh.view()).value();
+  Scene scene = test::make_scene(context.value(), mesh.view()).value();
   vulkan().fail_call(1, Fault::kDeviceLost);
   for (int i = 0; i < 2; ++i) {
     const auto closest = scene.closest_points(points_around(5));

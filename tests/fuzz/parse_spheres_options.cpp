@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/spheres/spheres_options.h"
+#include "cli/options/spheres_options.h"
 #include "fuzz/arguments.h"
 
 namespace medial_vk::fuzz {

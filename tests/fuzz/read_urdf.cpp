@@ -1,5 +1,5 @@
 // The URDF reader, on any bytes; and what is asked of a robot before its meshes are read.
-#include "robots/read_urdf.h"
+#include "robots/model/read_urdf.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "medial_vk/ball_union.h"
-#include "medial_vk/ball_union_device.h"
 #include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/ball_families.h"

@@ -1,4 +1,5 @@
 // Every kernel that walks the tree against the reference in double precision; tolerances: tree_test.h.
+#include "support/indexed.h"
 #include "tree_test.h"
 
 #include <cmath>
@@ -218,7 +219,7 @@ TEST_F(TreeQueriesTest, RefusesWhatCannotBeAnswered) {
   Mesh flat;
   flat.vertices = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   flat.triangles = {{0, 1, 2}};
-  EXPECT_EQ(Scene::create(*context_, test::view_of(flat)).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(test::make_scene(*context_, test::view_of(flat)).error().code, ErrorCode::kInvalidMesh);
 }
 
 }  // namespace

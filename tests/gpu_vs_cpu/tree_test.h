@@ -17,6 +17,7 @@
 #include "cpu_reference/queries.h"
 #include "medial_vk/scene.h"
 #include "support/device/device_test.h"
+#include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
 
@@ -54,7 +55,7 @@ inline std::vector<NamedSolid> solids() {
 class TreeQueriesTest : public test::DeviceTest {
  protected:
   Scene scene_of(const Mesh& mesh) {
-    Result<Scene> scene = Scene::create(*context_, test::view_of(mesh));
+    Result<Scene> scene = test::make_scene(*context_, test::view_of(mesh));
     EXPECT_TRUE(scene.ok());
     return std::move(scene).value();
   }

@@ -13,6 +13,7 @@
 #include "medial_vk/certify.h"
 #include "medial_vk/extraction.h"
 #include "support/device/device_test.h"
+#include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
 
@@ -79,24 +80,22 @@ void expect_close(std::uint64_t device, std::uint64_t truth) {
 }
 
 void expect_same_levels(const Extraction& device, const reference::Result& truth) {
-  ASSERT_EQ(device.counters.levels.size(), truth.levels.size());
+  ASSERT_EQ(device.measurements.counters.levels.size(), truth.levels.size());
   for (std::size_t level = 0; level < truth.levels.size(); ++level) {
-    expect_close(device.counters.levels[level].visited, truth.levels[level].visited);
-    expect_close(device.counters.levels[level].kept, truth.levels[level].kept);
+    expect_close(device.measurements.counters.levels[level].visited, truth.levels[level].visited);
+    expect_close(device.measurements.counters.levels[level].kept, truth.levels[level].kept);
   }
 }
 
 CertifyReport certify(const Solid& solid, const ExtractionOptions& parameters, Extraction& extraction) {
-  const Result<Bvh> bvh = Bvh::build(solid.view());
-  const double longest = extraction.grid.voxel_size * parameters.resolution;
-  return certify_spheres(bvh.value(), parameters, longest, extraction, 1);
+  return certify_spheres(test::indexed(solid.view()), parameters, extraction);
 }
 
 TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
   for (const Solid& solid : solids()) {
     SCOPED_TRACE(solid.name);
     const ExtractionOptions parameters = thesis_parameters();
-    auto device = extract_medial_spheres(*context_, solid.view(), parameters);
+    auto device = test::extract_spheres(*context_, solid.view(), parameters);
     ASSERT_TRUE(device.ok()) << device.error().message;
     Extraction& found = device.value();
     const reference::Result truth = extract_with_reference(solid.mesh, parameters);
@@ -113,7 +112,7 @@ TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
   const Solid solid = solids()[0];
   ExtractionOptions parameters = thesis_parameters();
   parameters.thesis.narrow_features = false;
-  const auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  const auto found = test::extract_spheres(*context_, solid.view(), parameters).value();
   const reference::Result truth = extract_with_reference(solid.mesh, parameters);
   expect_same_levels(found, truth);
   EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
@@ -124,17 +123,17 @@ TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
 TEST_F(TreeThesisTest, RadiusThreshold) {
   const Solid solid = solids()[3];
   ExtractionOptions parameters = thesis_parameters();
-  const std::size_t by_angle = extract_medial_spheres(*context_, solid.view(), parameters).value().spheres.size();
+  const std::size_t by_angle = test::extract_spheres(*context_, solid.view(), parameters).value().spheres.size();
   parameters.radius = 0.11;
-  auto found = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  auto found = test::extract_spheres(*context_, solid.view(), parameters).value();
   EXPECT_GE(found.spheres.size(), by_angle);
   EXPECT_LE(certify(solid, parameters, found).rejected, found.spheres.size() / 200);
 }
 
 TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
   const Solid solid = solids()[1];
-  const auto first = extract_medial_spheres(*context_, solid.view(), thesis_parameters()).value();
-  const auto second = extract_medial_spheres(*context_, solid.view(), thesis_parameters()).value();
+  const auto first = test::extract_spheres(*context_, solid.view(), thesis_parameters()).value();
+  const auto second = test::extract_spheres(*context_, solid.view(), thesis_parameters()).value();
   ASSERT_EQ(first.spheres.size(), second.spheres.size());
   std::array<std::uint32_t, 3> last = {};
   for (std::size_t i = 0; i < first.spheres.size(); ++i) {
@@ -152,9 +151,9 @@ TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
 TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
   const Solid solid = solids()[2];
   ExtractionOptions parameters = thesis_parameters();
-  const auto whole = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  const auto whole = test::extract_spheres(*context_, solid.view(), parameters).value();
   parameters.memory_budget = 8u << 20;
-  const auto parts = extract_medial_spheres(*context_, solid.view(), parameters).value();
+  const auto parts = test::extract_spheres(*context_, solid.view(), parameters).value();
   ASSERT_EQ(whole.spheres.size(), parts.spheres.size());
   for (std::size_t i = 0; i < whole.spheres.size(); ++i) EXPECT_EQ(whole.spheres[i].centre, parts.spheres[i].centre);
   EXPECT_EQ(whole.counters.queries, parts.counters.queries);
@@ -168,13 +167,14 @@ TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
     EXPECT_GE(one.triangle_tests, one.visited) << "level " << level;
   }
   parameters.memory_budget = 1u << 10;
-  EXPECT_EQ(extract_medial_spheres(*context_, solid.view(), parameters).error().code, ErrorCode::kOutOfMemory);
+  EXPECT_EQ(test::extract_spheres(*context_, solid.view(), parameters).error().code, ErrorCode::kOutOfMemory);
 }
 
 TEST_F(TreeThesisTest, CanBeInterrupted) {
   const Solid solid = solids()[0];
-  const auto stopped =
-      extract_medial_spheres(*context_, solid.view(), thesis_parameters(), [](double) { return false; });
+  std::stop_source stop;
+  const auto stopped = test::extract_spheres(
+      *context_, solid.view(), thesis_parameters(), [&](double) { stop.request_stop(); }, stop.get_token());
   EXPECT_EQ(stopped.error().code, ErrorCode::kInterrupted);
 }
 
@@ -183,7 +183,7 @@ TEST_F(TreeThesisTest, CoarseGridsHaveFewerLevels) {
   ExtractionOptions parameters = thesis_parameters();
   for (const std::uint32_t resolution : {1u, 2u, 3u, 5u, 9u}) {
     parameters.resolution = resolution;
-    auto found = extract_medial_spheres(*context_, solid.view(), parameters);
+    auto found = test::extract_spheres(*context_, solid.view(), parameters);
     ASSERT_TRUE(found.ok()) << found.error().message;
     expect_same_levels(found.value(), extract_with_reference(solid.mesh, parameters));
     EXPECT_EQ(certify(solid, parameters, found.value()).rejected, 0u);
@@ -197,7 +197,7 @@ TEST_F(TreeThesisTest, OpenMesh) {
   solid.flags.assign(solid.mesh.triangles.size(), 0);
   MeshView view = solid.view();
   view.closed = false;
-  const auto found = extract_medial_spheres(*context_, view, thesis_parameters());
+  const auto found = test::extract_spheres(*context_, view, thesis_parameters());
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_GT(found.value().spheres.size(), 100u);
 }

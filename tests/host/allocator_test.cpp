@@ -13,6 +13,8 @@
 #include "deforming_torus.h"
 #include "lent_device.h"
 #include "support/device/device.h"
+#include "support/indexed.h"
+#include "support/recorded_job.h"
 #include "vulkan_host.h"
 
 namespace medial_vk::test {
@@ -89,10 +91,10 @@ TEST(HostAllocator, IsUsedForEverythingAndGetsItBack) {
     ASSERT_TRUE(context.ok()) << context.error().message;
     const DeformingTorus torus(16, 24);
     const std::size_t before = allocator.made();
-    const auto job = ExtractionJob::create(context.value(), torus.view(), parameters);
+    const auto job = test::make_job(context.value(), torus.view(), parameters);
     ASSERT_TRUE(job.ok()) << job.error().message;
     EXPECT_GT(allocator.made(), before);
-    EXPECT_TRUE(extract_medial_spheres(context.value(), torus.view(), parameters).ok());
+    EXPECT_TRUE(test::extract_spheres(context.value(), torus.view(), parameters).ok());
   }
   EXPECT_GT(allocator.made(), 100u);
   EXPECT_EQ(allocator.foreign(), 0u);

@@ -16,6 +16,8 @@
 #include "deforming_torus.h"
 #include "lent_device.h"
 #include "support/device/device.h"
+#include "support/indexed.h"
+#include "support/recorded_job.h"
 #include "vulkan_host.h"
 
 namespace medial_vk::test {
@@ -129,7 +131,7 @@ class RecordedJob : public testing::Test {
   /// The same spheres as an extraction of its own finds, to the rounding of the change of units.
   void expect_same(Context& context, const MeshView& mesh, const ExtractionOptions& parameters,
                    const Recorded& recorded, const Placement& placement) {
-    const Result<Extraction> direct = extract_medial_spheres(context, mesh, parameters);
+    const Result<Extraction> direct = test::extract_spheres(context, mesh, parameters);
     ASSERT_TRUE(direct.ok()) << direct.error().message;
     EXPECT_EQ(recorded.counts.complete, 1u);
     EXPECT_EQ(recorded.counts.undecided, direct.value().undecided.size());
@@ -167,7 +169,7 @@ TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
   Context context = adopt();
   const DeformingTorus torus(24, 48);
   const ExtractionOptions parameters = parameters_for(48);
-  auto job = ExtractionJob::create(context, torus.view(), parameters, {1, 6});
+  auto job = test::make_job(context, torus.view(), parameters, {1, 6});
   ASSERT_TRUE(job.ok()) << job.error().message;
   const Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.vertices, 6u);
@@ -181,7 +183,7 @@ TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
 void expect_medial(Context& context, const MeshView& mesh, const Recorded& recorded, const Placement& placement) {
   EXPECT_EQ(recorded.counts.complete, 1u);
   ASSERT_GT(recorded.spheres.size(), 100u);
-  Result<Scene> scene = Scene::create(context, mesh);
+  Result<Scene> scene = test::make_scene(context, mesh);
   ASSERT_TRUE(scene.ok()) << scene.error().message;
   std::vector<Point> centres;
   for (const RecordedSphere& s : recorded.spheres) {
@@ -203,15 +205,18 @@ void expect_medial(Context& context, const MeshView& mesh, const Recorded& recor
 template <class Meshes>
 void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions& parameters) {
   Context context = adopt();
-  const auto create = [&] { return ExtractionJob::create(context, meshes.front().view(), parameters).value(); };
+  const IndexedMesh first = test::indexed(meshes.front().view());
+  const auto create = [&] { return ExtractionJob::create(context, first, parameters).value(); };
+  IndexedMesh indexed = first;
   ExtractionJob job = create();
   for (const auto& mesh : meshes) {
-    const Status moved = job.move_vertices(mesh.view());
+    const Status moved = test::move(job, indexed, mesh.view());
     ASSERT_TRUE(moved.ok()) << moved.error().message;
     const Recorded recorded = run(job);
     expect_medial(context, mesh.view(), recorded, job.placement());
     ExtractionJob alone = create();
-    ASSERT_TRUE(alone.move_vertices(mesh.view()).ok());
+    IndexedMesh own = first;
+    ASSERT_TRUE(test::move(alone, own, mesh.view()).ok());
     expect_equal(recorded, run(alone));
   }
   // Without a move: the mesh as it was.
@@ -234,18 +239,19 @@ TEST_F(RecordedJob, FollowsABoxOfAnotherShape) {
 TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
   Context context = adopt();
   const ExtractionOptions parameters = parameters_for(30);
-  auto job = ExtractionJob::create(context, Box(1).view(), parameters, {2, 4});
+  IndexedMesh indexed = test::indexed(Box(1).view());
+  auto job = ExtractionJob::create(context, indexed, parameters, {2, 4});
   ASSERT_TRUE(job.ok()) << job.error().message;
   std::array<RecordedCounts, 2> expected;
   const std::array<double, 2> heights = {0.5, 2.0};
   for (int i = 0; i < 2; ++i) {
-    const auto direct = extract_medial_spheres(context, Box(heights[i]).view(), parameters);
+    const auto direct = test::extract_spheres(context, Box(heights[i]).view(), parameters);
     ASSERT_TRUE(direct.ok());
     expected[i].spheres = static_cast<std::uint32_t>(direct.value().spheres.size());
   }
   ASSERT_NE(expected[0].spheres, expected[1].spheres);
   for (const double height : heights) {
-    ASSERT_TRUE(job.value().move_vertices(Box(height).view()).ok());
+    ASSERT_TRUE(test::move(job.value(), indexed, Box(height).view()).ok());
     const VkCommandBuffer commands = begin();
     ASSERT_TRUE(record(commands, job.value()).ok());
     end_and_submit(commands);
@@ -258,7 +264,7 @@ TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
   Context context = adopt();
   ExtractionOptions parameters = parameters_for(160);
   parameters.memory_budget = 8u << 20;
-  auto job = ExtractionJob::create(context, Box(1).view(), parameters);
+  auto job = test::make_job(context, Box(1).view(), parameters);
   ASSERT_TRUE(job.ok()) << job.error().message;
   const Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.complete, 0u);
@@ -270,7 +276,7 @@ TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
   Context context = adopt();
   const DeformingTorus torus(200, 300);
   const ExtractionOptions parameters = parameters_for(2);  // every voxel meets nearly all 120,000 triangles
-  auto job = ExtractionJob::create(context, torus.view(), parameters);
+  auto job = test::make_job(context, torus.view(), parameters);
   ASSERT_TRUE(job.ok()) << job.error().message;
   Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.complete, 0u);
@@ -283,19 +289,20 @@ TEST_F(RecordedJob, RefusesWhatCannotBeRecorded) {
   const Box box(1);
   ExtractionOptions parameters = parameters_for(20);
   parameters.mode = Mode::kThesis;
-  EXPECT_EQ(ExtractionJob::create(context, box.view(), parameters).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(test::make_job(context, box.view(), parameters).error().code, ErrorCode::kUsage);
   parameters.mode = Mode::kCertified;
-  EXPECT_EQ(ExtractionJob::create(context, box.view(), parameters, {0, 4}).error().code, ErrorCode::kUsage);
-  auto job = ExtractionJob::create(context, box.view(), parameters);
+  EXPECT_EQ(test::make_job(context, box.view(), parameters, {0, 4}).error().code, ErrorCode::kUsage);
+  IndexedMesh indexed = test::indexed(box.view());
+  auto job = ExtractionJob::create(context, indexed, parameters);
   ASSERT_TRUE(job.ok());
   // Flat in all directions.
   std::vector<Point> together(8, Point{1, 1, 1});
   MeshView collapsed = box.view();
   collapsed.vertices = together;
-  EXPECT_EQ(job.value().move_vertices(collapsed).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(test::move(job.value(), indexed, collapsed).error().code, ErrorCode::kInvalidMesh);
   EXPECT_EQ(record(begin(), job.value()).error().code, ErrorCode::kInvalidMesh);
-  ASSERT_TRUE(job.value().move_vertices(box.view()).ok());
-  EXPECT_EQ(job.value().move_vertices(box.view()).error().code, ErrorCode::kUsage);
+  ASSERT_TRUE(test::move(job.value(), indexed, box.view()).ok());
+  EXPECT_EQ(test::move(job.value(), indexed, box.view()).error().code, ErrorCode::kUsage);
   const Recorded recorded = run(job.value());
   expect_same(context, box.view(), parameters, recorded, job.value().placement());
 }
@@ -304,13 +311,13 @@ TEST_F(RecordedJob, TheDeviceOutlivesItsContexts) {
   const Box box(1);
   for (int i = 0; i < 3; ++i) {
     Context context = adopt();
-    auto job = ExtractionJob::create(context, box.view(), parameters_for(20));
+    auto job = test::make_job(context, box.view(), parameters_for(20));
     ASSERT_TRUE(job.ok());
     EXPECT_EQ(run(job.value()).counts.complete, 1u);
     // And one of its own beside it.
     Result<Context> own = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
     ASSERT_TRUE(own.ok());
-    EXPECT_TRUE(extract_medial_spheres(own.value(), box.view(), parameters_for(20)).ok());
+    EXPECT_TRUE(test::extract_spheres(own.value(), box.view(), parameters_for(20)).ok());
   }
 }
 

@@ -2,71 +2,8 @@
 import assert from 'node:assert/strict';
 
 import {box, lShape, tetrahedron} from './fixtures.mjs';
-import * as inPage from './in_page.mjs';
-
-const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
-const kSmall = ['--resolution', '30'];
-
-const ask = (page, name) => page.evaluate(`(${inPage[name]})()`);
-const look = (page) => ask(page, 'look');
-const grouped = (n) => n.toLocaleString('en-US');
-
-/** No complaint, and nothing asked for. */
-function assertQuiet(page) {
-  assert.deepEqual(page.complaints, []);
-  assert.deepEqual(page.requests, []);
-}
-
-async function openPart({workshop, browser}, {mesh = lShape(), options = kSmall, ...size} = {}) {
-  const points = workshop.make(mesh, options);
-  const page = await browser.open(size);
-  await page.load(workshop.url('page.html'));
-  return {points, page};
-}
-
-const focus = (page, id) => page.evaluate(`document.getElementById('${id}').focus()`);
-const checked = (page, id) => page.evaluate(`document.getElementById('${id}').checked`);
-
-async function show(page, layers) {
-  for (const layer of kLayers) {
-    if (await checked(page, `layer-${layer}`) !== layers.includes(layer)) await page.clickElement(`layer-${layer}`);
-  }
-}
-
-async function selectOption(page, id, value) {
-  await page.evaluate(`{ const e = document.getElementById('${id}'); e.value = '${value}';
-    e.dispatchEvent(new Event('input', {bubbles: true})); e.dispatchEvent(new Event('change', {bubbles: true})); }`);
-}
-
-/** The values of the picked ball, by name. */
-async function pickedValues(page) {
-  return page.evaluate(`(() => { const list = document.getElementById('picked-values'); if (list.hidden) return null;
-    return Object.fromEntries([...list.querySelectorAll('dt')].map((dt) => [dt.textContent,
-      dt.nextSibling.textContent])); })()`);
-}
-
-const numbersIn = (text) => text.match(/-?\d+(\.\d+)?(e[-+]?\d+)?/g).map(Number);
-
-function assertNear(actual, expected, tolerance) {
-  assert.equal(actual.length, expected.length);
-  actual.forEach((x, i) => assert.ok(Math.abs(x - expected[i]) <= tolerance, `${actual} is not ${expected}`));
-}
-
-/** The panel says of a point what the PLY says; lengths to single precision of the model's size. */
-function assertSame(values, point, size) {
-  assertNear(numbersIn(values.centre), point.centre, 2e-7 * size + 1e-6);
-  assertNear(numbersIn(values.radius), [point.radius], 2e-7 * size + 1e-6);
-  assertNear([numbersIn(values['object angle'])[0]], [point.angle], 6e-7);
-  assertNear(numbersIn(values.flux), [point.flux], 6e-7);
-  assert.equal(numbersIn(values.sheet)[0], point.sheet);
-  assert.deepEqual(numbersIn(values.voxel), point.voxel);
-  assertNear(numbersIn(values['spoke a']), point.spokes[0], 1e-4);
-  assertNear(numbersIn(values['spoke b']), point.spokes[1], 1e-4);
-}
-
-/** Places of some points on the screen. */
-const project = (page, i) => page.evaluate(`(() => { const {left, top} = document.getElementById('view')
-  .getBoundingClientRect(); const [x, y] = medialVk.viewer.project(${i}); return [left + x, top + y]; })()`);
+import {ask, assertQuiet, assertSame, checked, focus, grouped, kLayers, kSmall, look, numbersIn, openPart,
+  pickedValues, project, selectOption, show} from './steps.mjs';
 
 export const tests = {
   /** A hundred thousand points: all layers draw something. The time is printed; only a hang is an error. */

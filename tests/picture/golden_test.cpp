@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "output/picture/panel.h"
+#include "output/picture/panels/panel.h"
 #include "output/picture/vulkan/device_painter.h"
 #include "picture/perceptual.h"
 #include "picture/tolerance.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/picture/colour_map.h"
+#include "output/colours/colour_map.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"

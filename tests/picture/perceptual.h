@@ -1,7 +1,7 @@
 // How different two pictures look.
 #pragma once
 
-#include "output/picture.h"
+#include "output/picture/picture.h"
 
 namespace medial_vk::test {
 

@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "judge/reference_bridge.h"
+#include "judge/reference_extractor.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/medial_sampler.h"
 #include "support/solids/solid_catalogue.h"
 #include "support/solids/solids.h"
@@ -61,7 +63,7 @@ void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction
 void expect_none_lost_by_the_reference(const std::vector<MedialSample>& samples, const PreparedMesh& mesh,
                                        const ExtractionOptions& parameters) {
   SCOPED_TRACE("the reference");
-  const auto result = extract_and_certify(mesh, parameters, Backend::kCpu, nullptr, 1);
+  const auto result = extract_and_certify(test::indexed(mesh), parameters, reference_extractor());
   ASSERT_TRUE(result.ok()) << result.error().message;
   expect_none_lost(samples, result.value().extraction);
 }

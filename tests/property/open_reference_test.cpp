@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "judge/reference_extractor.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -23,7 +25,7 @@ TEST(OpenReference, ATorusWithAHoleKeepsItsCircleElsewhere) {
   ExtractionOptions parameters;
   parameters.resolution = 16;
   parameters.extra_levels = 2;
-  const auto result = extract_and_certify(prepared, parameters, Backend::kCpu, nullptr, 1);
+  const auto result = extract_and_certify(test::indexed(prepared), parameters, reference_extractor());
   ASSERT_TRUE(result.ok()) << result.error().message;
   const Extraction& extraction = result.value().extraction;
   EXPECT_TRUE(test::passes_certificate(prepared, extraction, parameters));

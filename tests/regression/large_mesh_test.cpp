@@ -8,6 +8,7 @@
 #include "medial_vk/scene.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
 
@@ -54,7 +55,7 @@ TEST(LargeMesh, DistancesToATorusOfFiveMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const PreparedMesh mesh = read_torus(1250, 2000);
   Context context = test::make_context();
-  Result<Scene> scene = Scene::create(context, mesh.view());
+  Result<Scene> scene = test::make_scene(context, mesh.view());
   ASSERT_TRUE(scene.ok()) << scene.error().message;
   std::vector<Point> points;
   for (int i = 0; i < 1000; ++i) points.push_back({std::sin(0.37 * i), std::cos(0.61 * i), 0.4 * std::sin(0.83 * i)});

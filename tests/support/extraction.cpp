@@ -8,6 +8,7 @@
 #include "cpu_reference/certificate.h"
 #include "judge/reference_bridge.h"
 #include "medial_vk/prepare.h"
+#include "support/indexed.h"
 
 namespace medial_vk::test {
 namespace {
@@ -36,7 +37,10 @@ Context make_context(bool validation) {
 }
 
 CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& parameters) {
-  CertifiedExtraction result = value_or_throw(extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1));
+  ExtractionOptions on_one_thread = parameters;
+  on_one_thread.threads = 1;
+  CertifiedExtraction result =
+      value_or_throw(extract_and_certify(indexed(mesh), on_one_thread, device_extractor(context)));
   check(result.extraction);
   return result;
 }
@@ -50,7 +54,7 @@ testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extr
   const VoxelGrid& grid = extraction.grid;
   const reference::Certificate certificate = reference::check(
       medial_vk::to_reference(mesh), medial_vk::to_reference(grid, extraction.spheres),
-      parameters.epsilon * grid.voxel_size, parameters.object_angle, parameters.radius * longest_side(mesh.report));
+      parameters.epsilon * grid.voxel_size, parameters.object_angle, parameters.radius * mesh.report.longest_side());
   if (certificate.passed()) return testing::AssertionSuccess();
   testing::AssertionResult failure = testing::AssertionFailure();
   for (const reference::CertificateLine& line : certificate.lines) {

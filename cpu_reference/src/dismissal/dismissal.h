@@ -8,7 +8,7 @@
 #include "dismissal/contacts.h"
 #include "dismissal/pairs.h"
 #include "geometry/box.h"
-#include "search/grid.h"
+#include "geometry/grid.h"
 
 namespace medial_vk::reference {
 

@@ -6,7 +6,7 @@
 
 #include "cpu_reference/extract.h"
 #include "cpu_reference/queries.h"
-#include "search/grid.h"
+#include "geometry/grid.h"
 
 namespace medial_vk::reference {
 

@@ -9,7 +9,7 @@
 #include "dismissal/contacts.h"
 #include "dismissal/dismissal.h"
 #include "dismissal/spoke_cones.h"
-#include "search/grid.h"
+#include "geometry/grid.h"
 #include "search/lines.h"
 #include "search/side.h"
 

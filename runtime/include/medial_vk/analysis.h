@@ -12,14 +12,14 @@
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
-#include "medial_vk/significance.h"
 
 namespace medial_vk {
 
 /// What to find. What is not requested is not computed.
 struct AnalysisOptions {
   ExtractionOptions extraction;
-  SheetOptions sheets;
+  /// Group the spheres into sheets; without options they are not grouped. Volumes and the medial mesh need sheets.
+  std::optional<SheetOptions> sheets = SheetOptions();
   bool simplify = false;  ///< Leave out spheres whose centre is within epsilon of another one's (2.4.2).
   /// Measure the union of the balls, and with it the significance of sheets (6.1).
   bool volumes = false;

@@ -17,6 +17,8 @@
 
 namespace medial_vk {
 
+class Context;
+
 /// Simplices over balls, by their indices, ascending within a simplex and among simplices: the nerve of the balls, each
 /// cut down to its power cell (zero alpha complex; H. Edelsbrunner, "The union of balls and its dual shape", 1995). It
 /// has the homotopy type of the union. Every face of a simplex is there.
@@ -67,5 +69,37 @@ Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnio
 /// Of the space that a dual complex triangulates, over Z/2; these are those of the union. The complex is as
 /// measure_ball_union() makes it: in space, lists ascending, every face of a simplex there. Error: kOutOfMemory.
 Result<BettiNumbers> betti_numbers(const DualComplex& complex);
+
+// On the device: each ball's share of the volume and of the surface in float, with bounds of the errors, faster where
+// there is a GPU (docs/theory.md, "Unions of balls", "On the device").
+
+struct DeviceBallUnionOptions {
+  unsigned threads = 0;  ///< Of the host, which builds the tree and measures what the device leaves: 0 is one per core.
+  /// The greatest error bound that is accepted, as a share of the cube of a ball's radius for its volume, and ten times
+  /// that of the square for its surface.
+  double tolerance = 1e-3;
+};
+
+/// What measure_ball_union() finds on a device. Lengths in the units of the balls. Against the exact figures, each
+/// number is wrong by its bound at most; bounds are of the worst case, errors are mostly hundreds of times smaller.
+struct DeviceBallUnion {
+  double volume = 0;  ///< Of the union.
+  double area = 0;    ///< Of its surface.
+  double volume_bound = 0;
+  double area_bound = 0;
+  std::vector<double> volumes;  ///< Per ball, as BallUnion::volumes.
+  std::vector<double> areas;    ///< Per ball, as BallUnion::areas.
+  std::vector<double> volume_bounds;
+  std::vector<double> area_bounds;
+  std::vector<std::uint32_t> redone;  ///< Balls that the host measured in double precision, ascending.
+};
+
+/// Measures a union of balls on the device; for balls as measure_ball_union() of ball_union.h takes them. Those that
+/// the device cannot measure (cells of more than 64 corners, coincidences beyond what float tells apart, bounds above
+/// the tolerance) are measured by the host, so the answer holds for all. The same bytes for the same device, whatever
+/// `threads`. Errors: kUsage (names the ball; a tolerance that is not positive), kOutOfMemory (of the host or of the
+/// device), kInternal (device lost).
+Result<DeviceBallUnion> measure_ball_union(Context& context, std::span<const Ball> balls,
+                                           const DeviceBallUnionOptions& options = {});
 
 }  // namespace medial_vk

@@ -2,6 +2,7 @@
 // and says what had to be assumed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ struct MeshReport {
   Point lower = {0, 0, 0};
   Point upper = {0, 0, 0};
   std::vector<std::string> assumptions;  ///< Full sentences for people.
+
+  /// Of the bounding box: the unit of every fraction in ExtractionOptions.
+  double longest_side() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 };
 
 /// A mesh that is ready to be used: clean triangles, flags for the proofs, and the report.

@@ -18,10 +18,14 @@ class AnalysisRun {
   AnalysisRun(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
               const StageProgress& progress, const std::stop_token& stop)
       : mesh_(mesh), options_(options), extractor_(extractor), progress_(progress), stop_(stop) {
-    options_.extraction.threads = options_.sheets.threads = options_.threads;
+    options_.extraction.threads = options_.threads;
+    if (options_.sheets) options_.sheets->threads = options_.threads;
   }
 
   Result<Analysis> run() {
+    if (!options_.sheets && (measures() || options_.medial_mesh)) {
+      return Error{ErrorCode::kUsage, "volumes and the medial mesh need `sheets`"};
+    }
     if (Status status = extract(); !status) return status.error();
     if (Status status = reached("simplify"); !status) return status.error();
     simplify();
@@ -57,8 +61,9 @@ class AnalysisRun {
   }
 
   void group() {
+    if (!options_.sheets) return;
     Stopwatch stopwatch;
-    out_.sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, options_.sheets,
+    out_.sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets,
                               measures() ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
     for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
     out_.host_times.push_back({"sheets", stopwatch.lap()});

@@ -71,12 +71,7 @@ const PreparedMesh& IndexedMesh::prepared() const { return impl_->prepared; }
 MeshView IndexedMesh::view() const { return impl_->prepared.view(); }
 const Bvh& IndexedMesh::bvh() const { return impl_->bvh; }
 
-double IndexedMesh::longest_side() const {
-  const MeshReport& report = impl_->prepared.report;
-  double longest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, report.upper[axis] - report.lower[axis]);
-  return longest;
-}
+double IndexedMesh::longest_side() const { return impl_->prepared.report.longest_side(); }
 
 Status IndexedMesh::move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags,
                                   unsigned threads) {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "cli/options/parse_picture.h"
-#include "judge/backend.h"
+#include "common/backend.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
-#include "output/medial_file.h"
-#include "output/picture/options.h"
+#include "output/medial_file/medial_file.h"
+#include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
 

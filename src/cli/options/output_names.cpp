@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "output/files/file_extension.h"
+#include "common/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {

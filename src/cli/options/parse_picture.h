@@ -6,7 +6,7 @@
 #include <string>
 
 #include "medial_vk/result.h"
-#include "output/picture/options.h"
+#include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
 

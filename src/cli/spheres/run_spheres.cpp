@@ -11,21 +11,23 @@
 #include "base/stopwatch.h"
 #include "cli/extract/device_opening.h"
 #include "cli/extract/load.h"
-#include "cli/spheres/spheres_options.h"
-#include "cli/spheres/spheres_picture.h"
-#include "cli/spheres/spheres_record.h"
+#include "cli/options/spheres_options.h"
+#include "cli/spheres/spheres_summary.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
-#include "judge/check_spheres.h"
+#include "common/file_extension.h"
+#include "judge/check_balls.h"
 #include "judge/reference_extractor.h"
+#include "medial_vk/version.h"
 #include "output/charts/measures_output.h"
 #include "output/files/atomic_file.h"
-#include "output/files/file_extension.h"
-#include "output/picture.h"
-#include "output/version.h"
-#include "robots/read_urdf.h"
+#include "output/fits/fits_picture.h"
+#include "output/fits/fits_record.h"
+#include "output/fits/fits_report.h"
+#include "output/picture/picture.h"
+#include "robots/model/read_urdf.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -33,7 +35,16 @@ namespace {
 /// One run: the straight line from the mesh or robot to the files, and what its steps share.
 class SpheresRun {
  public:
-  explicit SpheresRun(const SpheresOptions& options) : options_(options), progress_(!options.quiet) {}
+  explicit SpheresRun(const SpheresOptions& options) : options_(options), progress_(!options.quiet) {
+    record_.input = options.input;
+    record_.output = options.output;
+    record_.output_format = name_of(options.format);
+    record_.is_robot = options.is_robot;
+    record_.request = options.request;
+    record_.count_per_link = options.count_per_link;
+    record_.total = options.total;
+    record_.backend = options.backend;
+  }
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
@@ -147,12 +158,14 @@ class SpheresRun {
   void check() {
     if (!options_.check) return;
     const EndAtOnce while_checked;
-    record_.certificates.resize(record_.parts.size());
+    record_.checks.resize(record_.parts.size());
     for (std::size_t i = 0; i < record_.parts.size(); ++i) {
       if (record_.parts[i].ball) continue;
       progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.parts.size()));
-      record_.certificates[i] =
-          check_by_reference(record_.parts[i].mesh, record_.fits[i].proved, options_.request.contract);
+      const PreparedMesh& mesh = record_.parts[i].mesh;
+      const std::vector<Ball>& balls = record_.fits[i].proved;
+      const bool covers = options_.request.contract == SphereContract::kCover;
+      record_.checks[i] = covers ? check_balls_cover(mesh, balls) : check_balls_inside(mesh, balls);
     }
     progress_.clear();
   }
@@ -166,7 +179,7 @@ class SpheresRun {
     files_.push_back({options_.output, std::move(bytes).value()});
     if (Status status = draw(); !status) return status;
     draw_histogram();
-    if (!options_.report.empty()) files_.push_back({options_.report, spheres_report(options_, record_)});
+    if (!options_.report.empty()) files_.push_back({options_.report, encode_fits_report(record_)});
     return {};
   }
 
@@ -195,7 +208,7 @@ class SpheresRun {
     Stopwatch stopwatch;
     const std::vector<Pose> poses = options_.is_robot ? part_poses(robot_, record_.parts) : std::vector<Pose>(1);
     Result<std::string> png =
-        spheres_picture(record_, poses, options_.view, record_.device ? &*record_.device : nullptr);
+        encode_fits_picture(record_, poses, options_.view, record_.device ? &*record_.device : nullptr);
     if (!png) return png.error();
     files_.push_back({options_.picture, std::move(png).value()});
     record_.times.push_back({"picture", stopwatch.lap()});
@@ -213,15 +226,15 @@ class SpheresRun {
   /// All parts in one table, a row for each condition.
   Status conclude() const {
     if (!options_.check) return {};
-    const reference::Certificate certificate = joint_certificate(record_);
-    const std::string table = certificate_table(certificate);
+    const CheckReport check = joint_check(record_);
+    const std::string table = check_table(check);
     const bool taken = std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
     if (taken) {
       print_message(table);
     } else if (Status status = print_result(table); !status) {
       return status;
     }
-    return verdict(certificate);
+    return verdict(check);
   }
 
   const SpheresOptions& options_;
@@ -231,7 +244,7 @@ class SpheresRun {
   std::string urdf_;
   Robot robot_;
   std::vector<OutputFile> files_;
-  SpheresRecord record_;
+  FitsRecord record_;
 };
 
 }  // namespace

@@ -1,10 +1,11 @@
+#include "cli/spheres/spheres_summary.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "cli/spheres/spheres_record.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
 #include "output/charts/measures_output.h"
@@ -21,13 +22,13 @@ std::string printable(std::string name) {
   return name;
 }
 
-std::size_t count_links(const SpheresRecord& record) {
+std::size_t count_links(const FitsRecord& record) {
   std::set<std::string> links;
   for (const Part& part : record.parts) links.insert(part.link);
   return links.size();
 }
 
-std::string where(const SpheresOptions& options, const SpheresRecord& record) {
+std::string where(const SpheresOptions& options, const FitsRecord& record) {
   if (options.backend == Backend::kCpu) return "CPU reference, double precision";
   if (!record.device) return "Vulkan";
   return fmt::format("{} ({}), {}", record.device->name, record.device->type, record.device->driver);
@@ -46,7 +47,7 @@ std::string promise(SphereContract contract) {
 }
 
 /// What is proved of every set, whose proofs fit_parts() has demanded.
-std::string certificate_text(SphereContract contract, const SpheresRecord& record) {
+std::string certificate_text(SphereContract contract, const FitsRecord& record) {
   std::uint64_t spheres = 0, triangles = 0;
   bool closed = true;
   double farthest = 0;
@@ -73,7 +74,7 @@ std::string certificate_text(SphereContract contract, const SpheresRecord& recor
 }
 
 /// The greatest of all parts, as proved.
-std::string gap_text(const SpheresRecord& record) {
+std::string gap_text(const FitsRecord& record) {
   double gap = 0, share = 0;
   for (const PartFit& fit : record.fits) {
     if (!fit.measures) continue;
@@ -84,7 +85,7 @@ std::string gap_text(const SpheresRecord& record) {
 }
 
 /// The volume between spheres and solids, over that of the solids; nothing if unknown.
-std::optional<std::string> difference_text(SphereContract contract, const SpheresRecord& record) {
+std::optional<std::string> difference_text(SphereContract contract, const FitsRecord& record) {
   double solid = 0, difference = 0, variance = 0;
   for (const PartFit& fit : record.fits) {
     if (!fit.measures) continue;  // a ball, exactly
@@ -104,7 +105,7 @@ std::optional<std::string> difference_text(SphereContract contract, const Sphere
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "-"; }
 
-double seconds(const SpheresRecord& record) {
+double seconds(const FitsRecord& record) {
   double total = 0;
   for (const StageTime& time : record.times) total += time.seconds;
   return total;
@@ -112,41 +113,12 @@ double seconds(const SpheresRecord& record) {
 
 }  // namespace
 
-const char* name_of(SphereContract contract) {
-  constexpr const char* kNames[] = {"inside", "cover", "balanced"};
-  return kNames[static_cast<std::size_t>(contract)];
-}
-
-const char* name_of(SphereMethod method) { return method == SphereMethod::kBest ? "best" : "source"; }
-
-std::size_t count_spheres(const SpheresRecord& record) {
-  std::size_t count = 0;
-  for (const PartFit& fit : record.fits) count += fit.levels.back().size();
-  return count;
-}
-
-std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract) {
-  const bool known = contract == SphereContract::kInside && fit.solid_volume && fit.spheres_volume;
-  if (!known || !(*fit.solid_volume > 0)) return std::nullopt;
-  return 1 - *fit.spheres_volume / *fit.solid_volume;
-}
-
-std::optional<double> uncovered_share(const SpheresRecord& record, SphereContract contract) {
-  double solid = 0, spheres = 0;
-  for (const PartFit& fit : record.fits) {
-    if (!uncovered_share(fit, contract)) return std::nullopt;
-    solid += *fit.solid_volume;
-    spheres += *fit.spheres_volume;
-  }
-  return 1 - spheres / solid;
-}
-
-reference::Certificate joint_certificate(const SpheresRecord& record) {
-  reference::Certificate joint;
+CheckReport joint_check(const FitsRecord& record) {
+  CheckReport joint;
   for (std::size_t i = 0; i < record.fits.size(); ++i) {
-    if (i >= record.certificates.size() || !record.certificates[i]) continue;
-    for (const reference::CertificateLine& line : record.certificates[i]->lines) {
-      const auto same = std::ranges::find(joint.lines, line.condition, &reference::CertificateLine::condition);
+    if (i >= record.checks.size() || !record.checks[i]) continue;
+    for (const CheckLine& line : record.checks[i]->lines) {
+      const auto same = std::ranges::find(joint.lines, line.condition, &CheckLine::condition);
       if (same == joint.lines.end()) {
         joint.lines.push_back(line);
         continue;
@@ -162,7 +134,7 @@ reference::Certificate joint_certificate(const SpheresRecord& record) {
   return joint;
 }
 
-std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& record) {
+std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record) {
   std::uint64_t triangles = 0;
   for (const Part& part : record.parts) triangles += part.mesh.report.triangles;
   std::string text = options.input == "-" ? "standard input" : options.input;
@@ -183,7 +155,7 @@ std::string spheres_opening(const SpheresOptions& options, const SpheresRecord& 
   return text + line("device", where(options, record));
 }
 
-std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& record,
+std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record,
                             std::span<const OutputFile> files) {
   const SphereOptions& request = options.request;
   std::string spheres = grouped(count_spheres(record));
@@ -191,7 +163,7 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   std::string text = line("spheres", spheres);
   text += line("contract", promise(request.contract));
   text += line("certified", certificate_text(request.contract, record));
-  if (const std::optional<double> error = uncovered_share(record, request.contract)) {
+  if (const std::optional<double> error = uncovered_share(record)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
   }
   if (request.contract != SphereContract::kInside) {
@@ -216,7 +188,7 @@ std::string spheres_summary(const SpheresOptions& options, const SpheresRecord& 
   return text;
 }
 
-std::string spheres_details(const SpheresOptions& options, const SpheresRecord& record) {
+std::string spheres_details(const SpheresOptions& options, const FitsRecord& record) {
   const std::vector<Column> columns = {{"link"}, {"geometry"}, {"spheres", true}, {"uncovered", true}, {"time", true}};
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < record.parts.size(); ++i) {

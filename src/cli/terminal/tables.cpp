@@ -52,10 +52,10 @@ std::string device_table(const std::vector<DeviceDescription>& devices) {
   return format_table({{"index", true}, {"name"}, {"type"}, {"memory", true}, {"driver"}, {"usable"}}, rows);
 }
 
-std::string certificate_table(const reference::Certificate& certificate) {
+std::string check_table(const CheckReport& check) {
   std::vector<Row> rows;
   std::string failures;
-  for (const reference::CertificateLine& line : certificate.lines) {
+  for (const CheckLine& line : check.lines) {
     rows.push_back({line.condition, grouped(line.tested), grouped(line.failed),
                     fmt::format("{:.3g}{}{}", line.worst, line.unit.empty() ? "" : " ", line.unit)});
     if (line.failed > 0 && !line.first_failure.empty()) failures += "first failure: " + line.first_failure + "\n";
@@ -63,8 +63,8 @@ std::string certificate_table(const reference::Certificate& certificate) {
   return format_table({{"condition"}, {"tested", true}, {"failed", true}, {"worst"}}, rows) + failures;
 }
 
-Status verdict(const reference::Certificate& certificate) {
-  if (certificate.passed()) return {};
+Status verdict(const CheckReport& check) {
+  if (check.passed()) return {};
   return Error{ErrorCode::kCheckFailed, "--check failed: not every ball satisfies its certificate"};
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cpu_reference/certificate.h"
+#include "checks/check_report.h"
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"
 #include "output/report/run_record.h"
@@ -21,9 +21,9 @@ std::string format_table(const std::vector<Column>& columns, const std::vector<s
 
 std::string device_table(const std::vector<DeviceDescription>& devices);
 /// The conditions, then the first failure of each that failed.
-std::string certificate_table(const reference::Certificate& certificate);
+std::string check_table(const CheckReport& check);
 /// What --check comes to: ok, or kCheckFailed.
-Status verdict(const reference::Certificate& certificate);
+Status verdict(const CheckReport& check);
 std::string level_table(const ExtractionCounters& counters);
 
 }  // namespace medial_vk::cli

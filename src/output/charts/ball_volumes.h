@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "medial_vk/extraction.h"
-#include "medial_vk/significance.h"
+#include "medial_vk/sheets.h"
 
 namespace medial_vk {
 

@@ -1,4 +1,5 @@
-// Measures of a set of balls for reports, people and pictures.
+#include "output/charts/measures_output.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

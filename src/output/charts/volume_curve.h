@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sheets/significance.h"
+#include "medial_vk/sheets.h"
 
 namespace medial_vk {
 

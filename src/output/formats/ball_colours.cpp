@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "output/picture/colour_map.h"
+#include "output/colours/colour_map.h"
 
 namespace medial_vk {
 namespace {

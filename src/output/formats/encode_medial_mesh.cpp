@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "output/files/file_extension.h"
+#include "common/file_extension.h"
 #include "output/files/little_endian.h"
 
 namespace medial_vk {

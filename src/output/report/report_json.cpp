@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "output/version.h"
+#include "medial_vk/version.h"
 
 namespace medial_vk {
 namespace {
@@ -215,10 +215,10 @@ Json medial_mesh_json(const RunRecord& record) {
           {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
 }
 
-Json certificate_json(const std::optional<reference::Certificate>& certificate) {
-  if (!certificate) return nullptr;
+Json check_json(const std::optional<CheckReport>& check) {
+  if (!check) return nullptr;
   Json lines = Json::array();
-  for (const reference::CertificateLine& line : certificate->lines) {
+  for (const CheckLine& line : check->lines) {
     lines.push_back({{"condition", line.condition},
                      {"tested", line.tested},
                      {"failed", line.failed},
@@ -226,7 +226,7 @@ Json certificate_json(const std::optional<reference::Certificate>& certificate) 
                      {"unit", line.unit},
                      {"first_failure", line.first_failure}});
   }
-  return {{"passed", certificate->passed()}, {"conditions", lines}};
+  return {{"passed", check->passed()}, {"conditions", lines}};
 }
 
 /// How many undecided voxels of each kind, and the largest width that may hide in one.
@@ -280,7 +280,7 @@ std::string report_json(const RunRecord& record) {
       {"medial_mesh", medial_mesh_json(record)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
       {"device", device_json(record.device)},
-      {"certificate", certificate_json(record.certificate)}};
+      {"certificate", check_json(record.check)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "cpu_reference/certificate.h"
-#include "judge/backend.h"
+#include "checks/check_report.h"
+#include "common/backend.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
-#include "medial_vk/significance.h"
 
 namespace medial_vk {
 
@@ -69,8 +68,8 @@ struct RunRecord {
   std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
   std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
   std::optional<DeviceDescription> device;
-  std::string picture_drawn_by;                       ///< Empty: there is no picture.
-  std::optional<reference::Certificate> certificate;  ///< Of --check.
+  std::string picture_drawn_by;      ///< Empty: there is no picture.
+  std::optional<CheckReport> check;  ///< Of --check.
 };
 
 }  // namespace medial_vk

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "output/files/file_extension.h"
+#include "common/file_extension.h"
 #include "output/spheres/encoders.h"
 
 namespace medial_vk {

@@ -1,4 +1,5 @@
 #include "support/solids/mutation_check.h"
+#include "support/indexed.h"
 
 #include <fmt/format.h>
 
@@ -89,7 +90,9 @@ MutationOutcome check_mutation(Context& context, std::uint64_t seed) {
   ExtractionOptions parameters;
   parameters.resolution = 14;
   parameters.extra_levels = 2;
-  const Result<CertifiedExtraction> extracted = extract_and_certify(mesh, parameters, Backend::kVulkan, &context, 1);
+  parameters.threads = 1;
+  const Result<CertifiedExtraction> extracted =
+      extract_and_certify(indexed(mesh), parameters, device_extractor(context));
   if (!extracted.ok()) {
     out.faults.push_back("extraction: " + extracted.error().message);
     return out;

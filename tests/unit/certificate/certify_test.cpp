@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -18,11 +19,15 @@ constexpr double kLongest = 4;
 /// A slab 4 x 4 x 1 at an offset: the middle of its thickness is its main medial sheet, object angle pi/2.
 class CertifyTest : public testing::TestWithParam<double> {
  protected:
-  CertifyTest() : offset_(GetParam()), mesh_(test::make_box({4, 4, 1})) {
-    test::translate(mesh_, {offset_, -offset_, offset_});
-    bvh_ = Bvh::build({mesh_.vertices, mesh_.triangles, {}, true}).value();
+  static IndexedMesh slab_at(double offset) {
+    Mesh mesh = test::make_box({4, 4, 1});
+    test::translate(mesh, {offset, -offset, offset});
+    return test::indexed(MeshView{mesh.vertices, mesh.triangles, {}, true});
+  }
+
+  CertifyTest() : offset_(GetParam()), indexed_(slab_at(offset_)) {
     parameters_.resolution = kResolution;
-    extraction_.grid.origin = bvh_.nodes()[0].box.lower;
+    extraction_.grid.origin = indexed_.bvh().nodes()[0].box.lower;
     extraction_.grid.voxel_size = kLongest / kResolution;
     extraction_.grid.size = {kResolution, kResolution, kResolution / 4};
   }
@@ -47,13 +52,13 @@ class CertifyTest : public testing::TestWithParam<double> {
     ++extraction_.measurements.counters.found;
   }
   CertifyReport certify(unsigned threads = 1) {
-    return certify_spheres(bvh_, parameters_, kLongest, extraction_, threads);
+    parameters_.threads = threads;
+    return certify_spheres(indexed_, parameters_, extraction_);
   }
   double epsilon() const { return parameters_.epsilon * extraction_.grid.voxel_size; }
 
   double offset_;
-  Mesh mesh_;
-  Bvh bvh_;
+  IndexedMesh indexed_;
   ExtractionOptions parameters_;
   Extraction extraction_;
 };

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/spheres/spheres_options.h"
+#include "cli/options/spheres_options.h"
 
 namespace medial_vk::cli {
 namespace {

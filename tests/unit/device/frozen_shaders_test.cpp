@@ -13,6 +13,7 @@
 #include "extraction/certified/certified_pipeline.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"
+#include "support/device/uploaded_mesh.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
 
@@ -39,8 +40,8 @@ std::vector<EmbeddedShader> frozen_shaders() {
 // What the extraction from a mesh whose normals can all be trusted asks for, as the frozen variants are named.
 std::set<std::string> names_asked(Context::Impl& context, const PreparedMesh& mesh,
                                   const ExtractionOptions& parameters) {
-  Result<DeviceMesh> device = DeviceMesh::create(context, mesh.view());
-  EXPECT_TRUE(device.ok() && device.value().add_links(context, mesh.view()).ok());
+  Result<DeviceMesh> device = test::upload_mesh(context, mesh.view());
+  EXPECT_TRUE(device.ok() && device.value().add_links().ok());
   Result<StopWord> stop = StopWord::create(context);
   EXPECT_TRUE(stop.ok());
   const std::uint32_t n = parameters.resolution;

@@ -35,6 +35,7 @@ struct Layout {
 #define MEDIAL_VK_MEMBER(type, member) \
   Member { #member, offsetof(gpu::type, member) }
 
+// long: a table of all structs that shaders share.
 const std::vector<Layout>& shared_layouts() {
   static const std::vector<Layout> layouts = {
       {"Cell",

@@ -10,6 +10,7 @@
 #include "medial_vk/extraction.h"
 #include "support/device/device_test.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -26,7 +27,7 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
   Result<Extraction> extract(const ProgressCallback& progress, const std::stop_token& stop) {
     // Seconds on any CPU.
     const std::uint32_t resolution = GetParam() == Mode::kCertified ? 2000 : 400;
-    return extract_medial_spheres(*context_, mesh_.view(), parameters(resolution), progress, stop);
+    return test::extract_spheres(*context_, mesh_.view(), parameters(resolution), progress, stop);
   }
   void expect_interrupted(const Result<Extraction>& result) {
     ASSERT_FALSE(result.ok());
@@ -35,7 +36,7 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
   /// The context still gives what a fresh one gives.
   void expect_usable() {
     const auto spheres_of = [&](Context& context) {
-      const Result<Extraction> e = extract_medial_spheres(context, mesh_.view(), parameters(12));
+      const Result<Extraction> e = test::extract_spheres(context, mesh_.view(), parameters(12));
       EXPECT_TRUE(e.ok()) << (e.ok() ? "" : e.error().message);
       std::vector<Point> centres;
       if (e.ok()) {
@@ -97,10 +98,14 @@ TEST_P(Stop, TakesEffectSoon) {
   EXPECT_LT(median, std::chrono::seconds(1));
 }
 
-// The callback is asked while the device computes, too: this one never says stop between two chunks.
+// The callback is called while the device computes, too: this one never requests a stop between two chunks.
 TEST_P(Stop, ByTheCallback) {
   int calls = 0;
-  expect_interrupted(extract([&](double) { return ++calls < 12; }, {}));
+  std::stop_source source;
+  const auto on_progress = [&](double) {
+    if (++calls >= 12) source.request_stop();
+  };
+  expect_interrupted(extract(on_progress, source.get_token()));
   EXPECT_GE(calls, 12);
   expect_usable();
 }

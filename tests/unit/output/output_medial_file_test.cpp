@@ -8,8 +8,8 @@
 #include <limits>
 #include <sstream>
 
-#include "output/medial_file.h"
-#include "output/version.h"
+#include "medial_vk/version.h"
+#include "output/medial_file/medial_file.h"
 #include "support/medial_points.h"
 
 namespace medial_vk {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "output/page.h"
 #include "output/page/base64.h"
+#include "output/page/page.h"
 
 namespace medial_vk {
 namespace {

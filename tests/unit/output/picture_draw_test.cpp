@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "output/picture.h"
+#include "output/picture/picture.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {

@@ -183,8 +183,8 @@ TEST(ReportJson, CertificateAndCpu) {
   record.backend = Backend::kCpu;
   record.device.reset();
   record.parameters.mode = Mode::kThesis;
-  record.certificate.emplace();
-  record.certificate->lines = {{"radius <= exact distance", 249, 1, 1e-9, "longest sides", "ball 17: too big"}};
+  record.check.emplace();
+  record.check->lines = {{"radius <= exact distance", 249, 1, 1e-9, "longest sides", "ball 17: too big"}};
   const json report = json::parse(report_json(record));
   EXPECT_TRUE(report["device"].is_null());
   EXPECT_EQ(report["parameters"]["backend"], "cpu");
@@ -222,9 +222,9 @@ TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
 }
 
 TEST(ReportTables, CertificateNamesTheFirstFailure) {
-  reference::Certificate certificate;
+  CheckReport certificate;
   certificate.lines = {{"centre inside", 10, 0, 0, "", ""}, {"radius", 10, 2, 0.5, "voxels", "ball 3 at (1, 2, 3)"}};
-  const std::string table = cli::certificate_table(certificate);
+  const std::string table = cli::check_table(certificate);
   EXPECT_THAT(table, HasSubstr("condition"));
   EXPECT_THAT(table, HasSubstr("0.5 voxels"));
   EXPECT_THAT(table, HasSubstr("first failure: ball 3 at (1, 2, 3)"));

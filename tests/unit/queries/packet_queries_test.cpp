@@ -17,6 +17,7 @@
 #include "device/context_impl.h"
 #include "device_mesh/device_tree.h"
 #include "support/device/device_test.h"
+#include "support/device/uploaded_mesh.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -64,8 +65,7 @@ class PacketQueriesTest : public test::DeviceTest {
   Answers ask_packets(const DeviceMesh& device, const Mesh& mesh, const PacketShape& shape,
                       std::span<const Texel> queries, std::span<const Point> group, std::uint32_t* unresolved) {
     const auto count = static_cast<std::uint32_t>(queries.size());
-    PacketQueries packets =
-        PacketQueries::create(Internals::of(*context_), device, test::view_of(mesh), count, shape).value();
+    PacketQueries packets = PacketQueries::create(Internals::of(*context_), device, count, shape).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, group);
     const auto size = static_cast<std::uint32_t>(group.size());
     const Answers answers = run(queries, slots, [&](Recorder& r, auto table, auto asked, auto nearest, auto hits) {
@@ -107,7 +107,7 @@ std::vector<PacketShape> all_shapes(const Context::Impl& context) {
 
 TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
   const Mesh mesh = test::make_turned_torus();
-  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(Internals::of(*context_), test::view_of(mesh)).value();
   for (const std::uint32_t samples : {1u, 9u, 51u, 130u}) {
     const std::vector<Point> directions = spiral_points(samples);
     std::vector<Texel> queries = samples_of_spheres(directions, 60);
@@ -135,7 +135,7 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
 // At the centre of a sphere every triangle is as near as any other: the walk gives up, a look at all triangles answers.
 TEST_F(PacketQueriesTest, CentreOfASphere) {
   const Mesh mesh = test::make_sphere(1.0, 100000);
-  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(Internals::of(*context_), test::view_of(mesh)).value();
   const std::vector<Point> around = spiral_points(51);
   std::vector<Texel> queries;
   for (const Point& d : around) {
@@ -212,7 +212,7 @@ TEST(PointOrder, IsAPermutationThatKeepsNeighboursTogether) {
 TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
   const Mesh mesh = test::make_turned_torus();
   Context::Impl& context = Internals::of(*context_);
-  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   const std::vector<Texel> queries = samples_of_spheres(spiral_points(50), 20);
   const Answers expected = ask_one_by_one(device, queries);
   constexpr std::uint32_t kGroup = TreeQueries::kWorkgroupSize, kPerSlice = 2 * kGroup;

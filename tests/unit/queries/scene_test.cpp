@@ -18,6 +18,8 @@
 #include "queries/scene_impl.h"
 #include "queries/tree_queries.h"
 #include "support/device/device_test.h"
+#include "support/device/uploaded_mesh.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -37,7 +39,7 @@ TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
   const auto most = std::min<std::uint64_t>(seen, DeviceMesh::kMostTriangles);
   Mesh mesh = test::make_box({1, 1, 1});
   mesh.triangles.resize(most + 1, mesh.triangles[0]);
-  const Result<DeviceMesh> device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh));
+  const Result<DeviceMesh> device = test::upload_mesh(Internals::of(*context_), test::view_of(mesh));
   ASSERT_FALSE(device.ok());
   EXPECT_EQ(device.error().code, ErrorCode::kOutOfMemory);
   EXPECT_NE(device.error().message.find("the mesh has " + std::to_string(most + 1) + " triangles"), std::string::npos);
@@ -46,7 +48,7 @@ TEST_F(SceneTest, MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt) {
 
 TEST_F(SceneTest, UnitBox) {
   const Mesh mesh = rotated_torus();
-  const DeviceMesh device = DeviceMesh::create(Internals::of(*context_), test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(Internals::of(*context_), test::view_of(mesh)).value();
   double largest = 0;
   for (const Point& p : mesh.vertices) {
     const Point unit = device.to_unit(p);
@@ -66,11 +68,11 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
   for (const Point& d : spiral_points(300)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
-  Scene with_texels = Scene::create(*context_, test::view_of(mesh)).value();
+  Scene with_texels = test::make_scene(*context_, test::view_of(mesh)).value();
   const auto expected = with_texels.closest_points(points).value();
   const auto expected_numbers = with_texels.winding_numbers(points).value();
   Internals::of(*context_).limits.maxTexelBufferElements = 1000;
-  Scene without = Scene::create(*context_, test::view_of(mesh)).value();
+  Scene without = test::make_scene(*context_, test::view_of(mesh)).value();
   const auto found = without.closest_points(points).value();
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(found[i].triangle, expected[i].triangle);
@@ -84,8 +86,8 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
   for (const Point& d : spiral_points(5100)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});
-  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
-  Scene copying = Scene::create(*context_, test::view_of(mesh)).value();
+  Scene scene = test::make_scene(*context_, test::view_of(mesh)).value();
+  Scene copying = test::make_scene(*context_, test::view_of(mesh)).value();
   EXPECT_EQ(Internals::of(scene).shares_memory, Internals::of(*context_).description.type == "cpu");
   Internals::of(copying).shares_memory = false;
   const auto same = [](const std::vector<ClosestPoint>& a, const std::vector<ClosestPoint>& b) {
@@ -107,7 +109,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
 TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 100000);
-  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   TreeQueries queries = TreeQueries::create(context, device, 64).value();
   Arena arena(context);
   const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
@@ -136,7 +138,7 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
 TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
   Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 20000);
-  const DeviceMesh device = DeviceMesh::create(context, test::view_of(mesh)).value();
+  const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   StopWord stop = StopWord::create(context).value();
   TreeQueries queries = TreeQueries::create(context, device, 64, stop.range()).value();
   Arena arena(context);
@@ -168,7 +170,7 @@ TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
 // One invocation adds up all samples of a sphere; lavapipe would end its loop silently after 65,535 of them.
 TEST_F(SceneTest, TakesAsManyFluxSamplesAsItCanAddUp) {
   const Mesh mesh = test::make_box({1.0, 0.7, 0.45});
-  Scene scene = Scene::create(*context_, test::view_of(mesh)).value();
+  Scene scene = test::make_scene(*context_, test::view_of(mesh)).value();
   const std::vector<Ball> spheres = {{{0.5, 0.35, 0.2}, 0.1}};
   const double expected = scene.fluxes(spheres, 4000).value()[0].flux;
   EXPECT_NEAR(scene.fluxes(spheres, 60000).value()[0].flux, expected, 1e-3);

@@ -12,6 +12,7 @@
 #include "queries/packet_queries.h"
 #include "queries/tree_queries.h"
 #include "support/device/device_test.h"
+#include "support/device/uploaded_mesh.h"
 #include "support/solids/solids.h"
 #include "tree_types.h"
 
@@ -33,7 +34,7 @@ class TreeCounts : public test::DeviceTest {
     if (IsSkipped() || HasFatalFailure()) return;
     Context::Impl& context = Internals::of(*context_);
     mesh_ = test::make_sphere(1.0, 2000);
-    device_.emplace(DeviceMesh::create(context, test::view_of(mesh_)).value());
+    device_.emplace(test::upload_mesh(context, test::view_of(mesh_)).value());
     arena_.emplace(context);
     at_ = arena_->create_buffer(kQueries * 16, MemoryKind::kDevice, "a test").value();
     out_ = arena_->create_buffer(kQueries * 16, MemoryKind::kDevice, "a test").value();
@@ -100,7 +101,7 @@ TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
   for (const PacketShape& shape : {PacketShape::best_for(Internals::of(*context_)), PacketShape::of(16, true)}) {
     ASSERT_EQ(shape.packets(kQueries), 1u);
     const PacketQueries packets =
-        PacketQueries::create(Internals::of(*context_), *device_, test::view_of(mesh_), kQueries, shape, true).value();
+        PacketQueries::create(Internals::of(*context_), *device_, kQueries, shape, true).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, kQueries);
     const Buffer table = arena_->create_buffer(slots.size() * 4, MemoryKind::kDevice, "a test").value();
     ASSERT_TRUE(upload(Internals::of(*context_), table, std::as_bytes(std::span(slots))).ok());

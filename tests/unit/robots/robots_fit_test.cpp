@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/point_ops.h"
+#include "judge/reference_extractor.h"
 #include "medial_vk/prepare.h"
 #include "robots/fit_parts.h"
 #include "support/solids/solids.h"
@@ -23,7 +24,7 @@ class FitParts : public testing::Test {
     ball.pose = make_pose({1, 2, 3}, {0.1, 0.2, 0.3});
     ball.ball = Ball{{0, 0, 0}, 0.25};
     parts_.push_back(ball);
-    goals_.request.method = SphereMethod::kSource;
+    goals_.options.method = SphereMethod::kSource;
   }
 
   static Part box_part(const std::string& link, const std::string& name, const Point& size) {
@@ -33,7 +34,7 @@ class FitParts : public testing::Test {
     return part;
   }
 
-  Result<std::vector<PartFit>> fit() const { return fit_parts(parts_, goals_, Backend::kCpu, nullptr); }
+  Result<std::vector<PartFit>> fit() const { return fit_parts(parts_, goals_, reference_extractor()); }
 
   std::vector<Part> parts_;
   FitGoals goals_;
@@ -61,8 +62,8 @@ TEST_F(FitParts, TheLargerGetsMore) {
 }
 
 TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
-  goals_.request.method = SphereMethod::kBest;
-  goals_.request.resolution = 12;
+  goals_.options.method = SphereMethod::kBest;
+  goals_.options.resolution = 12;
   std::vector<PartFit> before;
   for (const std::size_t total : {3u, 8u, 21u, 22u, 40u}) {
     goals_.total = total;
@@ -79,11 +80,11 @@ TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
   Geometry cylinder;
   cylinder.kind = GeometryKind::kCylinder;
   cylinder.size = {0.5, 2, 0};
-  goals_.request.method = SphereMethod::kBest;
-  goals_.request.resolution = 12;
-  goals_.request.count = 4;
+  goals_.options.method = SphereMethod::kBest;
+  goals_.options.resolution = 12;
+  goals_.options.count = 4;
   for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
-    goals_.request.contract = contract;
+    goals_.options.contract = contract;
     const bool cover = contract == SphereContract::kCover;
     const FacetSide side = cover ? FacetSide::kCircumscribed : FacetSide::kInscribed;
     Part part = single_part("c", prepare_mesh(make_primitive(cylinder, side)).value());
@@ -121,7 +122,7 @@ TEST_F(FitParts, SpheresStandInTheFrameOfTheLink) {
 
 TEST_F(FitParts, AllPartsHaveAsManyLevels) {
   goals_.total = 50;
-  goals_.levels = true;
+  goals_.options.levels = true;
   const std::vector<PartFit> fits = fit().value();
   EXPECT_GT(fits[0].levels.size(), 3u);
   for (const PartFit& part : fits) {
@@ -135,33 +136,35 @@ TEST_F(FitParts, FaultsNameLinkAndPart) {
   goals_.count_per_link = 1;
   EXPECT_EQ(fit().error().message, "the link \"a\" has 2 geometries, each of which needs a sphere; 1 is too few");
   goals_.count_per_link = 0;
-  goals_.request.max_gap = 0.1;
+  goals_.options.max_gap = 0.1;
   EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": the method source knows no greatest gap"));
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
 }
 
 TEST_F(FitParts, StopsWhenAsked) {
   goals_.total = 50;
-  const Result<std::vector<PartFit>> fits =
-      fit_parts(parts_, goals_, Backend::kCpu, nullptr, [](FitStage, const Part&, double) { return false; });
+  std::stop_source stop;
+  const Result<std::vector<PartFit>> fits = fit_parts(
+      parts_, goals_, reference_extractor(), [&](const Part&, double) { stop.request_stop(); }, stop.get_token());
   ASSERT_FALSE(fits.ok());
   EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
 }
 
 /// Wherever it is: at every so many-th question.
 TEST_F(FitParts, StopsWhereverItIsAsked) {
-  goals_.request.method = SphereMethod::kBest;
-  goals_.request.resolution = 20;
-  goals_.check = true;
+  goals_.options.method = SphereMethod::kBest;
+  goals_.options.resolution = 20;
   const std::vector<Part> one = {parts_[0]};
   for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover, SphereContract::kBalanced}) {
-    goals_.request.contract = contract;
-    goals_.check = contract != SphereContract::kBalanced;
+    goals_.options.contract = contract;
     goals_.count_per_link = 6;
     const auto run = [&](std::size_t most, std::size_t& asked) {
       asked = 0;
-      return fit_parts(one, goals_, Backend::kCpu, nullptr,
-                       [&](FitStage, const Part&, double) { return asked++ < most; });
+      std::stop_source stop;
+      const auto on_progress = [&](const Part&, double) {
+        if (asked++ >= most) stop.request_stop();
+      };
+      return fit_parts(one, goals_, reference_extractor(), on_progress, stop.get_token());
     };
     std::size_t all = 0, asked = 0;
     ASSERT_TRUE(run(~std::size_t{0}, all).ok());

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "robots/read_urdf.h"
+#include "robots/model/read_urdf.h"
 
 namespace medial_vk {
 namespace {

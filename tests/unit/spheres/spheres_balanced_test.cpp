@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/point_ops.h"
+#include "judge/reference_extractor.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/prepare.h"
 #include "spheres/measures/measures.h"
@@ -15,6 +16,7 @@
 #include "spheres/methods/dilation.h"
 #include "spheres/steps/solid_lines.h"
 #include "spheres/steps/symmetric_difference.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -23,15 +25,16 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 struct Shape {
-  explicit Shape(Mesh raw) : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(mesh).value()) {}
+  explicit Shape(Mesh raw)
+      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
   Shape(const Shape&) = delete;
 
   std::vector<SphereSet> balanced(std::size_t count, bool levels = false) const {
     SphereOptions request;
     request.contract = SphereContract::kBalanced;
     request.count = count;
-    if (levels) return approximate_in_levels(solid, request, Backend::kCpu, nullptr).value();
-    return {approximate_by_spheres(solid, request, Backend::kCpu, nullptr).value()};
+    if (levels) return approximate_in_levels(solid, request, reference_extractor()).value();
+    return {approximate_by_spheres(solid, request, reference_extractor()).value()};
   }
 
   PreparedMesh mesh;
@@ -169,7 +172,7 @@ TEST(BalancedSpheres, AreBetterThanBallsInsideAndThanTheSources) {
   const Shape shape(test::make_l_shape(2.0, 0.6, 0.8));
   SphereOptions request;
   request.count = 24;
-  const SphereSet inside = approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).value();
+  const SphereSet inside = approximate_by_spheres(shape.solid, request, reference_extractor()).value();
   const SphereSet dilated = dilate_to_boundary(shape.solid, inside).value();
   const auto error = [&](const SphereSet& set) { return measure_spheres(shape.solid, set.balls).value().volume; };
   const VolumeError balanced = error(shape.balanced(24).back());
@@ -201,7 +204,7 @@ TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
     SphereOptions request;
     request.contract = SphereContract::kBalanced;
     request.error = 0.25;
-    const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, Backend::kCpu, nullptr).value().balls;
+    const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, reference_extractor()).value().balls;
     MeasureOptions other;
     other.seed = 7;  // other samples than those that the search has seen
     const VolumeError error = estimate_volume_error(box.solid, balls, other).value();
@@ -210,7 +213,7 @@ TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
     request.count = balls.size();
     request.error = 0;
     request.contract = SphereContract::kInside;
-    const SphereSet inside = approximate_by_spheres(box.solid, request, Backend::kCpu, nullptr).value();
+    const SphereSet inside = approximate_by_spheres(box.solid, request, reference_extractor()).value();
     EXPECT_GT(measure_spheres(box.solid, inside.balls).value().volume.normalized(), 0.25);
   }
 }
@@ -220,7 +223,7 @@ TEST(BalancedSpheres, LevelsOfAnErrorAreHalves) {
   SphereOptions request;
   request.contract = SphereContract::kBalanced;
   request.error = 0.2;
-  const std::vector<SphereSet> levels = approximate_in_levels(box.solid, request, Backend::kCpu, nullptr).value();
+  const std::vector<SphereSet> levels = approximate_in_levels(box.solid, request, reference_extractor()).value();
   ASSERT_GT(levels.size(), 2u);
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
     EXPECT_EQ(levels[k].balls.size(), levels[k + 1].balls.size() / 2);
@@ -235,9 +238,9 @@ TEST(BalancedSpheres, OfAnOpenMeshAreRefused) {
   SphereOptions request;
   request.contract = SphereContract::kBalanced;
   request.count = 6;
-  EXPECT_EQ(approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(approximate_by_spheres(shape.solid, request, reference_extractor()).error().code, ErrorCode::kUsage);
   request.method = SphereMethod::kSource;
-  EXPECT_TRUE(approximate_by_spheres(shape.solid, request, Backend::kCpu, nullptr).ok());
+  EXPECT_TRUE(approximate_by_spheres(shape.solid, request, reference_extractor()).ok());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "base/point_ops.h"
 #include "cpu_reference/queries.h"
+#include "judge/reference_extractor.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/prepare.h"
 #include "spheres/measures/envelope_distance.h"
@@ -17,6 +18,7 @@
 #include "spheres/steps/gaps.h"
 #include "spheres/steps/maximal_ball.h"
 #include "spheres/steps/slide.h"
+#include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
 
@@ -27,11 +29,12 @@ using testing::HasSubstr;
 
 /// A mesh that stays where it is, as its solid wants.
 struct Shape {
-  explicit Shape(Mesh raw) : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(mesh).value()) {}
+  explicit Shape(Mesh raw)
+      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
   Shape(const Shape&) = delete;
 
   Result<SphereSet> fit(const SphereOptions& request) const {
-    return best_spheres(solid, request, Backend::kCpu, nullptr, {});
+    return best_spheres(solid, request, reference_extractor(), {});
   }
   double error_of(const std::vector<Ball>& balls) const {
     return 1 - measure_ball_union(balls).value().volume / solid.volume();
@@ -194,7 +197,7 @@ TEST(BestMethod, BeatsItsOwnCandidatesByFar) {
   ExtractionOptions parameters;
   parameters.resolution = 16;
   parameters.object_angle = 0.3;
-  const auto found = extract_and_certify(shape.mesh, parameters, Backend::kCpu, nullptr).value();
+  const auto found = extract_and_certify(shape.solid.indexed(), parameters, reference_extractor()).value();
   std::vector<Ball> medial;
   for (const MedialSphere& s : found.extraction.spheres) medial.push_back({s.centre, s.radius});
   Candidates candidates;
@@ -228,7 +231,7 @@ TEST(BestMethod, StopsWhenAsked) {
   const Shape shape(turned_l_shape());
   SphereOptions request{.count = 50, .resolution = 16};
   const Result<SphereSet> set =
-      best_spheres(shape.solid, request, Backend::kCpu, nullptr, [](const char*, double done) { return done < 0.3; });
+      best_spheres(shape.solid, request, reference_extractor(), [](const char*, double done) { return done < 0.3; });
   ASSERT_FALSE(set.ok());
   EXPECT_EQ(set.error().code, ErrorCode::kInterrupted);
 }

@@ -7,6 +7,7 @@
 #include "cpu_reference/sphere_certificate.h"
 #include "spheres/measures/sphere_certificate.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/reference_balls.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
@@ -19,7 +20,7 @@ using namespace test;
 class SphereCertificate : public testing::Test {
  protected:
   explicit SphereCertificate(Mesh input = make_box({2, 2, 2}))
-      : mesh_(prepare(std::move(input))), solid_(std::move(Solid::build(mesh_).value())) {}
+      : mesh_(prepare(std::move(input))), solid_(Solid::create(test::indexed(mesh_)).value()) {}
 
   bool inside(const std::vector<Ball>& balls) const {
     const bool proved = prove_inside(solid_, balls).proved();
@@ -142,7 +143,7 @@ TEST(SphereCertificateOfOpenMeshes, OnlyTheSurfaceIsProved) {
   Mesh open = make_box({2, 2, 2});
   open.triangles.pop_back();
   const PreparedMesh mesh = prepare(open);
-  const Solid solid = std::move(Solid::build(mesh).value());
+  const Solid solid = Solid::create(test::indexed(mesh)).value();
   const CoverProof proof = prove_cover(solid, std::vector<Ball>{{{1, 1, 1}, 2}}).value();
   EXPECT_TRUE(proof.surface_proved());
   EXPECT_FALSE(proof.closed);

@@ -9,6 +9,7 @@
 #include "spheres/measures/envelope_distance.h"
 #include "spheres/measures/surface_samples.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/ball_families.h"
 #include "support/solids/solids.h"
 
@@ -22,7 +23,7 @@ struct Case {
   std::unique_ptr<Solid> solid;
 
   explicit Case(Mesh input) : mesh(prepare(std::move(input))) {
-    solid = std::make_unique<Solid>(std::move(Solid::build(mesh).value()));
+    solid = std::make_unique<Solid>(Solid::create(test::indexed(mesh)).value());
   }
 };
 

@@ -6,11 +6,13 @@
 #include <numbers>
 
 #include "base/point_ops.h"
+#include "judge/reference_extractor.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/prepare.h"
 #include "spheres/methods/approximate.h"
 #include "spheres/methods/prefixes.h"
 #include "spheres/methods/sphere_set.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -21,7 +23,7 @@ using testing::HasSubstr;
 
 class SourceMethod : public testing::Test {
  protected:
-  SourceMethod() : mesh_(prepare_mesh(make()).value()), solid_(Solid::build(mesh_).value()) {
+  SourceMethod() : mesh_(prepare_mesh(make()).value()), solid_(Solid::create(test::indexed(mesh_)).value()) {
     request_.method = SphereMethod::kSource;
   }
 
@@ -31,7 +33,7 @@ class SourceMethod : public testing::Test {
     return mesh;
   }
 
-  Result<SphereSet> fit() const { return approximate_by_spheres(solid_, request_, Backend::kCpu, nullptr); }
+  Result<SphereSet> fit() const { return approximate_by_spheres(solid_, request_, reference_extractor()); }
 
   double error_of(const std::vector<Ball>& balls) const {
     return 1 - measure_ball_union(balls).value().volume / solid_.volume();
@@ -94,14 +96,14 @@ TEST_F(SourceMethod, SaysWhatCannotBe) {
 TEST_F(SourceMethod, StopsWhenAsked) {
   request_.count = 100;
   const Result<SphereSet> set =
-      approximate_by_spheres(solid_, request_, Backend::kCpu, nullptr, [](const char*, double) { return false; });
+      approximate_by_spheres(solid_, request_, reference_extractor(), [](const char*, double) { return false; });
   ASSERT_FALSE(set.ok());
   EXPECT_EQ(set.error().code, ErrorCode::kInterrupted);
 }
 
 TEST_F(SourceMethod, LevelsAreBeginnings) {
   request_.count = 60;
-  const Result<std::vector<SphereSet>> levels = approximate_in_levels(solid_, request_, Backend::kCpu, nullptr);
+  const Result<std::vector<SphereSet>> levels = approximate_in_levels(solid_, request_, reference_extractor());
   ASSERT_TRUE(levels.ok()) << levels.error().message;
   const std::vector<Ball>& all = levels.value().back().balls;
   EXPECT_EQ(levels.value().size(), level_counts(all.size()).size());

@@ -12,7 +12,7 @@
 #include "commands/commands.h"
 #include "commands/uploads.h"
 #include "device/context_impl.h"
-#include "medial_vk/ball_union_device.h"
+#include "medial_vk/ball_union.h"
 
 namespace medial_vk {
 namespace {

@@ -62,6 +62,7 @@ double ThesisPipeline::cell_size(std::uint32_t level) const {
   return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(levels_ - 1 - level));
 }
 
+// long: a table of all buffers, and what comes of it.
 Status ThesisPipeline::allocate() {
   std::uint64_t cells_per_top = 1;    // at the finest level
   std::uint64_t samples_per_top = 1;  // at any level, and never none

@@ -237,8 +237,11 @@ Bounds EnvelopeDistances::between_surfaces() const { return greater(boundary_to_
 
 namespace {
 
-const Error kStopped = {ErrorCode::kInterrupted, "interrupted"};
-const Error kNoMemory = {ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
+Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
+
+Error no_memory() {
+  return {ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
+}
 
 }  // namespace
 
@@ -248,9 +251,9 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
   try {
     return Measure(solid, envelope, options).all();
   } catch (const Stopped&) {
-    return kStopped;
+    return stopped();
   } catch (const std::bad_alloc&) {
-    return kNoMemory;
+    return no_memory();
   }
 }
 
@@ -260,9 +263,9 @@ Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> ba
   try {
     return Measure(solid, envelope.value(), options).boundary_to_balls();
   } catch (const Stopped&) {
-    return kStopped;
+    return stopped();
   } catch (const std::bad_alloc&) {
-    return kNoMemory;
+    return no_memory();
   }
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "output/picture/colour_map.h"
+#include "output/colours/colour_map.h"
 #include "output/picture/vulkan/drawing_pipelines.h"
 
 namespace medial_vk::picture {

@@ -7,7 +7,7 @@
 
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"
-#include "output/picture/panel.h"
+#include "output/picture/panels/panel.h"
 #include "output/picture/vulkan/functions.h"
 
 namespace medial_vk::picture {

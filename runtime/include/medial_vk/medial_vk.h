@@ -1,0 +1,26 @@
+// The whole library. Headers with types of Vulkan (extraction_job.h, host_device.h) are for programs with a device of
+// their own, which include them by name.
+#pragma once
+
+#include "medial_vk/analysis.h"
+#include "medial_vk/ball.h"
+#include "medial_vk/ball_union.h"
+#include "medial_vk/bvh.h"
+#include "medial_vk/certify.h"
+#include "medial_vk/context.h"
+#include "medial_vk/dynamic_union.h"
+#include "medial_vk/extraction.h"
+#include "medial_vk/foam.h"
+#include "medial_vk/indexed_mesh.h"
+#include "medial_vk/measurements.h"
+#include "medial_vk/medial_mesh.h"
+#include "medial_vk/mesh.h"
+#include "medial_vk/mesh_view.h"
+#include "medial_vk/prepare.h"
+#include "medial_vk/result.h"
+#include "medial_vk/scene.h"
+#include "medial_vk/sheets.h"
+#include "medial_vk/shrinking_union.h"
+#include "medial_vk/sphere_measures.h"
+#include "medial_vk/spheres.h"
+#include "medial_vk/version.h"

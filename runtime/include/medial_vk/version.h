@@ -1,0 +1,14 @@
+// The version of the library.
+#pragma once
+
+// The build reads the version from here, too (CMakeLists.txt).
+#define MEDIAL_VK_VERSION_MAJOR 0
+#define MEDIAL_VK_VERSION_MINOR 1
+#define MEDIAL_VK_VERSION_PATCH 0
+
+namespace medial_vk {
+
+/// "0.1.0": of the library that is linked, which may be another one than that of the headers.
+const char* version();
+
+}  // namespace medial_vk

@@ -1,0 +1,216 @@
+#include "cli/options/spheres_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "cli/options/declarations.h"
+#include "cli/options/output_names.h"
+#include "common/file_extension.h"
+
+namespace medial_vk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostSpheres = 1'000'000;
+
+/// What is not one option, one field.
+struct Given {
+  std::optional<SphereFormat> format;
+  bool collision = false;
+  double object_angle = 0;  // 0: not given
+  ViewChoice view;
+};
+
+void declare(CLI::App& app, SpheresOptions& options, Given& given) {
+  SphereOptions& request = options.request;
+  Declarations add(app);
+  add.text("INPUT", "file", options.input);
+  add.text("-o,--output", "file", options.output);
+  add.choice<std::optional<SphereFormat>>("--format",
+                                          {{"csv", SphereFormat::kCsv},
+                                           {"json", SphereFormat::kJson},
+                                           {"foam", SphereFormat::kFoam},
+                                           {"curobo", SphereFormat::kCurobo},
+                                           {"xrdf", SphereFormat::kXrdf},
+                                           {"urdf", SphereFormat::kUrdf}},
+                                          given.format);
+  add.whole("--count", 1, kMostSpheres, " spheres", request.count);
+  add.whole("--count-per-link", 1, kMostSpheres, " spheres", options.count_per_link);
+  add.whole("--total", 1, kMostSpheres, " spheres", options.total);
+  add.real("--error", {0, 1, false}, " of the volume", request.error);
+  add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", request.max_gap);
+  add.whole("--resolution", 1, 4096, " voxels", request.resolution);
+  add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}},
+                           request.method);
+  add.choice<SphereContract>(
+      "--contract",
+      {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}, {"balanced", SphereContract::kBalanced}},
+      request.contract);
+  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
+  add.flag("--levels", options.request.levels);
+  add.flag("--collision", given.collision);
+  add.flag("--visual", options.visual);
+  app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);
+  add.text("--report", "file", options.report);
+  add.text("--picture", "file", options.picture);
+  add.text("--histogram", "file", options.histogram);
+  add.flag("--check", options.check);
+  add.view("--view", given.view);
+  add.up("--up", options.view.up);
+  add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
+  add.text("--device", "index or name", options.device);
+  add.whole("--threads", 0, 1024, " threads", request.threads);
+  add.flag("-q,--quiet", options.quiet);
+  add.flag("-v,--verbose", options.verbose);
+  add.flag("-h,--help", options.help);
+}
+
+Status check_input(SpheresOptions& options, const Given& given) {
+  if (options.input.empty()) return usage_error("no MESH or ROBOT.urdf given");
+  const std::string extension = file_extension(options.input);
+  if (extension == ".xacro") {
+    return usage_error(
+        fmt::format("'{}' is a macro for URDF: expand it first, xacro {} > robot.urdf", options.input, options.input));
+  }
+  options.is_robot = extension == ".urdf";
+  if (options.is_robot && !options.histogram.empty()) {
+    return usage_error("--histogram is about the surface of one mesh; of a robot, give the meshes one by one");
+  }
+  if (options.is_robot) return {};
+  const std::pair<const char*, bool> of_robots[] = {{"--count-per-link", options.count_per_link > 0},
+                                                    {"--total", options.total > 0},
+                                                    {"--visual", options.visual},
+                                                    {"--collision", given.collision},
+                                                    {"--package", !options.packages.empty()}};
+  for (const auto& [name, is_given] : of_robots) {
+    if (is_given)
+      return usage_error(fmt::format("{} is about the links of a robot; '{}' is no .urdf", name, options.input));
+  }
+  return {};
+}
+
+Status check_goals(const SpheresOptions& options) {
+  const SphereOptions& request = options.request;
+  if (options.is_robot && request.count > 0) {
+    return usage_error("--count is for one mesh; of a robot say --count-per-link N or --total N");
+  }
+  if (options.count_per_link > 0 && options.total > 0) {
+    return usage_error("--count-per-link and --total cannot be used together");
+  }
+  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+    return usage_error("--max-gap: spheres that cover leave no gap; say --error E, or how many");
+  }
+  const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
+  if (by_source && (request.error > 0 || request.max_gap > 0)) {
+    return usage_error("--error and --max-gap: with --method source for --contract inside only; say how many");
+  }
+  const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
+  const bool any = request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
+                   request.max_gap > 0 || by_resolution;
+  if (any) return {};
+  return usage_error(options.is_robot ? "say how many spheres: --count-per-link N, --total N, --error E or --max-gap G"
+                                      : "say how many spheres: --count N, --error E or --max-gap G");
+}
+
+Status complete_output(SpheresOptions& options, const Given& given) {
+  const SphereFormat usual = options.request.levels ? SphereFormat::kJson
+                             : options.is_robot     ? SphereFormat::kUrdf
+                                                    : SphereFormat::kCsv;
+  options.format = given.format.value_or(usual);
+  if (options.output.empty()) {
+    constexpr const char* kExtensions[] = {".csv", ".json", ".foam.json", ".yml", ".xrdf", ".urdf"};
+    const std::string stem = options.input == "-" ? "stdin" : fs::path(options.input).stem().string();
+    options.output = stem + ".spheres" + kExtensions[static_cast<std::size_t>(options.format)];
+  } else if (options.output != "-" && !given.format) {
+    const Result<SphereFormat> format = sphere_format_of(options.output);
+    if (!format) return usage_error("--output: " + format.error().message);
+    options.format = format.value();
+  }
+  if (options.request.levels && !has_levels(options.format)) {
+    return usage_error(fmt::format("--levels: the format {} has one set of spheres only; use csv, json or foam",
+                                   name_of(options.format)));
+  }
+  return {};
+}
+
+Status complete_files(SpheresOptions& options, const Given& given) {
+  if (Status status = complete_output(options, given); !status) return status;
+  if (!may_end_in(options.picture, ".png")) {
+    return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  const bool looks = given.view != ViewChoice() || options.view.up != PictureView().up;
+  if (looks && options.picture.empty()) {
+    return usage_error("--view and --up are about the picture: use them with --picture FILE.png");
+  }
+  options.view = view_of(given.view, options.view.up);
+  if (!may_end_in(options.histogram, ".svg") && !may_end_in(options.histogram, ".csv")) {
+    return usage_error(fmt::format("--histogram: '{}' ends in neither .svg nor .csv", options.histogram));
+  }
+  return check_outputs_differ(outputs_of(options), options.input);
+}
+
+Status check_combinations(const SpheresOptions& options, const Given& given) {
+  if (options.check && options.request.contract == SphereContract::kBalanced) {
+    return usage_error("--check: spheres of the contract balanced promise nothing that could be checked");
+  }
+  if (given.object_angle > 0 && options.request.method != SphereMethod::kSource) {
+    return usage_error("--object-angle is of --method source; the method best chooses among all medial spheres");
+  }
+  if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
+  if (options.visual && given.collision) return usage_error("--collision and --visual cannot be used together");
+  if (options.backend == Backend::kCpu && !options.device.empty()) {
+    return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
+  return {{"--output", &options.output},
+          {"--report", &options.report},
+          {"--picture", &options.picture},
+          {"--histogram", &options.histogram}};
+}
+
+/// The application writes to the others, so they stay together and in place.
+struct SpheresOptionParser::Declared {
+  ReusableApp app;
+  SpheresOptions options;
+  Given given;
+};
+
+SpheresOptionParser::SpheresOptionParser() : declared_(std::make_unique<Declared>()) {
+  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.allow_extras();   // Reported with a suggestion.
+  declare(declared_->app, declared_->options, declared_->given);
+}
+
+SpheresOptionParser::~SpheresOptionParser() = default;
+
+Result<SpheresOptions> SpheresOptionParser::parse(const std::vector<std::string>& arguments) {
+  declared_->app.forget();
+  SpheresOptions& options = declared_->options = SpheresOptions();
+  const Given& given = declared_->given = Given();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh or robot at a time"); !status)
+    return status.error();
+  if (options.help) return options;
+  if (given.object_angle > 0) options.request.object_angle = given.object_angle;
+  if (Status status = check_combinations(options, given); !status) return status.error();
+  if (Status status = check_input(options, given); !status) return status.error();
+  if (Status status = check_goals(options); !status) return status.error();
+  if (Status status = complete_files(options, given); !status) return status.error();
+  return options;
+}
+
+Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments) {
+  return SpheresOptionParser().parse(arguments);
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,72 @@
+// The command line of `medial-vk spheres` as a struct. Names and exit codes are a contract with scripts
+// (docs/command-line.md).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/options/output_names.h"
+#include "cli/options/parse_picture.h"
+#include "common/backend.h"
+#include "medial_vk/result.h"
+#include "medial_vk/spheres.h"
+#include "output/picture/panels/options.h"
+#include "output/spheres/sphere_file.h"
+
+namespace medial_vk::cli {
+
+struct SpheresOptions {
+  bool help = false;
+  std::string input;      ///< "-": a mesh on standard input.
+  bool is_robot = false;  ///< The input is a URDF.
+  std::string output;     ///< Never empty after parsing; "-": standard output.
+  SphereFormat format = SphereFormat::kCsv;
+
+  SphereOptions request;           ///< `threads` is that of the run.
+  std::size_t count_per_link = 0;  ///< 0: not given.
+  std::size_t total = 0;           ///< 0: not given.
+
+  bool visual = false;                ///< Of a robot: its visual geometry instead of that for collisions.
+  std::vector<std::string> packages;  ///< "name=folder".
+
+  std::string report;     ///< Empty: none; "-": standard output.
+  std::string picture;    ///< The same.
+  std::string histogram;  ///< The same.
+  PictureView view;
+
+  Backend backend = Backend::kVulkan;
+  std::string device;
+  bool check = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const SpheresOptions&) const = default;
+};
+
+/// `arguments` without the program's name and without "spheres". Errors: kUsage with a message that names the option.
+Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments);
+
+/// The same for many command lines, as OptionParser.
+class SpheresOptionParser {
+ public:
+  SpheresOptionParser();
+  ~SpheresOptionParser();
+  SpheresOptionParser(const SpheresOptionParser&) = delete;
+  SpheresOptionParser& operator=(const SpheresOptionParser&) = delete;
+
+  Result<SpheresOptions> parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct Declared;  // keeps CLI11 out of this header
+  std::unique_ptr<Declared> declared_;
+};
+
+/// Every file that is to be written, with its option.
+std::vector<NamedOutput> outputs_of(const SpheresOptions& options);
+
+/// What `medial-vk spheres --help` prints.
+std::string spheres_help_text();
+
+}  // namespace medial_vk::cli

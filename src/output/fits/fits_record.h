@@ -1,0 +1,46 @@
+// All that is known of one finished run of `medial-vk spheres`: what is printed and reported.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checks/check_report.h"
+#include "common/backend.h"
+#include "medial_vk/context.h"
+#include "medial_vk/spheres.h"
+#include "robots/fit_parts.h"
+
+namespace medial_vk {
+
+struct FitsRecord {
+  // What was asked for.
+  std::string input;
+  std::string output;
+  std::string output_format;
+  bool is_robot = false;
+  SphereOptions request;
+  std::size_t count_per_link = 0;  ///< 0: not given.
+  std::size_t total = 0;           ///< 0: not given.
+  Backend backend = Backend::kVulkan;
+
+  std::string robot;                               ///< Name of the robot or mesh.
+  std::vector<Part> parts;                         ///< What was fitted to ...
+  std::vector<PartFit> fits;                       ///< ... and what came of it, in the same order.
+  std::vector<std::optional<CheckReport>> checks;  ///< Of --check, in the same order; else empty.
+  std::optional<DeviceDescription> device;
+  std::vector<StageTime> times;  ///< Seconds, in the order of the run.
+};
+
+/// Words of the options and of the report.
+const char* name_of(SphereContract contract);
+const char* name_of(SphereMethod method);
+
+/// Of the last level of all parts.
+std::size_t count_spheres(const FitsRecord& record);
+/// Share of the volume that balls inside leave uncovered; nothing if a mesh encloses no volume, or for other contracts.
+std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract);
+std::optional<double> uncovered_share(const FitsRecord& record);
+
+}  // namespace medial_vk

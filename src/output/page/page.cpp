@@ -1,0 +1,191 @@
+#include "output/page/page.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "output/page/base64.h"
+#include "output/page/embedded_page.h"
+#include "output/report/report_json.h"
+
+namespace medial_vk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An array of numbers as the page reads it: little-endian bytes in base64, in an element of its own.
+class Block {
+ public:
+  Block(std::string_view name, std::size_t bytes) : name_(name) { bytes_.reserve(bytes); }
+
+  template <class T>
+  void add(T value) {
+    std::array<std::uint8_t, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
+  void write(std::string& page) const {
+    page.append("<script type=\"text/plain\" id=\"data-").append(name_).append("\">");
+    page::append_base64(page, bytes_);
+    page.append("</script>\n");
+  }
+
+ private:
+  std::string_view name_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// What the page draws lies around 0 and is of size 1, in single precision, wherever the mesh is and however large:
+/// what is far from 0 loses no digits. `origin` and `scale` lead back.
+struct Placement {
+  Point origin = {0, 0, 0};
+  double scale = 1;
+
+  float length(double value) const { return static_cast<float>(value / scale); }
+  void add(Block& block, const Point& point) const {
+    for (std::size_t i = 0; i < 3; ++i) block.add(length(point[i] - origin[i]));
+  }
+};
+
+Placement place(const RunRecord& record) {
+  Placement placement;
+  for (std::size_t i = 0; i < 3; ++i) {
+    placement.origin[i] = record.mesh.lower[i] + (record.mesh.upper[i] - record.mesh.lower[i]) / 2;
+  }
+  if (record.longest_side > 0) placement.scale = record.longest_side;
+  return placement;
+}
+
+void write_mesh(std::string& page, const Mesh& mesh, const Placement& placement) {
+  Block vertices("vertices", mesh.vertices.size() * 12);
+  for (const Point& vertex : mesh.vertices) placement.add(vertices, vertex);
+  vertices.write(page);
+  Block triangles("triangles", mesh.triangles.size() * 12);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) triangles.add(corner);
+  }
+  triangles.write(page);
+}
+
+/// A direction in sixteen bits a part: off by less than a pixel on any screen, and half the size of floats.
+void add_direction(Block& block, const std::array<float, 3>& direction) {
+  for (const float x : direction) {
+    block.add(static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767.0f)));
+  }
+}
+
+void write_spheres(std::string& page, std::span<const MedialSphere> spheres, const Placement& placement) {
+  Block centres("centres", spheres.size() * 12), radii("radii", spheres.size() * 4);
+  Block spokes("spokes", spheres.size() * 12), angles("angles", spheres.size() * 4);
+  Block fluxes("fluxes", spheres.size() * 4), sheets("sheets", spheres.size() * 4);
+  Block voxels("voxels", spheres.size() * 6);
+  for (const MedialSphere& sphere : spheres) {
+    placement.add(centres, sphere.centre);
+    radii.add(placement.length(sphere.radius));
+    add_direction(spokes, sphere.spoke_a);
+    add_direction(spokes, sphere.spoke_b);
+    angles.add(sphere.object_angle);
+    fluxes.add(sphere.flux);
+    sheets.add(sphere.sheet);
+    for (const std::uint32_t index : sphere.voxel) voxels.add(static_cast<std::uint16_t>(index));
+  }
+  for (const Block* block : {&centres, &radii, &spokes, &angles, &fluxes, &sheets, &voxels}) block->write(page);
+}
+
+/// JSON inside an element: no "<", so that no text in it (a file name) can end the element.
+void write_json(std::string& page, std::string_view name, std::string_view json) {
+  page.append("<script type=\"application/json\" id=\"").append(name).append("\">");
+  for (const char c : json) {
+    if (c == '<') {
+      page.append("\\u003c");
+    } else {
+      page += c;
+    }
+  }
+  page.append("</script>\n");
+}
+
+std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
+                       const Placement& placement, UpAxis up) {
+  const Json json = {{"origin", placement.origin},
+                     {"scale", placement.scale},
+                     {"lower", record.mesh.lower},
+                     {"upper", record.mesh.upper},
+                     {"voxel_size", record.grid.voxel_size},
+                     {"vertices", mesh.vertices.size()},
+                     {"triangles", mesh.triangles.size()},
+                     {"points", spheres.size()},
+                     {"up", axis_name(up)}};
+  return json.dump();
+}
+
+/// Times differ from run to run; the page does not.
+std::string report_without_times(const RunRecord& record) {
+  RunRecord timeless = record;
+  timeless.host_times.clear();
+  timeless.device_times.clear();
+  return report_json(timeless);
+}
+
+std::string escape_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        out.append("&lt;");
+        break;
+      case '&':
+        out.append("&amp;");
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string title_of(const RunRecord& record) {
+  const std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
+  // As JSON once and back: what is not UTF-8 is replaced, as everywhere in the report.
+  const Json text = Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+  return escape_text(text.get<std::string>());
+}
+
+}  // namespace
+
+Status check_page_available() {
+  if (!page::embedded_page().empty()) return {};
+  return Error{
+      ErrorCode::kUsage,
+      "--html: this medial-vk was built without its page, as npm or its packages were missing then. Install npm "
+      "(Debian: apt install nodejs npm), configure and build again (docs/viewer.md)"};
+}
+
+std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record, UpAxis up) {
+  const std::string_view page = page::embedded_page();
+  const std::size_t title = page.find(page::kTitleMark);
+  const std::size_t data = page.find(page::kDataMark);
+  const std::size_t after_title = title + page::kTitleMark.size();
+  const Placement placement = place(record);
+
+  std::string out;
+  // 46 bytes a point and 12 a vertex and a triangle, four characters for three bytes.
+  out.reserve(page.size() + 65536 + spheres.size() * 62 + (mesh.vertices.size() + mesh.triangles.size()) * 16);
+  out.append(page.substr(0, title)).append(title_of(record)).append(page.substr(after_title, data - after_title));
+  write_json(out, "report", report_without_times(record));
+  write_json(out, "scene", scene_json(mesh, spheres, record, placement, up));
+  write_mesh(out, mesh, placement);
+  write_spheres(out, spheres, placement);
+  out.append(page.substr(data + page::kDataMark.size()));
+  return out;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,107 @@
+// The legend: a bar of the colours with numbers at its ends, or the colours of sheets with their numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "output/colours/colour_map.h"
+#include "output/picture/panels/panel.h"
+#include "output/picture/panels/text.h"
+
+namespace medial_vk::picture {
+namespace {
+
+using Eigen::Vector3f;
+
+const Vector3f kInk(0.22f, 0.25f, 0.30f);
+
+class Pen {
+ public:
+  explicit Pen(Picture& picture) : picture_(picture), scale_(text_scale(picture)) {}
+
+  std::uint32_t scale() const { return scale_; }
+  std::uint32_t line() const { return (kGlyphHeight + 3) * scale_; }
+  std::uint32_t width_of(const std::string& text) const {
+    return static_cast<std::uint32_t>(text.size()) * kGlyphWidth * scale_;
+  }
+
+  void fill(std::uint32_t left, std::uint32_t top, std::uint32_t width, std::uint32_t height, const Vector3f& colour) {
+    for (std::uint32_t i = 0; i < width * height; ++i) set(left + i % width, top + i / width, colour);
+  }
+
+  void write(std::uint32_t left, std::uint32_t top, const std::string& text) {
+    draw_text(text, [&](std::uint32_t x, std::uint32_t y) {
+      fill(left + x * scale_, top + y * scale_, scale_, scale_, kInk);
+    });
+  }
+
+ private:
+  void set(std::uint32_t x, std::uint32_t y, const Vector3f& colour) {
+    if (x >= picture_.width || y >= picture_.height) return;
+    for (Eigen::Index channel = 0; channel < 3; ++channel) {
+      picture_.rgb[(std::size_t{y} * picture_.width + x) * 3 + static_cast<std::size_t>(channel)] =
+          byte_of(colour[channel]);
+    }
+  }
+
+  Picture& picture_;
+  std::uint32_t scale_;
+};
+
+Vector3f palette_colour(const std::vector<Vector3f>& palette, float share) {
+  const float place = share * static_cast<float>(palette.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), palette.size() - 2);
+  return palette[below] + (place - static_cast<float>(below)) * (palette[below + 1] - palette[below]);
+}
+
+void draw_bar(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t top, std::uint32_t width) {
+  const std::uint32_t height = 7 * pen.scale();
+  for (std::uint32_t x = 0; x < width; ++x) {
+    const float share = static_cast<float>(x) / static_cast<float>(width - 1);
+    pen.fill(left + x, top, 1, height, palette_colour(scene.palette, share));
+  }
+  const std::uint32_t below = top + height + 3 * pen.scale();
+  pen.write(left, below, scene.legend.least);
+  pen.write(left + width - pen.width_of(scene.legend.greatest) + pen.scale(), below, scene.legend.greatest);
+}
+
+void draw_swatches(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t top) {
+  const std::uint32_t side = 7 * pen.scale();
+  for (const auto& [colour, text] : scene.legend.swatches) {
+    if (colour < scene.palette.size()) {
+      pen.fill(left, top, side, side, scene.palette[colour]);
+      left += side + 3 * pen.scale();
+    }
+    pen.write(left, top, text);
+    left += pen.width_of(text) + 5 * pen.scale();
+  }
+}
+
+/// Of all swatches in a row.
+std::uint32_t swatches_width(const Scene& scene, const Pen& pen) {
+  std::uint32_t width = 0;
+  for (const auto& [colour, text] : scene.legend.swatches) {
+    width += pen.width_of(text) + (colour < scene.palette.size() ? 15 : 5) * pen.scale();
+  }
+  return width;
+}
+
+}  // namespace
+
+void draw_legend(const Scene& scene, Picture& picture) {
+  Pen pen(picture);
+  const bool has_bar = scene.legend.swatches.empty();
+  const std::uint32_t margin = 16 * pen.scale();
+  const std::uint32_t width =
+      std::max(has_bar ? 130 * pen.scale() : swatches_width(scene, pen), pen.width_of(scene.legend.title));
+  const std::uint32_t height = 2 * pen.line() + 10 * pen.scale();
+  if (picture.width < width + 2 * margin || picture.height < height + 2 * margin) return;  // no room
+  const std::uint32_t left = picture.width - margin - width;
+  const std::uint32_t top = picture.height - margin / 2 - height;
+  pen.write(left, top, scene.legend.title);
+  if (has_bar) {
+    draw_bar(scene, pen, left, top + pen.line(), width);
+  } else {
+    draw_swatches(scene, pen, left, top + pen.line());
+  }
+}
+
+}  // namespace medial_vk::picture

@@ -1,0 +1,41 @@
+// What a picture shows, from where, and how large it is: the part of it that the command line chooses.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/up_axis.h"
+
+namespace medial_vk {
+
+enum class PictureShow {
+  kPoints,  ///< The mesh as glass, the medial points in it as discs.
+  kBalls,   ///< The union of the balls.
+  kBoth,    ///< The two, side by side.
+};
+
+enum class PictureColour { kAngle, kRadius, kSheet };
+
+/// Sides of a picture, pixels. The greatest keeps the number of its bytes below 2^31, for the writer of PNG files.
+constexpr std::uint32_t kLeastPictureSide = 16, kGreatestPictureSide = 16384;
+
+/// Where a picture is seen from. If one looks along what is up, what is in front points down in the picture, or up.
+struct PictureView {
+  std::array<double, 3> towards = {0.544, 0.352, 0.762};  ///< From the shape to the viewer, in its axes; any length.
+  UpAxis up = UpAxis::kY;
+
+  bool operator==(const PictureView&) const = default;
+};
+
+struct PictureOptions {
+  /// Width and height, pixels; 0: the usual, 1200 x 900 or, side by side, 1800 x 900.
+  std::array<std::uint32_t, 2> size = {0, 0};
+  PictureView view = {};
+  PictureShow show = PictureShow::kPoints;
+  PictureColour colour = PictureColour::kAngle;
+  double least_angle = 0.6;  ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.
+
+  bool operator==(const PictureOptions&) const = default;
+};
+
+}  // namespace medial_vk

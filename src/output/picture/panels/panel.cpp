@@ -1,0 +1,237 @@
+// The light in a picture, on the CPU. shaders/compose.frag does the same: change both, and the tests will say whether
+// they still agree.
+#include "output/picture/panels/panel.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "output/colours/colour_map.h"
+#include "output/picture/panels/rasteriser.h"
+
+namespace medial_vk::picture {
+namespace {
+
+using Eigen::Vector3f;
+
+const Vector3f kKeyLight = Vector3f(-0.45f, 0.65f, 0.62f).normalized();  // View space, towards the light.
+const Vector3f kHalfway = (kKeyLight + Vector3f::UnitZ()).normalized();
+// Light, not numbers of a file: all of this is linear.
+const Vector3f kGlass(0.22f, 0.33f, 0.48f);
+const Vector3f kInk(0.04f, 0.055f, 0.08f);
+const Vector3f kHaze(0.85f, 0.88f, 0.91f);
+const Vector3f kLow(0.80f, 0.84f, 0.885f);
+
+Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + share * (b - a); }
+
+/// White with a little grey at the bottom: the shape stands on something.
+Vector3f background(float height_share) { return mix(Vector3f::Ones(), kLow, height_share * height_share); }
+
+float diffuse(const Vector3f& normal) { return std::max(normal.dot(kKeyLight), 0.0f); }
+float highlight(const Vector3f& normal, float sharpness) {
+  return std::pow(std::max(normal.dot(kHalfway), 0.0f), sharpness);
+}
+
+/// Everything in a panel, at the resolution of the samples.
+struct Layers {
+  Layers(std::uint32_t width, std::uint32_t height) : front(width, height), back(width, height), marks(width, height) {}
+  SurfaceLayer front;
+  SurfaceLayer back;
+  MarkLayer marks;
+};
+
+class Composer {
+ public:
+  Composer(const Scene& scene, const Panel& panel, const Camera& camera, const Layers& layers)
+      : balls_(panel.balls), camera_(camera), layers_(layers) {
+    for (const Vector3f& colour : scene.palette) palette_.push_back(to_light(colour));
+  }
+
+  Vector3f sample(std::uint32_t x, std::uint32_t y, float height_share) const {
+    const std::size_t pixel = std::size_t{y} * layers_.front.width + x;
+    Vector3f colour = background(height_share);
+    if (layers_.back.nearness[pixel] > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
+    if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
+    // A disc in front of the wall can only be a disc that sticks out by its own size: the wall stays in front of it.
+    if (layers_.front.nearness[pixel] > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
+    return on_line(x, y) ? mix(colour, kInk, 0.60f) : colour;
+  }
+
+ private:
+  Vector3f palette_colour(float value) const {
+    const std::size_t below = std::min(static_cast<std::size_t>(value), palette_.size() - 1);
+    const std::size_t above = std::min(below + 1, palette_.size() - 1);
+    return mix(palette_[below], palette_[above], value - static_cast<float>(below));
+  }
+
+  /// The far wall of the glass, seen from inside.
+  static Vector3f over_back_wall(const Vector3f& below, const Vector3f& normal) {
+    const float facing = std::min(std::abs(normal.z()), 1.0f);
+    const float light = 0.62f + 0.55f * diffuse(-normal);
+    return mix(below, kGlass * light, 0.12f + 0.30f * (1.0f - facing));
+  }
+
+  /// A disc or a ball: lit by the sky, which what is near takes away, and by a lamp. Discs are darker at the rim so
+  /// that they can be told apart, and paler farther away.
+  Vector3f mark(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
+    const Vector3f& normal = layers_.marks.surface.normal[pixel];
+    const Vector3f colour = palette_colour(layers_.marks.value[pixel]);
+    const float open = openness(x, y, pixel);
+    const float sky = 0.50f + 0.14f * normal.y();
+    const float rim = layers_.marks.rim[pixel];
+    const float edge = 1.0f - 0.22f * rim * rim * rim;
+    const Vector3f lit = colour * (open * edge * (sky + 0.62f * diffuse(normal)));
+    if (balls_) return lit + Vector3f::Constant(0.10f * open * highlight(normal, 40.0f));
+    const float depth = (Camera::greatest_nearness() - layers_.marks.surface.nearness[pixel]) /
+                        (Camera::greatest_nearness() - Camera::least_nearness());
+    return mix(lit, kHaze, 0.05f * std::clamp(depth, 0.0f, 1.0f));
+  }
+
+  /// The part of the sky that neighbours leave: 1 on an open plain. Eight places around the sample are asked, others
+  /// for each sample of a pixel, on one spiral.
+  float openness(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
+    constexpr int kAsked = 8;
+    const SurfaceLayer& surface = layers_.marks.surface;
+    const float nearness = surface.nearness[pixel];
+    const float unit = camera_.scale_at(nearness);
+    const float reach = std::min(kReach * unit, kGreatestReach * kCpuSamples);
+    const std::uint32_t number = y % kCpuSamples * kCpuSamples + x % kCpuSamples;
+    constexpr float kAll = kAsked * kCpuSamples * kCpuSamples;
+    float taken = 0;
+    for (int i = 0; i < kAsked; ++i) {
+      const float place = static_cast<float>(i) * kCpuSamples * kCpuSamples + static_cast<float>(number) + 0.5f;
+      const float angle = 2.39996323f * place, radius = reach * std::sqrt(place / kAll);
+      const int dx = static_cast<int>(std::lround(radius * std::cos(angle)));
+      const int dy = static_cast<int>(std::lround(radius * std::sin(angle)));
+      taken += taken_by(x, y, dx, dy, nearness, unit, reach, surface.normal[pixel]);
+    }
+    return 1.0f - 0.85f * std::min(1.6f * taken / kAsked, 1.0f);
+  }
+
+  float taken_by(std::uint32_t x, std::uint32_t y, int dx, int dy, float nearness, float unit, float reach,
+                 const Vector3f& normal) const {
+    const SurfaceLayer& surface = layers_.marks.surface;
+    const std::int64_t there_x = std::int64_t{x} + dx, there_y = std::int64_t{y} + dy;
+    if (there_x < 0 || there_y < 0 || there_x >= surface.width || there_y >= surface.height) return 0;
+    const float there = surface.nearness[static_cast<std::size_t>(there_y * surface.width + there_x)];
+    if (there == 0) return 0;
+    const Vector3f to(static_cast<float>(dx) / unit, static_cast<float>(-dy) / unit, 1.0f / nearness - 1.0f / there);
+    const float length = to.norm();
+    if (!(length > 0)) return 0;
+    const float share = length * unit / reach;
+    return std::max(normal.dot(to) / length - 0.08f, 0.0f) / (1.0f + share * share);
+  }
+
+  /// The near wall: clear where it faces the viewer, denser towards the outline (Schlick's curve), with a highlight.
+  static Vector3f over_front_wall(const Vector3f& below, const Vector3f& normal) {
+    const Vector3f outward = normal.z() < 0 ? (-normal).eval() : normal;
+    const float grazing = 1.0f - std::min(outward.z(), 1.0f);
+    const float cover = 0.02f + 0.72f * grazing * grazing * grazing;
+    const float light = 0.62f + 0.62f * diffuse(outward);
+    const Vector3f glass = mix(below, (kGlass * light).cwiseMin(1.0f), cover);
+    return mix(glass, Vector3f::Ones(), 0.30f * highlight(outward, 48.0f));
+  }
+
+  /// Does the near wall end or bend sharply within half a pixel to the right or below? Drawn as a thin line, this shows
+  /// the outline and the creases of the shape.
+  bool on_line(std::uint32_t x, std::uint32_t y) const {
+    constexpr float kCrease = 0.80f;
+    constexpr std::uint32_t kStep = kCpuSamples / 2;
+    const SurfaceLayer& wall = layers_.front;
+    const std::size_t pixel = std::size_t{y} * wall.width + x;
+    const bool here = wall.nearness[pixel] > 0;
+    const auto ends_before = [&](std::size_t step) {
+      const bool there = wall.nearness[pixel + step] > 0;
+      return here != there || (here && wall.normal[pixel].dot(wall.normal[pixel + step]) < kCrease);
+    };
+    return (x + kStep < wall.width && ends_before(kStep)) ||
+           (y + kStep < wall.height && ends_before(std::size_t{kStep} * wall.width));
+  }
+
+  bool balls_;
+  const Camera& camera_;
+  const Layers& layers_;
+  std::vector<Vector3f> palette_;
+};
+
+/// Rows of a picture.
+struct Band {
+  std::uint32_t top = 0, height = 0;
+};
+
+/// The balls that are seen in the band, and where in it.
+std::vector<Mark> balls_in(const std::vector<Mark>& balls, const Band& band) {
+  const auto top = static_cast<float>(band.top), height = static_cast<float>(band.height);
+  std::vector<Mark> out;
+  for (Mark ball : balls) {
+    ball.seen.top = std::max(ball.seen.top - top, 0.0f);
+    ball.seen.bottom = std::min(ball.seen.bottom - top, height);
+    if (ball.seen.top < ball.seen.bottom) out.push_back(ball);
+  }
+  return out;
+}
+
+/// The layers of a band.
+void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
+                 const Band& band, Layers& layers) {
+  if (panel.balls) {
+    draw_balls(balls_in(balls, band), camera, kCpuSamples, layers.marks);
+  } else {
+    draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
+    draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);
+    draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);
+  }
+}
+
+/// With rows above and below, from which light is taken: kGreatestReach, and one for lines.
+void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
+               const Band& band, Picture& picture) {
+  constexpr std::uint32_t kBorder = static_cast<std::uint32_t>(kGreatestReach) + 1;
+  const std::uint32_t top = band.top - std::min(band.top, kBorder);
+  const std::uint32_t bottom = std::min(band.top + band.height + kBorder, picture.height);
+  const Camera below = camera.below(static_cast<float>(top * kCpuSamples));
+  Layers layers(panel.width * kCpuSamples, (bottom - top) * kCpuSamples);
+  draw_layers(scene, panel, below, balls, {top, bottom - top}, layers);
+  const Composer composer(scene, panel, below, layers);
+  constexpr float kShare = 1.0f / (kCpuSamples * kCpuSamples);
+  for (std::uint32_t y = band.top; y < band.top + band.height; ++y) {
+    const float height_share = (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height);
+    for (std::uint32_t x = 0; x < panel.width; ++x) {
+      Vector3f sum = Vector3f::Zero();
+      for (std::uint32_t i = 0; i < kCpuSamples * kCpuSamples; ++i) {
+        sum +=
+            composer.sample(x * kCpuSamples + i % kCpuSamples, (y - top) * kCpuSamples + i / kCpuSamples, height_share)
+                .cwiseMin(1.0f);
+      }
+      const Vector3f colour = to_srgb(sum * kShare);
+      std::uint8_t* out = &picture.rgb[(std::size_t{y} * picture.width + panel.left + x) * 3];
+      for (Eigen::Index channel = 0; channel < 3; ++channel) out[channel] = byte_of(colour[channel]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
+  if (show != PictureShow::kBoth) return {{0, width, show == PictureShow::kBalls}};
+  return {{0, width / 2, false}, {width / 2, width - width / 2, true}};
+}
+
+std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture) {
+  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, 1));
+  return seen_balls(scene.balls, camera, panel.width, picture.height);
+}
+
+void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
+                std::uint64_t samples_at_once) {
+  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
+  const std::vector<Mark> balls = panel.balls ? panel_balls(scene, panel, view, picture) : std::vector<Mark>();
+  const std::uint64_t samples_of_row = std::uint64_t{kCpuSamples} * kCpuSamples * panel.width;
+  const auto rows = static_cast<std::uint32_t>(std::max<std::uint64_t>(samples_at_once / samples_of_row, 1));
+  for (std::uint32_t top = 0; top < picture.height; top += std::min(rows, picture.height - top)) {
+    draw_band(scene, panel, camera, balls, {top, std::min(rows, picture.height - top)}, picture);
+  }
+}
+
+}  // namespace medial_vk::picture

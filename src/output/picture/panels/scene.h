@@ -1,0 +1,50 @@
+// What is drawn, in the units of the camera: the mesh around the origin in a ball of radius 1. Both ways of drawing
+// start from it.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial_vk/extraction.h"
+#include "medial_vk/mesh.h"
+#include "output/picture/panels/camera.h"
+#include "output/picture/panels/options.h"
+
+namespace medial_vk::picture {
+
+/// Corners of triangles with unit normals, three in a row for each triangle.
+struct Surface {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;
+};
+
+/// A medial point, as a disc in its sheet or as its ball.
+struct Mark {
+  Eigen::Vector3f centre;
+  float radius = 0;        // Of the disc or of the ball.
+  Eigen::Vector3f normal;  // Of the sheet; unit length, either side. Nobody asks a ball.
+  float value = 0;         // Where in the palette its colour is: 2.5 is half way from the third to the fourth.
+  Frame seen = {};         // The part of the panel outside of which a ball is hidden, pixels. Nobody asks a disc.
+};
+static_assert(sizeof(Mark) == 48);  // As the shaders read it.
+
+struct Legend {
+  std::string title;
+  std::string least, greatest;                                // At the ends of the bar of all colours.
+  std::vector<std::pair<std::size_t, std::string>> swatches;  // Of single colours, instead of the bar.
+};
+
+struct Scene {
+  Surface mesh;
+  std::vector<Mark> discs, balls;
+  std::vector<Eigen::Vector3f> palette;  // sRGB.
+  Legend legend;
+};
+
+/// `voxel_size` in units of the mesh. Makes discs and balls as far as they are shown.
+Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
+                 const PictureOptions& options);
+
+}  // namespace medial_vk::picture

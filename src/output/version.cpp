@@ -1,7 +1,0 @@
-#include "output/version.h"
-
-namespace medial_vk {
-
-const char* version() { return MEDIAL_VK_VERSION; }
-
-}  // namespace medial_vk

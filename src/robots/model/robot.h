@@ -1,0 +1,46 @@
+// A robot as its URDF describes it: links with geometry, joints between them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "robots/model/pose.h"
+
+namespace medial_vk {
+
+enum class GeometryKind { kMesh, kBox, kCylinder, kSphere, kCapsule };
+
+/// Lengths in metres. Cylinder and capsule lie along z, their middle at the origin.
+struct Geometry {
+  GeometryKind kind = GeometryKind::kMesh;
+  Pose origin;              ///< From the geometry's frame to that of its link.
+  std::string mesh;         ///< As written: a path or URI.
+  Point scale = {1, 1, 1};  ///< Of a mesh. Negative ones mirror it.
+  Point size = {0, 0, 0};   ///< Box: sides. Others: radius, then length (of a capsule: without its caps).
+  int line = 0;             ///< Of the URDF.
+};
+
+struct Link {
+  std::string name;
+  std::vector<Geometry> collision;
+  std::vector<Geometry> visual;
+};
+
+struct Joint {
+  std::string name;
+  std::uint32_t parent = 0;  ///< Index of a link.
+  std::uint32_t child = 0;
+  Pose origin;  ///< From the child's frame to the parent's, at position zero.
+};
+
+struct Robot {
+  std::string name;
+  std::vector<Link> links;    ///< In the order of the file.
+  std::vector<Joint> joints;  ///< A forest: no link has two parents, none is its own ancestor.
+};
+
+/// From each link's frame to that of the root of its tree, all joints at zero.
+std::vector<Pose> link_poses(const Robot& robot);
+
+}  // namespace medial_vk

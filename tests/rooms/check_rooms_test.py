@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""scripts/check-rooms finds what it is there for: made-up trees, each with one thing wrong.
+
+  check_rooms_test.py SCRIPT
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOMS = """
+tree runtime/include
+room medial_vk
+  doors *
+  outer_doors *
+  used_by *
+tree shaders
+room shared/types
+  doors *
+  outer_doors *
+room kernels
+  uses shared/types
+tree runtime/src library
+room base
+  doors *
+  outer_doors clock.h
+room device
+  uses base shared/types
+  doors device.h
+tree cpu_reference/include
+room cpu_reference
+  outer_doors *
+  used_by judge
+tree src product
+room judge
+  uses cpu_reference
+  doors judge.h
+room cli
+  uses base judge
+"""
+FILES = {
+    "cmake/rooms.txt": ROOMS,
+    "runtime/include/medial_vk/mesh.h": "#include <vector>\n",
+    "shaders/shared/types/types.h": "",
+    "shaders/kernels/run.comp": '#include "types.h"\n',
+    "runtime/src/base/clock.h": '#include "medial_vk/mesh.h"\n',
+    "runtime/src/base/blocks.h": "",
+    "runtime/src/device/device.h": '#include "base/blocks.h"\n#include "types.h"\n',
+    "runtime/src/device/inner.h": "",
+    "cpu_reference/include/cpu_reference/check.h": "",
+    "src/judge/judge.h": '#include "cpu_reference/check.h"\n',
+    "src/judge/inner.h": "",
+    "src/cli/run.cpp": '#include "base/clock.h"\n#include "judge/judge.h"\n#include "page.vert.h"\n',
+    "examples/embed.cpp": '#include "medial_vk/mesh.h"\n',
+    "tests/any_test.cpp": '#include "device/inner.h"\n#include "cpu_reference/check.h"\n',
+}
+
+
+class CheckRooms(unittest.TestCase):
+    def check(self, expected, files):
+        """Runs the script on FILES and these: it must print lines that start and go on as expected; None: no fault."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in {**FILES, **files}.items():
+                path = Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            run = subprocess.run([sys.executable, SCRIPT, folder], capture_output=True, text=True, check=False)
+            self.assertEqual(run.stderr, "")
+            if expected is None:
+                self.assertEqual(run.returncode, 0, run.stdout)
+                return
+            self.assertEqual(run.returncode, 1, run.stdout)
+            self.assertEqual(len(run.stdout.splitlines()), len(expected), run.stdout)
+            for line, (start, part) in zip(run.stdout.splitlines(), expected):
+                self.assertTrue(line.startswith(start), line)
+                self.assertIn(part, line)
+
+    def test_nothing_wrong(self):
+        self.check(None, files={})
+
+    def test_room_that_is_not_declared(self):
+        self.check([("src/judge/judge.h:2:", "which it does not say")],
+                   files={"src/judge/judge.h": '#include "cpu_reference/check.h"\n#include "base/clock.h"\n'})
+
+    def test_room_below(self):
+        self.check([("runtime/src/base/clock.h:1:", "a room below it")],
+                   files={"runtime/src/base/clock.h": '#include "device/device.h"\n'})
+
+    def test_cycle_of_declarations(self):
+        text = ROOMS.replace("room base\n", "room base\n  uses device\n")
+        self.check([(f"cmake/rooms.txt:{text.splitlines().index('  uses device') + 1}:", "no room above it")],
+                   files={"cmake/rooms.txt": text})
+
+    def test_private_header_of_another_room(self):
+        self.check([("src/cli/run.cpp:1:", "private to judge")], files={"src/cli/run.cpp": '#include "judge/inner.h"\n'})
+
+    def test_private_header_of_another_tree(self):
+        self.check([("src/cli/run.cpp:1:", "private to base")], files={"src/cli/run.cpp": '#include "base/blocks.h"\n'})
+
+    def test_reference_outside_the_judge(self):
+        self.check([("cmake/rooms.txt:", "is not for src/cli")],
+                   files={"cmake/rooms.txt": ROOMS + "  uses cpu_reference\n"})
+        self.check([("src/cli/run.cpp:1:", "which it does not say")],
+                   files={"src/cli/run.cpp": '#include "cpu_reference/check.h"\n'})
+
+    def test_public_header_with_a_private_one(self):
+        self.check([("runtime/include/medial_vk/mesh.h:1:", "a public header includes runtime/src/base/clock.h")],
+                   files={"runtime/include/medial_vk/mesh.h": '#include "base/clock.h"\n'})
+
+    def test_example_with_a_private_header(self):
+        self.check([("examples/embed.cpp:1:", "no public header")], files={"examples/embed.cpp": '#include "base/clock.h"\n'})
+
+    def test_shader_of_another_room(self):
+        self.check([("shaders/shared/types/types.h:1:", "a room below it")],
+                   files={"shaders/shared/types/types.h": '#include "../../kernels/run.comp"\n',
+                          "cmake/rooms.txt": ROOMS.replace("room kernels\n", "room kernels\n  doors *\n")})
+
+    def test_folder_without_a_room_and_missing_header(self):
+        self.check([("runtime/src/attic/old.cpp:1:", "in no room"), ("src/cli/run.cpp:1:", 'there is no "judge/gone.h"')],
+                   files={"runtime/src/attic/old.cpp": "", "src/cli/run.cpp": '#include "judge/gone.h"\n'})
+
+    def test_sizes(self):
+        many = {f"tests/many/a{i}.h": "" for i in range(26)}
+        self.check([("tests/many:1:", "26 sources")], files=many)
+        self.check([("tests/big.h:1:", "401 lines")], files={"tests/big.h": "\n" * 401})
+        self.check(None, files={"tests/big.h": "// long: a table.\n" + "\n" * 401})
+        body = "  x();\n" * 79
+        self.check([("tests/f.cpp:5:", "N::f has 81 lines")],
+                   files={"tests/f.cpp": "namespace n {\nstruct A { int b = g(); };\n\n// What it does.\nvoid N::f(A a = {}) {\n"
+                          + body + "}\n}\n"})
+        self.check(None, files={"tests/f.cpp": "void f() {\n  // long: a list.\n" + body + "}\n"})
+        self.check(None, files={"tests/f.cpp": "void f() {\n" + "  x();\n" * 78 + "}\n"})
+        self.check([("tests/f.py:1:", "f has 81 lines")], files={"tests/f.py": "def f():\n" + "    x()\n" * 80})
+
+
+SCRIPT = sys.argv.pop(1)
+unittest.main()

@@ -1,0 +1,41 @@
+// Meshes of tests as the library takes them: indexed on the way, with errors passed on.
+#pragma once
+
+#include <stdexcept>
+#include <utility>
+
+#include "medial_vk/extraction.h"
+#include "medial_vk/indexed_mesh.h"
+#include "medial_vk/scene.h"
+
+namespace medial_vk::test {
+
+/// Throws std::runtime_error, a test failure, where there is an error.
+inline IndexedMesh indexed(const MeshView& mesh, unsigned threads = 0) {
+  Result<IndexedMesh> made = IndexedMesh::create(mesh, threads);
+  if (!made.ok()) throw std::runtime_error(made.error().message);
+  return std::move(made).value();
+}
+
+inline IndexedMesh indexed(const PreparedMesh& mesh, unsigned threads = 0) {
+  Result<IndexedMesh> made = IndexedMesh::create(PreparedMesh(mesh), threads);
+  if (!made.ok()) throw std::runtime_error(made.error().message);
+  return std::move(made).value();
+}
+
+/// extract_medial_spheres() of a mesh that is indexed for it.
+inline Result<Extraction> extract_spheres(Context& context, const MeshView& mesh, const ExtractionOptions& options,
+                                          const ProgressCallback& progress = {}, const std::stop_token& stop = {}) {
+  Result<IndexedMesh> made = IndexedMesh::create(mesh, options.threads);
+  if (!made.ok()) return made.error();
+  return extract_medial_spheres(context, made.value(), options, progress, stop);
+}
+
+/// Scene::create() of a mesh that is indexed for it.
+inline Result<Scene> make_scene(Context& context, const MeshView& mesh) {
+  Result<IndexedMesh> made = IndexedMesh::create(mesh);
+  if (!made.ok()) return made.error();
+  return Scene::create(context, made.value());
+}
+
+}  // namespace medial_vk::test
