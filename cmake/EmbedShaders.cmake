@@ -1,7 +1,7 @@
 # Compiles GLSL compute shaders to SPIR-V, validates them and embeds them as constant arrays.
 #   medial_vk_embed_shaders(TARGET SHARED_DIR file1.comp file2.comp ...)
 # whose includes are looked up in SHARED_DIR; names of files are unique among all folders. It
-# adds to TARGET a source that defines embedded_shaders() (runtime/src/embedded_shaders.h). No files: an empty list.
+# adds to TARGET a source that defines embedded_shaders() (runtime/src/device/embedded_shaders.h). No files: an empty list.
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)

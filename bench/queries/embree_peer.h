@@ -1,4 +1,4 @@
-// Closest points by Embree 3 (rtcPointQuery), the peer of bench/queries.cpp.
+// Closest points by Embree 3 (rtcPointQuery), the peer of bench/queries/queries.cpp.
 #pragma once
 
 #include <array>

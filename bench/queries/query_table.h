@@ -1,4 +1,4 @@
-// Collects the runs of bench/queries.cpp and prints their medians as a markdown table.
+// Collects the runs of bench/queries/queries.cpp and prints their medians as a markdown table.
 #pragma once
 
 #include <benchmark/benchmark.h>

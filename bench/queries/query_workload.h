@@ -1,4 +1,4 @@
-// Meshes and queries of bench/queries.cpp.
+// Meshes and queries of bench/queries/queries.cpp.
 #pragma once
 
 #include <cstdint>

@@ -13,9 +13,9 @@
 namespace medial_vk {
 namespace {
 
-constexpr int kFluxSamples = 48;  // as in shaders/shared/gpu_types.h
+constexpr int kFluxSamples = 48;  // as in shaders/shared/types/gpu_types.h
 
-// The samples of shaders/shared/flux_samples.glsl, written again: the golden angle, heights at the middles of N equal
+// The samples of shaders/shared/certified/flux_samples.glsl, written again: the golden angle, heights at the middles of N equal
 // parts.
 std::vector<Eigen::Vector3d> golden_spiral() {
   std::vector<Eigen::Vector3d> directions;

@@ -3,7 +3,7 @@
 // Tolerances, for a mesh whose longest side is L and queries within its box, u = 2^-24. The device sees positions
 // scaled to the unit box and rounded to float: the query and a corner a are off by sqrt(3) u/2 each, an edge by as much
 // again; together below 3 sqrt(3) u/2 = 1.6e-7. The distance to a triangle is evaluated to 8 u (|p - a| + |edge|)
-// (shaders/shared/closest_point.glsl); with |p - a| <= sqrt(3) and edges up to sqrt(2) that is 1.5e-6.
+// (shaders/shared/tree/closest_point.glsl); with |p - a| <= sqrt(3) and edges up to sqrt(2) that is 1.5e-6.
 // Faces are preferred to edges by 2^-21 of the distance (tree_closest.glsl), 5e-7. Sum: 2.2e-6 L.
 #pragma once
 

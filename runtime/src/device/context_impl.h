@@ -44,7 +44,7 @@ class Context::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
   VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
-  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes.glsl)?
+  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes/lanes.glsl)?
   // True on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it. Tests
   // clear it.
   bool has_lockstep_lanes = false;

@@ -25,7 +25,7 @@ constexpr std::array kRequired = {
                   [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupSize[0]; }},
     RequiredLimit{"maxComputeSharedMemorySize", 16384,
                   [](Limits& l) -> std::uint32_t& { return l.maxComputeSharedMemorySize; }},
-    // Dispatches sized on the device have rows of 32,768 groups (shaders/shared/prepare.glsl).
+    // Dispatches sized on the device have rows of 32,768 groups (shaders/shared/lanes/prepare.glsl).
     RequiredLimit{"maxComputeWorkGroupCount[0]", 32768,
                   [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[0]; }},
     RequiredLimit{"maxComputeWorkGroupCount[1]", 65535,

@@ -78,21 +78,21 @@ struct DeviceMesh {
   Point to_unit(const Point& p) const { return transform()(p); }
   Point to_input(const std::array<float, 3>& p) const { return transform().inverse(p); }
 
-  /// Four texels per triangle, by leaf position (shaders/shared/closest_point.glsl).
+  /// Four texels per triangle, by leaf position (shaders/shared/tree/closest_point.glsl).
   Buffer triangles;
   VkBufferView triangle_texels = VK_NULL_HANDLE;
-  /// Boxes and moments, twelve texels per inner node (shaders/shared/tree.glsl).
+  /// Boxes and moments, twelve texels per inner node (shaders/shared/tree/tree.glsl).
   Buffer tree;
   VkBufferView tree_texels = VK_NULL_HANDLE;
   /// Index into MeshView::triangles, one word per leaf position.
   Buffer triangle_info;
   /// gpu::TriangleLinks by leaf position, as two texels of integers, and caps of spokes by vertex
-  /// (runtime/src/mesh_links.h); null until add_links().
+  /// (runtime/src/device_mesh/mesh_links.h); null until add_links().
   Buffer triangle_links;
   VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;
   VkBufferView corner_texels = VK_NULL_HANDLE;
-  /// gpu::Cluster, in leaf order (runtime/src/clusters.h); null until add_links(). So few that every device allows the
+  /// gpu::Cluster, in leaf order (runtime/src/device_mesh/clusters.h); null until add_links(). So few that every device allows the
   /// view.
   static constexpr std::uint32_t kMostClusters = 8192;
   Buffer clusters;

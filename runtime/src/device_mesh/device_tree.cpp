@@ -131,7 +131,7 @@ std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit, u
   return all;
 }
 
-/// The four texels of a child's moments, as shaders/shared/winding.glsl evaluates them.
+/// The four texels of a child's moments, as shaders/shared/tree/winding.glsl evaluates them.
 std::array<Texel, 4> moment_texels(const Moments& m, double total_area) {
   constexpr double kSphere = 4 * std::numbers::pi;
   std::array<Point, 3> about_centre = m.mixed;

@@ -1,5 +1,5 @@
 // What the packet kernels read of a mesh besides DeviceMesh: a wide tree over the same leaf order, and triangles in
-// frames of their own (shaders/shared/tree_packet.glsl, triangle_frame.glsl).
+// frames of their own (shaders/shared/tree/tree_packet.glsl, triangle_frame.glsl).
 #pragma once
 
 #include <span>

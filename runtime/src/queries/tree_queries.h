@@ -94,7 +94,7 @@ class TreeQueries {
   const DeviceMesh* mesh_;
   Arena arena_;
   std::uint32_t counts_;  // a specialization constant: 0 or 1
-  Buffer unresolved_;     // shaders/shared/tree_query.glsl
+  Buffer unresolved_;     // shaders/shared/tree/tree_query.glsl
   BufferRange stop_;
   Buffer total_;
 };

@@ -1,5 +1,5 @@
 // A power cell in units of its ball's radius, relative to its centre: a box, cut by one plane after the other (the host's
-// runtime/src/balls/power_cell.h). Three planes meet in every corner, as in N. Ray, D. Sokolov, S. Lefebvre, B. Levy,
+// runtime/src/balls/cells/power_cell.h). Three planes meet in every corner, as in N. Ray, D. Sokolov, S. Lefebvre, B. Levy,
 // "Meshless Voronoi on the GPU", 2018; but a new corner lies on the edge that is cut, between the ends of that edge.
 // So it is as close to the planes of the edge as the ends are, and one rounding: however the planes meet, no corner is
 // farther from its own planes, or beyond others, than its generation says (docs/theory.md, "On the device").

@@ -1,6 +1,6 @@
 // The angle of a vector, for what is proved by it: Vulkan lets GLSL's atan be wrong by 4096 units in the last place.
 // Series for |tan| <= tan(pi / 8) from Cephes (S. L. Moshier, atanf), wrong by less than 2^-24 of the angle; with the
-// quotient (2.5 units) and the other roundings, 8 u of it, u = 2^-24. Read as C++ by tests/unit/angles_test.cpp.
+// quotient (2.5 units) and the other roundings, 8 u of it, u = 2^-24. Read as C++ by tests/unit/device/angles_test.cpp.
 #ifndef MEDIAL_VK_ANGLE_OF_GLSL
 #define MEDIAL_VK_ANGLE_OF_GLSL
 

@@ -1,6 +1,6 @@
 // Sine, cosine and arcsine as exactly as float allows, for what is proved by them: Vulkan lets those of GLSL be wrong by
 // 5e-4. Series, with what is left out below 2e-7 and no more than a few roundings: wrong by less than 1e-6
-// (tests/unit/angles_test.cpp, which compiles this file as C++).
+// (tests/unit/device/angles_test.cpp, which compiles this file as C++).
 #ifndef MEDIAL_VK_ANGLES_GLSL
 #define MEDIAL_VK_ANGLES_GLSL
 

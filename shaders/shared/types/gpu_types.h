@@ -1,4 +1,4 @@
-// Structures and numbers that C++ and GLSL share. Read by both compilers; tests/unit/gpu_types_test.cpp compares the
+// Structures and numbers that C++ and GLSL share. Read by both compilers; tests/unit/device/gpu_types_test.cpp compares the
 // offsets that each of them gives. Storage buffers use std430.
 #ifndef MEDIAL_VK_GPU_TYPES_H
 #define MEDIAL_VK_GPU_TYPES_H

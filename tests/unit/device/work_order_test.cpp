@@ -1,4 +1,4 @@
-// The order in which lines and flux samples are asked (shaders/sort_by_work.comp): all of them, and neighbours with
+// The order in which lines and flux samples are asked (shaders/certified/sort_by_work.comp): all of them, and neighbours with
 // about as many contacts.
 #include <gtest/gtest.h>
 

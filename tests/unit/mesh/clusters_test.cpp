@@ -91,7 +91,7 @@ TEST(Clusters, AnUntrustedNormalFitsNoCone) {
   for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), {}, 16, 8192)) EXPECT_EQ(c.axis.w, gpu::kNoCone);
 }
 
-// +1 or -1 as shaders/shared/cluster.glsl has it: by the cylinder and the tilt.
+// +1 or -1 as shaders/shared/certified/cluster.glsl has it: by the cylinder and the tilt.
 int side_by_cylinder(const gpu::Cluster& c, const Point& p) {
   const Point v = xyz(c.centre) - p, axis = xyz(c.axis);
   const double along = dot(v, axis), most_across = length(v - along * axis) + double{c.centre.w};

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kQueries = 51;
 constexpr float kFar = 3.4e38f;
-constexpr VkDeviceSize kTexelsPerNode = 12;  // shaders/shared/tree.glsl
+constexpr VkDeviceSize kTexelsPerNode = 12;  // shaders/shared/tree/tree.glsl
 
 struct Tests {
   std::uint64_t nodes = 0, triangles = 0;

@@ -33,7 +33,7 @@ constexpr double kMostKept = 6, kLikelyKept = 1.5;
 // ones.
 constexpr double kFull = 0.6;
 
-// Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
+// Bound of the rounding error of a distance in the unit box (shaders/shared/tree/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
 // Centres of cells are rounded three times: at most 3 * 2^-25 a coordinate.
 constexpr double kCentreError = 3e-7;

@@ -120,7 +120,7 @@ class CertifiedPipeline {
   enum class Reads : std::uint32_t { kNoMesh, kClusters, kTriangles, kTree, kLinks };
   std::vector<VkBufferView> texels_of(Reads reads) const;
   static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup whose invocations walk together
-  // Do its invocations work alone, or eight together (shaders/shared/lanes.glsl)?
+  // Do its invocations work alone, or eight together (shaders/shared/lanes/lanes.glsl)?
   enum class Lanes : std::uint32_t { kAlone, kEight };
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {

@@ -19,7 +19,7 @@ static_assert(gpu::kThesisLevels + gpu::kThesisCountsPerLevel * 4 <= gpu::kCount
 
 constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded sequence
 
-// Bound of the rounding error of a distance in the unit box (shaders/shared/closest_point.glsl).
+// Bound of the rounding error of a distance in the unit box (shaders/shared/tree/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
 // Made smaller by this, the ball around a point through its nearest boundary point does not seem to hold that point:
 // some times the error that is usual (1e-7), so that a change of B is seen late by about as much.
