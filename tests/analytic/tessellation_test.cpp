@@ -1,6 +1,6 @@
 // The same smooth solids cut into triangles in many ways: what is found must be the medial surface of the smooth solid,
-// not of its facets. Both ways, within 1.5 voxels; tests/support/solids/mesh_promises.h says what can be asked of a mesh and
-// why.
+// not of its facets. Both ways, within 1.5 voxels; tests/support/solids/mesh_promises.h says what can be asked of a
+// mesh and why.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kFluxSamples = 48;  // as in shaders/shared/types/gpu_types.h
 
-// The samples of shaders/shared/certified/flux_samples.glsl, written again: the golden angle, heights at the middles of N equal
-// parts.
+// The samples of shaders/shared/certified/flux_samples.glsl, written again: the golden angle, heights at the middles of
+// N equal parts.
 std::vector<Eigen::Vector3d> golden_spiral() {
   std::vector<Eigen::Vector3d> directions;
   const double golden_angle = std::acos(-1.0) * (3 - std::sqrt(5.0));

@@ -44,9 +44,9 @@ class Context::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
   VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
-  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles (shaders/shared/lanes/lanes.glsl)?
-  // True on llvmpipe, whose subgroups are the lanes of a vector, filled in order; elsewhere nothing promises it. Tests
-  // clear it.
+  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles
+  // (shaders/shared/lanes/lanes.glsl)? True on llvmpipe, whose subgroups are the lanes of a vector, filled in order;
+  // elsewhere nothing promises it. Tests clear it.
   bool has_lockstep_lanes = false;
   // Into so many stretches of neighbouring workgroups a dispatch is cut, one for each thread of a processor that runs
   // shaders (llvmpipe); 1: it is not. If it is wrong, threads are worked unevenly. Tests change it.

@@ -92,8 +92,8 @@ struct DeviceMesh {
   VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;
   VkBufferView corner_texels = VK_NULL_HANDLE;
-  /// gpu::Cluster, in leaf order (runtime/src/device_mesh/clusters.h); null until add_links(). So few that every device allows the
-  /// view.
+  /// gpu::Cluster, in leaf order (runtime/src/device_mesh/clusters.h); null until add_links(). So few that every device
+  /// allows the view.
   static constexpr std::uint32_t kMostClusters = 8192;
   Buffer clusters;
   VkBufferView cluster_texels = VK_NULL_HANDLE;

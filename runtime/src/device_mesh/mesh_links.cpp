@@ -20,8 +20,8 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 // Trusted normals are right to 1e-7 (prepare_mesh.cpp), and edges come from coordinates that were rounded when they
 // were written: features within this (radians) of being touchable count as touchable.
 constexpr double kTouchSlack = 3e-7;
-// Normals closer than this count as one: faces are listed with a cap of twice that (shaders/shared/certified/carriers.glsl), and
-// hold their edges and vertices.
+// Normals closer than this count as one: faces are listed with a cap of twice that
+// (shaders/shared/certified/carriers.glsl), and hold their edges and vertices.
 constexpr double kFlat = 5e-6;
 // Two sides of an untrusted triangle at a larger angle than this (its sine) give a normal that is right to 1e-9.
 constexpr double kLeastCornerSine = 1e-6;

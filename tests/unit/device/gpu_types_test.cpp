@@ -1,5 +1,5 @@
-// The structures that C++ and GLSL share (shaders/shared/types/gpu_types.h): what the C++ compiler made of them against what
-// the shader compiler did, member by member, in every embedded kernel that uses them.
+// The structures that C++ and GLSL share (shaders/shared/types/gpu_types.h): what the C++ compiler made of them against
+// what the shader compiler did, member by member, in every embedded kernel that uses them.
 #include "gpu_types.h"
 
 #include <gtest/gtest.h>

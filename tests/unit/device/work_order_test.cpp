@@ -1,5 +1,5 @@
-// The order in which lines and flux samples are asked (shaders/certified/sort_by_work.comp): all of them, and neighbours with
-// about as many contacts.
+// The order in which lines and flux samples are asked (shaders/certified/sort_by_work.comp): all of them, and
+// neighbours with about as many contacts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/stage_progress.h"
 #include "spheres/cover/cover.h"
+#include "spheres/measures/threads.h"
 
 namespace medial_vk {
 
@@ -28,7 +28,7 @@ class CoverFamily {
  public:
   /// By top: balls inside, T of them, or fewer for the greatest; more may come later. Keeps references.
   CoverFamily(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts, unsigned threads,
-              const StageProgress& progress)
+              const SphereProgress& progress)
       : solid_(solid), starts_(starts), threads_(threads), progress_(progress) {}
 
   struct Answer {
@@ -49,7 +49,7 @@ class CoverFamily {
   const Solid& solid_;
   const std::map<std::size_t, std::vector<Ball>>& starts_;
   unsigned threads_;
-  const StageProgress& progress_;
+  const SphereProgress& progress_;
   std::map<std::size_t, Answer> tops_;  // for as many balls as the top has
   std::map<std::size_t, Cover> found_;  // of the last search, by top
   std::mutex mutex_;                    // of progress_, and

@@ -9,6 +9,9 @@
 
 namespace medial_vk {
 
+/// Stage and share of it done; false: stop. For one thread at a time.
+using SphereProgress = std::function<bool(const char* stage, double done)>;
+
 /// Thrown by loops that were told to stop.
 struct Stopped {};
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <vector>
 
 #include "medial_vk/ball.h"
 #include "medial_vk/spheres.h"
 #include "mesh/solid.h"
+#include "spheres/measures/threads.h"
 
 namespace medial_vk {
 
@@ -22,9 +22,6 @@ struct SphereSet {
   /// the method best, balanced: when there were as many as a level has.
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };
-
-/// Stage and share of it done; false: stop. For one thread at a time.
-using SphereProgress = std::function<bool(const char* stage, double done)>;
 
 /// Certified balls of the medial points of the solid. Errors: those of extract_and_certify().
 Result<std::vector<Ball>> find_medial_balls(const Solid& solid, const ExtractionOptions& options,
