@@ -97,7 +97,7 @@ TEST_P(ExactPrism, EveryCrossedVoxelHasAPointOnTheMedialSurface) {
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
   SCOPED_TRACE(test::describe(result));
   const double epsilon = parameters.epsilon * result.extraction.grid.voxel_size;
-  EXPECT_EQ(result.certify.rejected, 0u);
+  EXPECT_EQ(result.certificate.rejected, 0u);
   expect_close_to_medial_surface(prism, to_world.transpose(), result.extraction, epsilon);
   expect_every_crossed_voxel_found(prism, to_world, result.extraction, epsilon);
 }
@@ -120,7 +120,7 @@ TEST(ExactBox, ObjectAnglesAreThoseOfItsFaces) {
     const auto angle = static_cast<double>(s.object_angle);
     // Spoke b comes from the device: off by 2 * slack / D (docs/theory.md, "Rounding"; slack is 2e-6 of the longest
     // side), half of it in the object angle; 1e-6 for numbers written as floats.
-    const double tolerance = 2e-6 * longest_side(mesh.report) / s.radius + 1e-6;
+    const double tolerance = 2e-6 * mesh.report.longest_side() / s.radius + 1e-6;
     const bool is_neighbours = std::abs(angle - std::numbers::pi / 4) <= tolerance;
     const bool is_opposite = std::abs(angle - std::numbers::pi / 2) <= tolerance;
     EXPECT_TRUE(is_neighbours || is_opposite) << "object angle " << angle << ", radius " << s.radius;

@@ -107,7 +107,7 @@ TEST(SmoothCapsule, PointsFormAChainAlongItsAxis) {
   const double step = std::numbers::pi / segments;  // half of a facet's turn, in both directions on the caps
   const double delta = radius * (1 - std::cos(step) * std::cos(step));
   const double reach = salient_reach(r.epsilon, delta, std::sqrt(2.0) * step);
-  EXPECT_EQ(r.result.certify.rejected, 0u);
+  EXPECT_EQ(r.result.certificate.rejected, 0u);
   for (const MedialSphere& s : r.result.extraction.spheres) {
     const Vector3d p = r.in_body(s);
     const Vector3d on_axis(0, 0, std::clamp(p.z(), -length / 2, length / 2));

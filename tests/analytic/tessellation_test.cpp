@@ -176,7 +176,7 @@ TEST_P(Tessellation, MedialSurfaceIsThatOfTheSmoothSolid) {
     const PreparedMesh prepared = test::prepare(turned(mesh));
     ASSERT_TRUE(prepared.report.closed);
     ASSERT_EQ(prepared.report.trusted_triangles, mesh.triangles.size());
-    const double voxel = longest_side(prepared.report) / kResolution, deviation = test::deviation(*solid, mesh);
+    const double voxel = prepared.report.longest_side() / kResolution, deviation = test::deviation(*solid, mesh);
     const Expectation expected = {*solid, deviation, test::promises_of(*solid, mesh, deviation, voxel / 2)};
     for (const double object_angle : {0.4, 0.6, 0.9, 1.2}) {
       const CertifiedExtraction result = extract(prepared, object_angle);

@@ -52,9 +52,11 @@ TEST_P(CopyingQueue, AnswersQueriesAlike) {
 TEST_P(CopyingQueue, FollowsAMeshThatMoves) {
   const PreparedMesh mesh = small_box(), moved = sheared(mesh);
   expect_same([&](Context& context) -> Answer {
-    Scene scene = test::make_scene(context, mesh.view()).value();
+    IndexedMesh indexed = test::indexed(mesh);
+    Scene scene = Scene::create(context, indexed).value();
     const std::string before = ask_everything(scene).value();
-    EXPECT_TRUE(scene.update(moved.view()).ok());
+    EXPECT_TRUE(indexed.move_vertices(moved.mesh.vertices).ok());
+    EXPECT_TRUE(scene.update(indexed).ok());
     return before + ask_everything(scene).value();
   });
 }

@@ -299,10 +299,13 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     ASSERT_TRUE(context.ok()) << context.error().message;
     const PreparedMesh mesh = small_box();
     const PreparedMesh moved = sheared(mesh);
-    Scene scene = test::make_scene(context.value(), mesh.view()).value();
+    const IndexedMesh indexed = test::indexed(mesh);
+    IndexedMesh indexed_moved = indexed;
+    ASSERT_TRUE(indexed_moved.move_vertices(moved.mesh.vertices).ok());
+    Scene scene = Scene::create(context.value(), indexed).value();
     const std::string before = ask_everything(scene).value();
     const auto job = [&]() -> Answer {
-      const Status updated = scene.update(moved.view());
+      const Status updated = scene.update(indexed_moved);
       // Afterwards: a scene that was left half-way must say so, and not answer for a mixture of two meshes.
       Answer now = ask_everything(scene);
       if (!updated.ok()) {
@@ -312,7 +315,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
       return now;
     };
     const auto back = [&](std::uint64_t) {
-      const Status updated = scene.update(mesh.view());
+      const Status updated = scene.update(indexed);
       ASSERT_TRUE(updated.ok()) << updated.error().message;
       const Answer now = ask_everything(scene);
       ASSERT_TRUE(now.ok());

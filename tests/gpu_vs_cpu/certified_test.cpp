@@ -105,13 +105,13 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
     EXPECT_GT(c.levels[0].node_tests, 0u);
   }
   EXPECT_GE(c.levels[finest].triangle_tests, 48 * c.found);
-  EXPECT_EQ(found, c.found + result.certify.rejected);
+  EXPECT_EQ(found, c.found + result.certificate.rejected);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
-  EXPECT_EQ(result.certify.passed, result.extraction.spheres.size());
+  EXPECT_EQ(result.certificate.passed, result.extraction.spheres.size());
   // What is kept to the very end belongs to undecided voxels; where the boundary has no trusted normals, cells may be
   // given up before, but none at the finest level.
   const std::uint64_t left = closed ? c.levels.back().kept : c.levels[finest + 1].kept;
-  EXPECT_LE(c.undecided, left + result.certify.rejected);
+  EXPECT_LE(c.undecided, left + result.certificate.rejected);
 }
 
 class CertifiedOnDevice : public testing::TestWithParam<Solid> {};
@@ -139,7 +139,8 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   }
   {
     SCOPED_TRACE("found by the device only");
-    expect_explained(missing_from(reference, device.extraction, parameters), reference.counters.undecided, points);
+    expect_explained(missing_from(reference, device.extraction, parameters), reference.measurements.counters.undecided,
+                     points);
   }
   expect_consistent(device, parameters.extra_levels, mesh.report.closed);
   return device;
@@ -275,7 +276,7 @@ TEST(CertifiedRadius, DeepPointsPassTheCertificate) {
   parameters.radius = 0.05;
   const CertifiedExtraction by_both = test::extract_on_device(context, mesh, parameters);
   EXPECT_TRUE(test::passes_certificate(mesh, by_both.extraction, parameters));
-  const double least = parameters.radius * longest_side(mesh.report);
+  const double least = parameters.radius * mesh.report.longest_side();
   std::size_t deep = 0;
   for (const MedialSphere& s : by_both.extraction.spheres) {
     if (static_cast<double>(s.object_angle) >= parameters.object_angle) continue;

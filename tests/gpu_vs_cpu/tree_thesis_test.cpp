@@ -57,7 +57,7 @@ reference::Result extract_with_reference(const Mesh& mesh, const ExtractionOptio
   p.certified = false;
   p.resolution = static_cast<int>(parameters.resolution);
   p.radius = parameters.radius;
-  p.thesis.narrow_features = parameters.thesis.narrow_features;
+  p.narrow_features = parameters.thesis.narrow_features;
   return reference::extract(test::to_reference(mesh), p);
 }
 
@@ -87,7 +87,7 @@ void expect_same_levels(const Extraction& device, const reference::Result& truth
   }
 }
 
-CertifyReport certify(const Solid& solid, const ExtractionOptions& parameters, Extraction& extraction) {
+CertificateReport certify(const Solid& solid, const ExtractionOptions& parameters, Extraction& extraction) {
   return certify_spheres(test::indexed(solid.view()), parameters, extraction);
 }
 
@@ -103,7 +103,7 @@ TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
     expect_same_levels(found, truth);
     // A point within epsilon of a face of its voxel may be found on the other side of it: 3 pairs of faces, 2 epsilon.
     EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
-    const CertifyReport report = certify(solid, parameters, found);
+    const CertificateReport report = certify(solid, parameters, found);
     EXPECT_LE(report.rejected, found.spheres.size() / 200);
   }
 }
@@ -156,10 +156,11 @@ TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
   const auto parts = test::extract_spheres(*context_, solid.view(), parameters).value();
   ASSERT_EQ(whole.spheres.size(), parts.spheres.size());
   for (std::size_t i = 0; i < whole.spheres.size(); ++i) EXPECT_EQ(whole.spheres[i].centre, parts.spheres[i].centre);
-  EXPECT_EQ(whole.counters.queries, parts.counters.queries);
-  ASSERT_EQ(whole.counters.levels.size(), parts.counters.levels.size());
-  for (std::size_t level = 0; level < whole.counters.levels.size(); ++level) {
-    const ExtractionCounters::Level &one = whole.counters.levels[level], &many = parts.counters.levels[level];
+  EXPECT_EQ(whole.measurements.counters.queries, parts.measurements.counters.queries);
+  ASSERT_EQ(whole.measurements.counters.levels.size(), parts.measurements.counters.levels.size());
+  for (std::size_t level = 0; level < whole.measurements.counters.levels.size(); ++level) {
+    const ExtractionCounters::Level &one = whole.measurements.counters.levels[level],
+                                    &many = parts.measurements.counters.levels[level];
     EXPECT_EQ(one.node_tests, many.node_tests) << "level " << level;
     EXPECT_EQ(one.triangle_tests, many.triangle_tests) << "level " << level;
     // Every cell that is visited asks for its nearest triangle, with a walk of its own.

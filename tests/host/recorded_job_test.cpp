@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
-#include <medial_vk/queries.h>
+#include <medial_vk/scene.h>
 
 #include <algorithm>
 #include <array>

@@ -24,12 +24,12 @@ void expect_same_bytes(const Extraction& a, const Extraction& b) {
   for (std::size_t i = 0; i < a.spheres.size(); ++i) {
     ASSERT_EQ(std::memcmp(&a.spheres[i], &b.spheres[i], sizeof(MedialSphere)), 0) << "sphere " << i;
   }
-  EXPECT_EQ(a.counters.found, b.counters.found);
-  EXPECT_EQ(a.counters.undecided, b.counters.undecided);
-  EXPECT_EQ(a.counters.proved_empty, b.counters.proved_empty);
-  ASSERT_EQ(a.counters.levels.size(), b.counters.levels.size());
-  for (std::size_t i = 0; i < a.counters.levels.size(); ++i) {
-    const ExtractionCounters::Level &x = a.counters.levels[i], &y = b.counters.levels[i];
+  EXPECT_EQ(a.measurements.counters.found, b.measurements.counters.found);
+  EXPECT_EQ(a.measurements.counters.undecided, b.measurements.counters.undecided);
+  EXPECT_EQ(a.measurements.counters.proved_empty, b.measurements.counters.proved_empty);
+  ASSERT_EQ(a.measurements.counters.levels.size(), b.measurements.counters.levels.size());
+  for (std::size_t i = 0; i < a.measurements.counters.levels.size(); ++i) {
+    const ExtractionCounters::Level &x = a.measurements.counters.levels[i], &y = b.measurements.counters.levels[i];
     EXPECT_EQ(x.visited, y.visited) << "level " << i;
     EXPECT_EQ(x.kept, y.kept) << "level " << i;
     EXPECT_EQ(x.contacts, y.contacts) << "level " << i;

@@ -29,7 +29,7 @@ PreparedMesh read_torus(std::uint32_t around, std::uint32_t along) {
 CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionOptions& parameters) {
   Context context = test::make_context();
   CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
-  EXPECT_EQ(result.certify.rejected, 0u);
+  EXPECT_EQ(result.certificate.rejected, 0u);
   // Its length over the diagonal of a voxel: it crosses more than that.
   const VoxelGrid& grid = result.extraction.grid;
   EXPECT_GT(result.extraction.spheres.size(), 2 * std::numbers::pi * 0.7 / (std::sqrt(3) * grid.voxel_size));

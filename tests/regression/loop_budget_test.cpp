@@ -31,7 +31,7 @@ void expect_centre_found(std::uint32_t resolution, std::uint32_t triangles, Cert
   ASSERT_EQ(result.extraction.spheres.size(), resolution % 2 == 1 ? 1u : 8u);
   EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
   EXPECT_EQ(result.extraction.measurements.counters.undecided, 0u);
-  EXPECT_EQ(result.certify.rejected, 0u);
+  EXPECT_EQ(result.certificate.rejected, 0u);
   // Frequency 100 or more: edges up to 0.02, facets up to edge^2 / 5 = 8e-5 below the sphere, their normals turned by
   // 0.02 at most. A point that passes as salient lies within (2 epsilon + 2 * 8e-5) / (cos 0.02 - cos 0.6) of the
   // centre: see salient_reach() in tests/analytic/smooth_solids_test.cpp.

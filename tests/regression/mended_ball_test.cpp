@@ -23,7 +23,7 @@ TEST(MendedBall, VoxelNextToAReflexEdgeKeepsItsPoint) {
   parameters.object_angle = 0.9;
   Context context = test::make_context();
   const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
-  EXPECT_EQ(result.certify.rejected, 0u);
+  EXPECT_EQ(result.certificate.rejected, 0u);
   const std::array<std::uint32_t, 3> voxel = {61, 44, 59};
   const auto& spheres = result.extraction.spheres;
   EXPECT_TRUE(std::any_of(spheres.begin(), spheres.end(), [&](const MedialSphere& s) { return s.voxel == voxel; }));

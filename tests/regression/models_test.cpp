@@ -63,7 +63,7 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
   EXPECT_LT(static_cast<double>(c.undecided), 0.01 * visited);
   EXPECT_LT(static_cast<double>(other), 0.0005 * visited);
   // Balls that the device believed in and double precision did not: rounding, so hardly any.
-  EXPECT_LE(result.certify.rejected, c.found / 100);
+  EXPECT_LE(result.certificate.rejected, c.found / 100);
 }
 
 /// Of the solid, which has one component and no cavity.

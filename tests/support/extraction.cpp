@@ -68,7 +68,7 @@ testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extr
 std::string describe(const CertifiedExtraction& result) {
   const ExtractionCounters& c = result.extraction.measurements.counters;
   std::ostringstream out;
-  out << "found " << c.found << ", undecided " << c.undecided << ", rejected " << result.certify.rejected
+  out << "found " << c.found << ", undecided " << c.undecided << ", rejected " << result.certificate.rejected
       << ", proved empty " << c.proved_empty << ", queries " << c.queries << ", retries " << c.retries << "; levels";
   for (const ExtractionCounters::Level& level : c.levels) {
     out << " [" << level.cell_size << ": " << level.visited << " visited, " << level.kept << " kept, " << level.contacts

@@ -11,6 +11,7 @@
 
 #include "cpu_reference/extract.h"
 #include "medial_vk/certify.h"
+#include "medial_vk/context.h"
 #include "medial_vk/mesh.h"
 
 namespace medial_vk::test {

@@ -18,12 +18,14 @@ namespace medial_vk {
 /// What to find. What is not requested is not computed.
 struct AnalysisOptions {
   ExtractionOptions extraction;
-  /// Group the spheres into sheets; without options they are not grouped. Volumes and the medial mesh need sheets.
+  /// Group the spheres into sheets; without options they are not grouped. `volumes`, `keep_volume`,
+  /// `removal_orders` and `medial_mesh` need sheets: kUsage without.
   std::optional<SheetOptions> sheets = SheetOptions();
   bool simplify = false;  ///< Leave out spheres whose centre is within epsilon of another one's (2.4.2).
   /// Measure the union of the balls, and with it the significance of sheets (6.1).
   bool volumes = false;
-  /// Share of the volume above which sheets are removed, the least significant first (6.3); 0: none is removed.
+  /// Sheets are removed, the least significant first, as long as the others hold at least this share of the volume
+  /// (6.3); 0: none is removed.
   double keep_volume = 0;
   bool keep_topology = false;   ///< Of `keep_volume`: remove no sheet that changes the topology of the union (6.4.1).
   bool removal_orders = false;  ///< Find the orders of removal by both rules, to their ends.
@@ -38,7 +40,7 @@ struct Analysis {
   VoxelGrid grid;
   std::vector<MedialSphere> spheres;      ///< Certified, in voxel order, with their sheets.
   std::vector<UndecidedVoxel> undecided;  ///< Mode certified, in voxel order.
-  CertifyReport certificate;
+  CertificateReport certificate;
   std::uint64_t simplified = 0;  ///< Spheres left out by `simplify`.
 
   /// Of the spheres; sheets that were removed keep their numbers and have no sphere left.

@@ -59,7 +59,7 @@ class Bvh {
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
   /// For several closest points near one another: leaf positions of all triangles within `radius` of `centre`, and of
-  /// some that are a little farther away, replace `positions`; closest_of() and find_within() then ask no others.
+  /// some that are a little farther away, replace `positions`; closest_of() and find_within() then test no others.
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
   /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;

@@ -12,25 +12,22 @@
 
 namespace medial_vk {
 
-struct CertifyReport {
+struct CertificateReport {
   std::uint64_t passed = 0;
-  std::uint64_t rejected = 0;  ///< Dropped, as nothing on their sheet beside them passed: undecided voxels.
+  std::uint64_t rejected = 0;  ///< Dropped: neither they nor a point beside them on their sheet passed.
 };
 
 /// Recomputes radius and spoke a exactly at each centre as it will be written, rounds the radius down by a derived
 /// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and
 /// has no other sphere (of several the first stays). Spheres that fail are dropped; in mode certified their voxels are
 /// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as
-/// extraction gives them.
-CertifyReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction);
-
-/// Called with the stage ("extract", "certify") and the share of it that is done.
-using StageProgress = std::function<void(const char* stage, double done)>;
+/// extraction gives them. Throws std::bad_alloc.
+CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction);
 
 /// What extract_and_certify() finds: every sphere has the certificate.
 struct CertifiedExtraction {
   Extraction extraction;
-  CertifyReport certify;
+  CertificateReport certificate;
   std::vector<StageTime> host_times;  ///< Seconds by the clock on the wall: "extract", "certify".
 };
 

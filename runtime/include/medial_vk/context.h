@@ -14,7 +14,7 @@ namespace medial_vk {
 
 /// One physical device as Vulkan lists it.
 struct DeviceDescription {
-  std::uint32_t index = 0;  ///< Position in Vulkan's enumeration; what `--device INDEX` takes.
+  std::uint32_t index = 0;  ///< Position in Vulkan's enumeration; what ContextOptions::device takes as an index.
   std::string name;
   std::string type;    ///< "discrete", "integrated", "virtual", "cpu" or "other".
   std::string driver;  ///< Driver name and version.

@@ -69,7 +69,7 @@ struct MedialSphere {
   std::array<float, 3> spoke_b;        ///< Unit vector to the boundary point on the other side of the medial sheet.
   float object_angle = 0;              ///< Half the angle between the spokes, radians.
   float flux = 0;                      ///< Average outward flux through the sphere around its voxel (2.4).
-  std::int32_t sheet = -1;             ///< -1 until sheets are grown (Section 2.5).
+  std::int32_t sheet = -1;             ///< -1 until sheets are found (Section 2.5).
   std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
 };
 
@@ -108,6 +108,8 @@ struct Extraction {
 
 /// Called with the share done, 0 to 1, between parts of the work and every ten milliseconds while the device computes.
 using ProgressCallback = std::function<void(double done)>;
+/// The same of calls with several stages, whose names they list.
+using StageProgress = std::function<void(const char* stage, double done)>;
 
 /// Finds the medial spheres of `mesh` on the device of `context`. Blocks until it is done, or until `stop` is requested
 /// from any thread, the callback included: then the device finishes the dispatch that it is at, and the context is as
@@ -126,7 +128,7 @@ using Extractor = std::function<Result<Extraction>(const IndexedMesh& mesh, cons
                                                    const ProgressCallback& progress, const std::stop_token& stop)>;
 
 /// On the device of `context`, which outlives it. The mesh that was searched last stays on the device, so that the next
-/// extraction of it uploads nothing. For one thread at a time.
+/// extraction of it uploads nothing. For one thread at a time. Throws std::bad_alloc.
 Extractor device_extractor(Context& context);
 
 }  // namespace medial_vk

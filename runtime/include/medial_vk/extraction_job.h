@@ -1,7 +1,7 @@
 // Extractions recorded into a host's command buffers: medial spheres of a mesh that moves, in buffers that the host
 // draws from or computes with. Nothing is submitted, waited for or read back by recording.
 //
-//   auto job = ExtractionJob::create(context, mesh, parameters);
+//   auto job = ExtractionJob::create(context, mesh, options);
 //   for every frame:
 //     mesh.move_vertices(positions);        // if they have moved
 //     job.update(mesh);
@@ -9,8 +9,8 @@
 //     ... barriers are recorded: what follows in `commands`, or waits for it, reads job.buffers() ...
 //
 // The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may stick out of the
-// solid by its rounding, 2e-6 of the longest side. (certify_spheres() of the product looks at each in double and drops
-// what does not pass.)
+// solid by its rounding, 2e-6 of the longest side. certify_spheres() (certify.h) examines each in double precision and
+// drops what does not pass.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -20,6 +20,7 @@
 
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 
@@ -72,7 +73,7 @@ struct JobOptions {
 class ExtractionJob {
  public:
   /// Takes memory and makes programs, so that recording takes neither; submits and waits where the device's memory is
-  /// not the host's. Errors: kUsage (a parameter out of range, mode thesis, no frames), kInvalidMesh, kOutOfMemory,
+  /// not the host's. Errors: kUsage (an option out of range, mode thesis, no frames), kInvalidMesh, kOutOfMemory,
   /// kInternal.
   static Result<ExtractionJob> create(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
                                       const JobOptions& job = {});
@@ -82,8 +83,8 @@ class ExtractionJob {
   ~ExtractionJob();
 
   /// Follows vertices that have moved, from the next record() on: `moved` is the mesh that create() was given, after
-  /// move_vertices(). CPU work. Errors: kUsage (another mesh; or the job was updated already since the last record()),
-  /// kInvalidMesh (no extent: record() fails until an update succeeds), kOutOfMemory.
+  /// move_vertices(). CPU work. Errors: kUsage (another mesh, as for Scene::update(); or the job was updated already
+  /// since the last record()), kInvalidMesh (no extent: record() fails until an update succeeds), kOutOfMemory.
   Status update(const IndexedMesh& moved);
 
   /// Appends to `commands`, which are in the recording state, outside of a render pass, and of the context's queue

@@ -17,10 +17,12 @@ namespace medial_vk {
 /// the others as they were.
 class IndexedMesh {
  public:
-  /// `threads` 0: one per core. Errors: those of Bvh::build().
+  /// `threads` 0: one per core. Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not
+  /// finite, flags that are neither none nor one per triangle), kOutOfMemory.
   static Result<IndexedMesh> create(PreparedMesh mesh, unsigned threads = 0);
   /// From a mesh for whose flags the caller vouches, without preparation: arrays are copied, and the report holds what
-  /// the arrays tell (counts, box). For meshes that are known to be clean, such as those of a renderer.
+  /// the arrays tell (counts, box). For meshes that are known to be clean, such as those of a renderer. The same
+  /// errors.
   static Result<IndexedMesh> create(const MeshView& mesh, unsigned threads = 0);
 
   // Moving is copying: none is ever empty.
@@ -32,7 +34,7 @@ class IndexedMesh {
   /// else is as it was.
   const PreparedMesh& prepared() const;
   MeshView view() const;
-  /// Do both share what they hold? Then they are the same mesh at the same positions.
+  /// True if both share their data. Two meshes that were created separately are different, even if they are equal.
   bool is_same(const IndexedMesh& other) const { return impl_ == other.impl_; }
   /// The tree over the triangles, in the units of the mesh.
   const Bvh& bvh() const;

@@ -27,20 +27,20 @@ struct ExtractionCounters {
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
     /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not
     /// those of the features of pairs; and triangles in leaves that walks of the tree get to (of which winding numbers
-    /// ask solid angles).
+    /// evaluate solid angles).
     std::uint64_t triangle_tests = 0;
     /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts`
     /// counts clusters there.
     std::uint64_t cluster_tests = 0;
     /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box against the
-    /// ball around its points and, if it gets there, once more for all of them; empty places of wide nodes count, too.
+    /// ball around its points and, if it gets there, once more for all of them; empty slots of wide nodes count, too.
     std::uint64_t node_tests = 0;
   };
   std::vector<Level> levels;
   std::uint64_t found = 0;            ///< Finest voxels with a point.
   std::uint64_t undecided = 0;        ///< Finest voxels neither found nor proved empty when the levels ran out.
   std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, themselves or in all their parts.
-  std::uint64_t queries = 0;          ///< Closest-point queries asked (contact lists and trees).
+  std::uint64_t queries = 0;          ///< Closest-point queries (contact lists and trees).
   std::uint32_t narrowing_steps = 0;  ///< Certified on a device: of every line, nine parts a step.
   std::uint64_t retries = 0;  ///< Chunks run again: in smaller parts since a buffer was full, or for longer lists.
 };

@@ -13,8 +13,7 @@
 
 namespace medial_vk {
 
-using MeshEdge = std::array<std::uint32_t, 2>;      ///< Indices of points, ascending.
-using MeshTriangle = std::array<std::uint32_t, 3>;  ///< The same.
+using MeshEdge = std::array<std::uint32_t, 2>;  ///< Indices of points, ascending.
 
 /// What a user compares with the solid: they are those of the solid if the mesh has kept its topology.
 struct MedialTopology {
@@ -28,7 +27,7 @@ struct MedialTopology {
 
 /// All vertices are the medial points, by their indices.
 struct MedialMesh {
-  std::vector<MeshTriangle> triangles;   ///< Ascending.
+  std::vector<Triangle> triangles;       ///< Indices of points, ascending.
   std::vector<MeshEdge> edges;           ///< Ascending: those of the triangles, and bare ones.
   std::vector<std::uint8_t> edge_marks;  ///< By edge, PointMark: it joins two sheets or has three triangles; or one.
   MedialTopology topology;
@@ -47,6 +46,6 @@ struct MedialMeshOptions {
 /// `sheets` are those of the same spheres. The mesh does not depend on the order of the spheres. Errors: those of
 /// measure_ball_union().
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
-                                    const MedialMeshOptions& parameters);
+                                    const MedialMeshOptions& options);
 
 }  // namespace medial_vk

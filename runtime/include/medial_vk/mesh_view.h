@@ -1,4 +1,5 @@
-// How a caller hands a triangle mesh to the runtime: borrowed arrays, nothing is copied until a Scene is made.
+// How a caller hands a triangle mesh to the runtime: borrowed arrays, nothing is copied until an IndexedMesh is
+// created.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Errors without exceptions: every fallible call of the runtime returns a Result or a Status.
+// Errors without exceptions: every fallible call of the library returns a Result or a Status.
 #pragma once
 
 #include <cassert>
@@ -26,7 +26,7 @@ struct Error {
   std::string message;
 };
 
-/// Either a value or an Error. Ask ok() before value().
+/// Either a value or an Error. Test ok() before value().
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -41,8 +41,8 @@ class Scene {
   /// Uploads the mesh. Errors: kInvalidMesh (no extent), kOutOfMemory.
   static Result<Scene> create(Context& context, const IndexedMesh& mesh);
   /// Follows vertices that have moved; `moved` is the mesh that create() was given, after move_vertices(). Errors:
-  /// kUsage (another mesh: the scene stays as it was), kInvalidMesh (no extent: it is of no use until an update
-  /// succeeds), kOutOfMemory (likewise).
+  /// kUsage (another mesh, as far as the order of its tree and the number of vertices tell: the scene stays as it was),
+  /// kInvalidMesh (no extent: it is of no use until an update succeeds), kOutOfMemory (likewise).
   Status update(const IndexedMesh& moved);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;

@@ -65,14 +65,14 @@ struct Sheets {
   std::uint64_t rim_points = 0;
 };
 
-/// Groups do not need them, volumes do; kLeftOut: those of sheets stay 0.
+/// The grouping does not need areas, volumes do; kLeftOut: those of sheets stay 0.
 enum class SheetAreas { kMeasured, kLeftOut };
 
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` is what the points were found with: its object angle and epsilon. Precondition: at most one point per
 /// voxel of `grid`.
 Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
-                   const SheetOptions& parameters, SheetAreas areas = SheetAreas::kMeasured);
+                   const SheetOptions& options, SheetAreas areas = SheetAreas::kMeasured);
 
 // What share of the volume each sheet accounts for, and the order in which sheets are removed (Chapter 6).
 // docs/theory.md, "Significance".

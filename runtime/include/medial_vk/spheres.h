@@ -24,7 +24,7 @@ enum class SphereContract {
 };
 
 enum class SphereMethod {
-  kBest,    ///< Chosen and moved for what the contract asks for.
+  kBest,    ///< Chosen and moved for the contract.
   kSource,  ///< One ball per voxel, the largest voxels that give no more balls than wanted (Section 7.3.2).
 };
 
@@ -45,7 +45,7 @@ struct SphereOptions {
   bool operator==(const SphereOptions&) const = default;
 };
 
-/// Where no count is given.
+/// The limit where no count is given.
 constexpr std::size_t kMostBalls = 20000;
 
 /// What fit_spheres() finds, in mesh units.
@@ -62,7 +62,7 @@ struct SphereFit {
 /// the contract, and measures them. `progress` is called with "medial points", "spheres" and "cover", one call at a
 /// time but from any thread; `stop` ends the call soon. Does not throw. Errors: those of the extractor; kUsage (no
 /// goal, a goal that the contract or method does not know, a goal that is not reached); kInvalidMesh (no ball fits);
-/// kOutOfMemory; kInterrupted; kInternal if balls do not keep the contract, for which no reason is known.
+/// kOutOfMemory; kInterrupted; kInternal if balls do not keep the contract (a defect).
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 

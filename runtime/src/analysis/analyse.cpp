@@ -49,7 +49,7 @@ class AnalysisRun {
     out_.spheres = std::move(extraction.spheres);
     out_.undecided = std::move(extraction.undecided);
     out_.measurements = std::move(extraction.measurements);
-    out_.certificate = found.value().certify;
+    out_.certificate = found.value().certificate;
     out_.host_times = std::move(found.value().host_times);
     return {};
   }

@@ -246,7 +246,7 @@ void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extractio
 
 }  // namespace
 
-CertifyReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction) {
+CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction) {
   std::vector<MedialSphere>& spheres = extraction.spheres;
   const Certifier certifier(mesh.bvh(), options, mesh.longest_side(), extraction.grid);
   std::vector<std::uint8_t> passed = first_of_voxels(spheres);
@@ -266,7 +266,7 @@ CertifyReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& 
   });
 
   if (options.mode == Mode::kCertified) list_dropped(passed, extraction);
-  CertifyReport report;
+  CertificateReport report;
   for (std::size_t i = 0; i < spheres.size(); ++i)
     if (passed[i] != 0) spheres[report.passed++] = spheres[i];
   report.rejected = spheres.size() - report.passed;

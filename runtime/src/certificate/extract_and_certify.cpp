@@ -24,7 +24,7 @@ Result<CertifiedExtraction> run_stages(const IndexedMesh& mesh, const Extraction
 
   if (progress) progress("certify", 0.0);
   if (stop.stop_requested()) return interrupted();
-  out.certify = certify_spheres(mesh, options, out.extraction);
+  out.certificate = certify_spheres(mesh, options, out.extraction);
   out.host_times.push_back({"certify", stopwatch.lap()});
   if (progress) progress("certify", 1.0);
   if (stop.stop_requested()) return interrupted();

@@ -22,6 +22,12 @@ MeshReport report_of(const MeshView& mesh) {
   return report;
 }
 
+Status check_flags(std::size_t flags, std::size_t triangles) {
+  if (flags == 0 || flags == triangles) return {};
+  return Error{ErrorCode::kInvalidMesh,
+               "there are " + std::to_string(flags) + " flags for " + std::to_string(triangles) + " triangles"};
+}
+
 void take_box(const Bvh& bvh, MeshReport& report) {
   report.lower = bvh.nodes().front().box.lower;
   report.upper = bvh.nodes().front().box.upper;
@@ -32,11 +38,7 @@ Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, st
     return Error{ErrorCode::kInvalidMesh, "the moved mesh has " + std::to_string(vertices.size()) +
                                               " vertices, the mesh has " + std::to_string(mesh.mesh.vertices.size())};
   }
-  if (!flags.empty() && flags.size() != mesh.mesh.triangles.size()) {
-    return Error{ErrorCode::kInvalidMesh, "there are " + std::to_string(flags.size()) + " flags for " +
-                                              std::to_string(mesh.mesh.triangles.size()) + " triangles"};
-  }
-  return {};
+  return check_flags(flags.size(), mesh.mesh.triangles.size());
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(imp
 
 Result<IndexedMesh> IndexedMesh::create(PreparedMesh mesh, unsigned threads) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
+    if (Status status = check_flags(mesh.flags.size(), mesh.mesh.triangles.size()); !status.ok()) return status.error();
     Result<Bvh> bvh = Bvh::build(mesh.view(), DeviceMesh::kLeafSize, threads);
     if (!bvh.ok()) return bvh.error();
     MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), threads);
@@ -59,6 +62,7 @@ Result<IndexedMesh> IndexedMesh::create(const MeshView& mesh, unsigned threads) 
     copy.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
     copy.flags.assign(mesh.flags.begin(), mesh.flags.end());
     copy.report = report_of(mesh);
+    if (Status status = check_flags(mesh.flags.size(), mesh.triangles.size()); !status.ok()) return status.error();
     Result<Bvh> bvh = Bvh::build(copy.view(), DeviceMesh::kLeafSize, threads);
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), copy.report);

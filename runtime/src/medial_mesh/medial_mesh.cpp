@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_mesh/collapse.h"
 #include "medial_mesh/mesh_topology_counts.h"
@@ -107,12 +108,16 @@ class Builder {
 }  // namespace
 
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
-                                    const MedialMeshOptions& parameters) {
-  const VoxelGraph graph(spheres, parameters.threads);
-  Result<MedialMesh> mesh = Builder(graph, parameters).run();
-  if (!mesh) return mesh;
-  if (const Status status = complete_medial_mesh(spheres.size(), sheets, mesh.value()); !status) return status.error();
-  return mesh;
+                                    const MedialMeshOptions& options) {
+  return catch_out_of_memory("joining medial points", [&]() -> Result<MedialMesh> {
+    const VoxelGraph graph(spheres, options.threads);
+    Result<MedialMesh> mesh = Builder(graph, options).run();
+    if (!mesh) return mesh;
+    if (const Status status = complete_medial_mesh(spheres.size(), sheets, mesh.value()); !status) {
+      return status.error();
+    }
+    return mesh;
+  });
 }
 
 }  // namespace medial_vk

@@ -7,7 +7,7 @@ namespace medial_vk {
 namespace {
 
 void sort_all(MedialMesh& mesh) {
-  for (MeshTriangle& t : mesh.triangles) std::sort(t.begin(), t.end());
+  for (Triangle& t : mesh.triangles) std::sort(t.begin(), t.end());
   for (MeshEdge& e : mesh.edges) std::sort(e.begin(), e.end());
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
   std::sort(mesh.edges.begin(), mesh.edges.end());
@@ -15,7 +15,7 @@ void sort_all(MedialMesh& mesh) {
 
 std::vector<std::uint32_t> triangles_by_edge(const MedialMesh& mesh) {
   std::vector<std::uint32_t> counts(mesh.edges.size(), 0);
-  for (const MeshTriangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.triangles) {
     for (const MeshEdge& side : {MeshEdge{t[0], t[1]}, MeshEdge{t[0], t[2]}, MeshEdge{t[1], t[2]}}) {
       const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), side);
       ++counts[static_cast<std::size_t>(found - mesh.edges.begin())];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "medial_vk/prepare.h"
@@ -69,7 +70,7 @@ void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed) {
   }
 }
 
-Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads) {
+Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads) try {
   const MeshReport before = std::move(mesh.report);
   perturb_vertices(mesh.mesh, amplitude, seed);
   Result<PreparedMesh> perturbed = prepare_mesh(std::move(mesh.mesh), threads);
@@ -81,6 +82,8 @@ Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint
       "the moved mesh.",
       amplitude, seed));
   return perturbed;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "not enough memory to move the vertices of the mesh"};
 }
 
 }  // namespace medial_vk

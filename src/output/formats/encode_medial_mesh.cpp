@@ -33,7 +33,7 @@ void append_binary(std::string& out, std::span<const MedialSphere> spheres, cons
     append_little_endian(out, sheets.of_point[i]);
     for (const PointMark mark : {kSeam, kRim}) append_little_endian(out, flag(sheets.marks[i], mark));
   }
-  for (const MeshTriangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.triangles) {
     append_little_endian(out, std::uint8_t{3});
     for (const std::uint32_t corner : t) append_little_endian(out, corner);
   }
@@ -51,7 +51,7 @@ void append_text(std::string& out, std::span<const MedialSphere> spheres, const 
     fmt::format_to(end, "{:.17g} {:.17g} {:.17g} {:.17g} {} {} {}\n", c[0], c[1], c[2], spheres[i].radius,
                    sheets.of_point[i], flag(sheets.marks[i], kSeam), flag(sheets.marks[i], kRim));
   }
-  for (const MeshTriangle& t : mesh.triangles) fmt::format_to(end, "3 {} {} {}\n", t[0], t[1], t[2]);
+  for (const Triangle& t : mesh.triangles) fmt::format_to(end, "3 {} {} {}\n", t[0], t[1], t[2]);
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
     fmt::format_to(end, "{} {} {} {}\n", mesh.edges[i][0], mesh.edges[i][1], flag(mesh.edge_marks[i], kSeam),
                    flag(mesh.edge_marks[i], kRim));
@@ -78,7 +78,7 @@ std::string encode_medial_mesh_ma(std::span<const MedialSphere> spheres, const M
     fmt::format_to(end, "v {} {} {} {}\n", s.centre[0], s.centre[1], s.centre[2], s.radius);
   }
   for (const MeshEdge& e : mesh.edges) fmt::format_to(end, "e {} {}\n", e[0], e[1]);
-  for (const MeshTriangle& t : mesh.triangles) fmt::format_to(end, "f {} {} {}\n", t[0], t[1], t[2]);
+  for (const Triangle& t : mesh.triangles) fmt::format_to(end, "f {} {} {}\n", t[0], t[1], t[2]);
   return out;
 }
 

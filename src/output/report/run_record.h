@@ -47,7 +47,7 @@ struct RunRecord {
   VoxelGrid grid;
   ExtractionCounters counters;
   std::vector<UndecidedVoxel> undecided;
-  CertifyReport certify;
+  CertificateReport certify;
   std::uint64_t points = 0;      ///< Written.
   std::uint64_t simplified = 0;  ///< Removed by --simplify.
   std::optional<Range> radii;

@@ -51,7 +51,7 @@ class CertifyTest : public testing::TestWithParam<double> {
     extraction_.spheres.push_back(s);
     ++extraction_.measurements.counters.found;
   }
-  CertifyReport certify(unsigned threads = 1) {
+  CertificateReport certify(unsigned threads = 1) {
     parameters_.threads = threads;
     return certify_spheres(indexed_, parameters_, extraction_);
   }
@@ -78,7 +78,7 @@ TEST_P(CertifyTest, LetsOneSphereOfAVoxelPass) {
   add(sphere_at(2.03, 1.97, 0.5 - 0.1 * epsilon()));
   add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));
   ASSERT_EQ(extraction_.spheres[0].voxel, extraction_.spheres[1].voxel);
-  const CertifyReport report = certify();
+  const CertificateReport report = certify();
   EXPECT_EQ(report.passed, 1u);
   EXPECT_EQ(report.rejected, 1u);
 }
@@ -110,7 +110,7 @@ TEST_P(CertifyTest, DropsWhatFailsAndKeepsTheOrder) {
   add(sphere_at(2.53, 1.97, 0.0));  // on the boundary
   add(sphere_at(3.03, 1.97, 0.5 - 0.2 * epsilon()));
   extraction_.measurements.counters.undecided = 10;
-  const CertifyReport report = certify();
+  const CertificateReport report = certify();
   EXPECT_EQ(report.passed, 2u);
   EXPECT_EQ(report.rejected, 3u);
   ASSERT_EQ(extraction_.spheres.size(), 2u);

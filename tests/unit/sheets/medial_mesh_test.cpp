@@ -154,7 +154,7 @@ TEST(MedialMesh, EveryPartIsThereOnceAndSidesOfTrianglesAreEdges) {
   ASSERT_TRUE(std::is_sorted(m.mesh.edges.begin(), m.mesh.edges.end()));
   EXPECT_EQ(std::adjacent_find(m.mesh.edges.begin(), m.mesh.edges.end()), m.mesh.edges.end());
   EXPECT_EQ(std::adjacent_find(m.mesh.triangles.begin(), m.mesh.triangles.end()), m.mesh.triangles.end());
-  for (const MeshTriangle& t : m.mesh.triangles) {
+  for (const Triangle& t : m.mesh.triangles) {
     for (const MeshEdge& side : {MeshEdge{t[0], t[1]}, MeshEdge{t[0], t[2]}, MeshEdge{t[1], t[2]}}) {
       EXPECT_TRUE(std::binary_search(m.mesh.edges.begin(), m.mesh.edges.end(), side));
     }
@@ -180,8 +180,8 @@ TEST(MedialMesh, DoesNotDependOnTheOrderOfPoints) {
   std::shuffle(order.begin(), order.end(), random);
   std::vector<MedialSphere> shuffled;
   for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
-  std::vector<MeshTriangle> triangles = meshed(shuffled).mesh.triangles;
-  for (MeshTriangle& t : triangles) {
+  std::vector<Triangle> triangles = meshed(shuffled).mesh.triangles;
+  for (Triangle& t : triangles) {
     for (std::uint32_t& corner : t) corner = order[corner];
     std::sort(t.begin(), t.end());
   }
