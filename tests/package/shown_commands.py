@@ -24,7 +24,8 @@ import time
 
 # What a command begins with, and why it is not run.
 NOT_RUN = {
-    r"scripts/(run$|run MESH|test|fuzz|soak|lint)": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"build/release/bin/test_": "is a program of tests that ctest runs, too",
     r"scripts/install-dependencies": "installs packages",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
     r"cmake ": "has configured and built this test; package.consumer installs",
