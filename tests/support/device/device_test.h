@@ -16,35 +16,33 @@ namespace medial_vk::test {
 class SharedContext : public testing::Environment {
  public:
   /// Null without a device.
-  static Context* get() {
-    std::unique_ptr<Context>& context = instance().context_;
-    if (context != nullptr) return context.get();
+  Context* get() {
     for (const bool validation : {true, false}) {
+      if (context_ != nullptr) break;
       Result<Context> made = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-      if (!made.ok()) continue;
-      context = std::make_unique<Context>(std::move(made).value());
-      break;
+      if (made.ok()) context_ = std::make_unique<Context>(std::move(made).value());
     }
-    return context.get();
+    return context_.get();
   }
   void TearDown() override { context_.reset(); }
 
  private:
-  static SharedContext& instance() { return *registered_; }
-  static inline SharedContext* const registered_ = [] {
-    auto* const shared = new SharedContext;
-    testing::AddGlobalTestEnvironment(shared);  // which owns it from now on
-    return shared;
-  }();
   std::unique_ptr<Context> context_;
 };
+
+/// GoogleTest owns it.
+inline SharedContext* const shared_context = [] {
+  auto* const shared = new SharedContext;
+  testing::AddGlobalTestEnvironment(shared);
+  return shared;
+}();
 
 /// Uses the context that all tests of the program share; no message of the validation layer may come. Skipped without a
 /// device.
 class DeviceTest : public testing::Test {
  protected:
   void SetUp() override {
-    context_ = SharedContext::get();
+    context_ = shared_context->get();
     if (context_ == nullptr) GTEST_SKIP() << no_device_reason();
     messages_before_ = context_->validation_messages();
   }
