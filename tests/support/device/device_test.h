@@ -11,15 +11,21 @@
 
 namespace medial_vk::test {
 
-/// What the tests of a program share: one context, with validation where the layer is installed. It ends with the last
-/// test, before the driver is unloaded.
+/// What the tests of a program share: one context. It ends with the last test, before the driver is unloaded.
 class SharedContext : public testing::Environment {
  public:
+  /// With validation where the layer is installed.
+  static Result<Context> open() {
+    ContextOptions options = {.device = "", .validation = true, .cache_folder = "/dev/null"};
+    Result<Context> made = Context::create(options);
+    if (made.ok()) return made;
+    options.validation = false;
+    return Context::create(options);
+  }
   /// Null without a device.
   Context* get() {
-    for (const bool validation : {true, false}) {
-      if (context_ != nullptr) break;
-      Result<Context> made = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
+    if (context_ == nullptr) {
+      Result<Context> made = open();
       if (made.ok()) context_ = std::make_unique<Context>(std::move(made).value());
     }
     return context_.get();
@@ -51,9 +57,18 @@ class DeviceTest : public testing::Test {
       EXPECT_EQ(context_->validation_messages(), messages_before_);
     }
   }
+  /// Before a test alters its context, which others must not see: from now on it has one of its own.
+  void use_own_context() {
+    Result<Context> made = SharedContext::open();
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    own_ = std::make_unique<Context>(std::move(made).value());
+    context_ = own_.get();
+    messages_before_ = 0;
+  }
   Context* context_ = nullptr;
 
  private:
+  std::unique_ptr<Context> own_;
   std::uint64_t messages_before_ = 0;
 };
 

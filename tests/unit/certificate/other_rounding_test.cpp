@@ -151,6 +151,7 @@ std::vector<float> make_specials(Context::Impl& context, std::span<const std::ui
 }
 
 TEST_F(MakeSpecials, AreThereAndAreReplaced) {
+  use_own_context();
   const std::vector<float> plain = make_specials(context_->impl(), kMakeSpecialsSpirv);
   EXPECT_TRUE(std::isinf(plain[0]));
   EXPECT_TRUE(std::isnan(plain[1]));

@@ -76,6 +76,7 @@ std::vector<Point> points_around(const Point& centre) {
 }
 
 TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
+  use_own_context();
   Context::Impl& context = context_->impl();
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
   for (const bool texels : {true, false}) {
