@@ -1,7 +1,13 @@
 # Written by tests/measure_times.py, read by ctest: the seconds of the slowest tests. Those that cost most start first.
 set(times
+  "faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers" 81
+  "regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles" 40
   "cli.Kills.LeaveWholeFilesOrNone/Spheres" 18
+  "faults.PictureFaults.OfMemory" 18
+  "regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles" 16
   "cli.SpheresCommand.CoversAndBalancedSetsMeetGoals" 14
+  "faults.HostMemory.RunsOutInThesisExtraction" 14
+  "faults.VulkanFaults.OfThesisExtraction" 13
   "property.Foam.BoundsWidthAndDepth" 13
   "property.SphereCover.CoversEverySolidWithAnyNumber" 13
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_16x" 12
@@ -11,28 +17,45 @@ set(times
   "gpu_vs_cpu.CertifiedOpen.MoreOpenEdgesThanAreListed" 9
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_16x" 8
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/3" 8
+  "regression.LoopBudget.MoreTrianglesThanEightBudgets" 8
+  "unit.ReadLimits.AHundredThousandFacesThatAreAllClose" 8
+  "unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint" 8
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_16x" 7
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/0" 7
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_4x" 6
+  "embedding.Contexts.AThousandOfThemLeaveNothingBehind" 6
   "gpu_vs_cpu.TreeQueriesTest.Fluxes" 6
   "property.Dismissal.AtFinsAndFansLosesNoSalientSample" 6
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/capsule" 6
   "property.SphereCover.OfABallIsOneBall" 6
+  "unit.FitParts.ThePrimitivesErrorIsThatOfItsShape" 6
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_4x" 5
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_16x" 5
+  "faults.HostMemory.OfTheHostsCallbacksRunsOut" 5
+  "faults.MemoryBudget.CountsTheMesh" 5
+  "faults.TwoQueueFaults.OfManyChunks/CopiesAreLate" 5
   "gpu_vs_cpu.CertifiedClusters.AgreesWithTheReferenceWhereListsHoldClusters" 5
   "gpu_vs_cpu.TreeThesisTest.FindsWhatTheReferenceFinds" 5
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/prolate" 5
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/sphere" 5
   "property.SphereCover.LevelsAreTheAnswersForTheirNumbers" 5
+  "unit.BalancedSpheres.MeetAnErrorThatIsMeasuredOtherwise" 5
+  "unit.FitParts.StopsWhereverItIsAsked" 5
+  "unit.ReferenceUndecided.HiddenPointsAreAsTheirVoxelSays" 5
+  "unit.SphereMeasures.AnOpenMeshHasAnEstimate" 5
   "analytic.ReferenceAnalytic.IndependentSamplesAreFound" 4
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_1x" 4
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_4x" 4
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_4x" 4
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_1x" 4
+  "faults.PoorDevice.ReadsAMeshBeyondTheStorageBuffersAsTexels" 4
+  "faults.TwoQueueFaults.OfManyChunks/KernelsAreLate" 4
   "gpu_vs_cpu.CertifiedOpen.ARimInThePlaneOfCellCentres" 4
   "property.Foam.HoldsTheContactsOfEveryMedialPointOfTheHull" 4
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/flat_torus" 4
+  "regression.LoopBudget.ClustersAreExpandedInRounds" 4
+  "unit.DispatchRowsTest.ResultsAreTheSameForAnyNumberOfThreads" 4
+  "unit.ReferenceDismissal.UntrustedTrianglesFromEitherSide" 4
   "analytic.Prisms/ExactPrism.EveryCrossedVoxelHasAPointOnTheMedialSurface/box" 3
   "analytic.Prisms/ExactPrism.EveryCrossedVoxelHasAPointOnTheMedialSurface/l_shape" 3
   "analytic.ReferenceAnalytic.CapsuleKeepsToItsAxis" 3
@@ -40,11 +63,20 @@ set(times
   "cli.Kills.LeaveWholeFilesOrNone/AllFiles" 3
   "cli.Kills.LeaveWholeFilesOrNone/Points" 3
   "cli.SpheresCommand.BestGivesTheSameBytesOnAnyNumberOfThreads" 3
+  "faults.MemoryBudget.HoldsForTheCertifiedSearch" 3
+  "faults.PictureFaults.OfALostDevice" 3
+  "faults.RecordedJobFaults.OfASequenceThatIsRecordedAgain" 3
   "gpu_vs_cpu.BallUnionOnDevice.OfMedialBalls" 3
+  "picture.Readme.PictureIsCurrent" 3
+  "picture.Renderer.DrawsTheSpheresOfAMeshThatDeforms" 3
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/1" 3
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/2" 3
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/triaxial" 3
   "property.SphereCover.IsTheSameOnOneThread" 3
+  "regression.LoopBudget.ListsLongerThanTheBudget" 3
+  "regression.LoopBudget.SphereOfTwoHundredThousandTriangles" 3
+  "unit.ReferenceDismissal.AMessIsDismissedToo" 3
+  "unit.Stop.TakesEffectSoon/Thesis" 3
   "analytic.ReferenceAnalytic.EveryVoxelOfABoxIsFound" 2
   "analytic.Smooth/SmoothSphere.OnlyTheCentreIsMedial/20000" 2
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_1x" 2
@@ -52,13 +84,31 @@ set(times
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_1x" 2
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_1x" 2
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/triaxial_4x" 2
+  "embedding.Contexts.ThatLoadTheDriverAnewLeaveNothingBehind" 2
+  "embedding.Threads.RecordJobsAtOnce" 2
+  "embedding.Threads.WithAContextEachAnswerLikeOne" 2
+  "faults.HostMemory.OfTheHostsCallbacksRunsOutWhileOpeningADevice" 2
+  "faults.HostMemory.RunsOutInAFoam" 2
+  "faults.HostMemory.RunsOutInARecordedJob" 2
+  "faults.MemoryBudget.CountsWhatCopiesPassThrough" 2
+  "faults.VulkanFaults.OfCertifiedExtraction" 2
   "gpu_vs_cpu.CertifiedOpen.AgreesWithTheReference" 2
   "gpu_vs_cpu.PacketQueriesTest.GroupsOfPoints" 2
   "gpu_vs_cpu.Solids/CertifiedOnDevice.AgreesWithTheReference/capsule" 2
   "gpu_vs_cpu.TreeQueriesTest.CentreOfASphere" 2
+  "picture.DevicePicture.TilesAndPanelsMeetWithoutASeam" 2
+  "picture.Scenes/Golden.OnTheDevice/both_by_radius" 2
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/cup" 2
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/oblate" 2
   "property.SphereCover.OfAnOpenMeshTheSurface" 2
+  "unit.MedialMesh.AFlatSheetIsADisc" 2
+  "unit.OtherSpecialsTest.AnOpenMesh/large" 2
+  "unit.OtherSpecialsTest.AnOpenMesh/low" 2
+  "unit.OtherSpecialsTest.AnOpenMesh/zero" 2
+  "unit.ReadBrokenFiles.BytesAltered" 2
+  "unit.ReadLimits.ATangledPolygonBecomesAFan" 2
+  "unit.ReadLimits.LinesOfAHundredMegabytes" 2
+  "unit.ReadLimits.OneWordOfAHundredMegabytes" 2
   "analytic.KnownAreas.OfABox" 1
   "analytic.KnownSheetsOfATorus.OneRing" 1
   "analytic.Modes/BoxInMode.EveryPointIsOnABisector/Thesis" 1
@@ -76,6 +126,18 @@ set(times
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/l_shape" 1
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/plate_with_hole" 1
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/plate_with_two_holes" 1
+  "embedding.Threads.HandAContextOn" 1
+  "faults.CopyingQueue.ExtractsAlike/KernelsAreLate" 1
+  "faults.HostMemory.ComesFromTheHostsCallbacksAndGoesBackToThem" 1
+  "faults.HostMemory.RunsOutBesideCopies" 1
+  "faults.HostMemory.RunsOutInAShrinkingUnion" 1
+  "faults.HostMemory.RunsOutInCertifiedExtraction" 1
+  "faults.HostMemory.RunsOutWhileOpeningADevice" 1
+  "faults.MemoryBudget.HoldsForThePublishedSearch" 1
+  "faults.PoorDevice.ReadsALargeMeshThroughStorageBuffers" 1
+  "faults.TwoQueueFaults.OfCertifiedExtraction/CopiesAreLate" 1
+  "faults.TwoQueueFaults.OfCertifiedExtraction/KernelsAreLate" 1
+  "faults.VulkanFaults.OfAnUpdatedScene" 1
   "gpu_vs_cpu.BallUnionOnDevice.IsTheSameEveryTime" 1
   "gpu_vs_cpu.BallUnionOnDevice.OfManyAtRandom" 1
   "gpu_vs_cpu.CertifiedFaces.HoldSheetsThatAreFoundAtOnce" 1
@@ -97,6 +159,9 @@ set(times
   "gpu_vs_cpu.TreeThesisTest.PointsAreSortedAndTheSameEveryTime" 1
   "gpu_vs_cpu.TreeThesisTest.RadiusThreshold" 1
   "gpu_vs_cpu.TreeThesisTest.WithoutNarrowFeatures" 1
+  "picture.Scenes/Golden.OnTheDevice/balls_by_sheet" 1
+  "picture.Scenes/Golden.OnTheDevice/box_from_above" 1
+  "picture.Scenes/Golden.OnTheDevice/points_by_angle" 1
   "property.Determinism.SmallPiecesGiveTheSame" 1
   "property.Dismissal.OfAMessLosesNoSalientSample" 1
   "property.Foam.HoldsTheContactsAfterARefinement" 1
@@ -111,7 +176,42 @@ set(times
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/box" 1
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/l_shape" 1
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/plate_with_hole" 1
-  "property.SphereCover.EveryBallAndItsSizeAreNeeded" 1)
+  "property.SphereCover.EveryBallAndItsSizeAreNeeded" 1
+  "unit.BalancedSpheres.AreBetterThanBallsInsideAndThanTheSources" 1
+  "unit.BalancedSpheres.LevelsOfAnErrorAreHalves" 1
+  "unit.BalancedSpheres.MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumbers" 1
+  "unit.BestMethod.MoreBallsNeverLeaveMoreUncovered" 1
+  "unit.BothWays/OtherRoundingTest.ARoundSolidOfSmallTriangles/larger" 1
+  "unit.BothWays/OtherRoundingTest.ARoundSolidOfSmallTriangles/smaller" 1
+  "unit.BothWays/OtherRoundingTest.ASolidWithCorners/larger" 1
+  "unit.BothWays/OtherRoundingTest.AnOpenMesh/larger" 1
+  "unit.BothWays/OtherRoundingTest.AnOpenMesh/smaller" 1
+  "unit.Crossings.ATangleIsGivenUp" 1
+  "unit.DynamicUnion.IsTheUnionOfWhatIsThere" 1
+  "unit.FitParts.MoreInTotalMakesNoPartWorse" 1
+  "unit.Foam.BoundsAreSmallAboveAPlane" 1
+  "unit.FrozenShadersTest.ComputeTheSame" 1
+  "unit.HollowSolid.ItsCavityMayStay" 1
+  "unit.JoinPieces.AsAPlainProgramWould" 1
+  "unit.Lanes.SharedMemoryGivesTheSameWhereListsHoldClusters" 1
+  "unit.MeshIndexTest.ExtractionsAreThoseWithout" 1
+  "unit.MeshIndexTest.ModeThesisDoesWithoutOne" 1
+  "unit.OtherSpecialsTest.ARoundSolidOfSmallTriangles/large" 1
+  "unit.OtherSpecialsTest.ARoundSolidOfSmallTriangles/low" 1
+  "unit.OtherSpecialsTest.ARoundSolidOfSmallTriangles/zero" 1
+  "unit.OtherSpecialsTest.ASolidAlongTheAxes/large" 1
+  "unit.OtherSpecialsTest.ASolidAlongTheAxes/low" 1
+  "unit.OtherSpecialsTest.ASolidAlongTheAxes/zero" 1
+  "unit.OtherSpecialsTest.ASolidWithCorners/large" 1
+  "unit.OtherSpecialsTest.ASolidWithCorners/low" 1
+  "unit.OtherSpecialsTest.ASolidWithCorners/zero" 1
+  "unit.OtherSpecialsTest.ThePublishedSearch/large" 1
+  "unit.OtherSpecialsTest.ThePublishedSearch/low" 1
+  "unit.PacketQueriesTest.EveryShapeOfTeamFindsTheSame" 1
+  "unit.ReferenceDismissal.FeetAreOnCarriersThatAllowTheirSpokes" 1
+  "unit.SphereMeasures.SeedsAndThreads" 1
+  "unit.Stop.RequestedByAnotherThreadWhileTheDeviceComputes/Thesis" 1
+  "unit.TreeCounts.APacketTestsABoxOnceForAllItsPoints" 1)
 while(times)
   list(POP_FRONT times name seconds)
   set_tests_properties("${name}" PROPERTIES COST ${seconds})
