@@ -1,6 +1,6 @@
 # Written by tests/measure_times.py, read by ctest: the seconds of the slowest tests. Those that cost most start first.
 set(times
-  "faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers" 81
+  "faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers" 3
   "regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles" 40
   "cli.Kills.LeaveWholeFilesOrNone/Spheres" 18
   "faults.PictureFaults.OfMemory" 18
