@@ -106,9 +106,10 @@ void add_benchmark(const Subject& subject, const std::string& name, std::size_t 
                                  *warm = true;
                                  double device = 0;
                                  for (auto _ : state) device += pass();
-                                 state.counters["queries"] = queries;
+                                 state.measurements.counters["queries"] = queries;
                                  if (device > 0)
-                                   state.counters["device_s"] = device / static_cast<double>(state.iterations());
+                                   state.measurements.counters["device_s"] =
+                                       device / static_cast<double>(state.iterations());
                                })
       ->MeasureProcessCPUTime()
       ->UseRealTime()

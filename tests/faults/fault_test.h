@@ -6,10 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,6 +122,19 @@ inline Answer make_scene_and_ask(Context& context, const PreparedMesh& mesh) {
   Result<Scene> scene = in_runtime([&] { return test::make_scene(context, mesh.view()); });
   if (!scene.ok()) return scene.error();
   return ask_everything(scene.value());
+}
+
+/// Calls and allocations fail one by one: all of them, or the first and every so many-th after it, as the environment
+/// variable MEDIAL_VK_FAULT_STRIDE says. A sanitizer makes a run with every one of them take too long.
+inline std::uint64_t fault_stride() {
+  static const std::uint64_t stride = [] {
+    const char* asked = std::getenv("MEDIAL_VK_FAULT_STRIDE");
+    const std::uint64_t number = asked != nullptr ? std::strtoull(asked, nullptr, 10) : 1;
+    if (number == 0) throw std::invalid_argument("MEDIAL_VK_FAULT_STRIDE is no positive number");
+    if (number > 1) std::cout << "MEDIAL_VK_FAULT_STRIDE: one of " << number << " fails\n";
+    return number;
+  }();
+  return stride;
 }
 
 /// With the interposer in place. Skipped without a device.

@@ -139,7 +139,7 @@ TEST_F(HostCallbacks, OfAHostThatLendsItsDeviceGetAllMemoryBack) {
 TEST_F(HostCallbacks, RunOutWhileADeviceIsOpened) {
   HostAllocator allocator;
   std::uint64_t errors = 0;
-  for (std::uint64_t k = 1; !HasFailure(); ++k) {
+  for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
     SCOPED_TRACE("allocation " + std::to_string(k));
     allocator.fail_at(k);
     const Result<Context> context = open_with(allocator);
@@ -170,7 +170,7 @@ TEST_F(HostCallbacks, RunOut) {
       const Answer expected = job(context.value());
       ASSERT_TRUE(expected.ok());
       std::uint64_t errors = 0;
-      for (std::uint64_t k = 1; !HasFailure(); ++k) {
+      for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
         allocator.fail_at(k);
         const Answer answer = job(context.value());
         SCOPED_TRACE(std::string(name) + ", allocation " + std::to_string(k));

@@ -24,13 +24,13 @@ namespace {
 
 class HostMemory : public FaultTest {
  protected:
-  /// Fails every allocation of the job, one a run.
+  /// Fails every allocation of the job (fault_stride()), one a run.
   void fail_every_allocation(const char* name, const std::function<Answer()>& job) {
     const Answer expected = job();
     ASSERT_TRUE(expected.ok()) << expected.error().message;
     const auto handles = vulkan().handles();
     std::uint64_t errors = 0, survived = 0;
-    for (std::uint64_t k = 1; !HasFailure(); ++k) {
+    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
       fail_new(k);
       const Answer answer = job();
       const bool failed = stop_failing_new();

@@ -129,7 +129,7 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   EXPECT_TRUE(test::passes_certificate(mesh, reference, parameters));
   EXPECT_EQ(device.extraction.grid.size, reference.grid.size);
   // Balls that the device believed in and double precision did not: rounding, so hardly any.
-  EXPECT_LE(device.certify.rejected, device.extraction.spheres.size() / 100);
+  EXPECT_LE(device.certificate.rejected, device.extraction.spheres.size() / 100);
 
   const std::size_t points = reference.spheres.size();
   {

@@ -5,9 +5,13 @@
 
 A command is a line of a block of code marked `sh` or not at all, an example of the help or of the manual page, or words
 in backticks that call one of the project's programs or scripts. Each must end with 0 and write the files that it names.
+Every document has a folder of its own, in which its commands run in their order; two documents are at work at a time. A
+command that has run for another document, on files with the same bytes, is not run again: its files are copied.
 What cannot be run here stands in NOT_RUN with the reason; a command that is neither run nor listed fails the test, and so
 does an entry that nothing matches any more. Ends with 77 if there is no Vulkan device.
 """
+import concurrent.futures
+import hashlib
 import pathlib
 import re
 import shlex
@@ -15,10 +19,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 
 # What a command begins with, and why it is not run.
 NOT_RUN = {
-    r"scripts/(run$|run MESH|test|fuzz|soak|lint)": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"build/release/bin/test_": "is a program of tests that ctest runs, too",
     r"scripts/install-dependencies": "installs packages",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
     r"cmake ": "has configured and built this test; package.consumer installs",
@@ -33,10 +40,6 @@ NOT_RUN = {
 WORDS = [(r"\bMESH\b", "turtle.obj"), (r"\bFILE\b", "report.json"), (r"^perf record ", ""),
          (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", "")]
 CALLS = re.compile(r"(^|\s)(medial-vk|make_model|renderer|examples/robot_arm/make_arm.py|scripts/[\w-]+|bench/[\w-]+|cmake|ctest|node) \S")
-
-
-class Failure(Exception):
-    pass
 
 
 def commands_of_markdown(text):
@@ -92,11 +95,46 @@ def outputs_of(words):
     return files
 
 
+class Skip(Exception):
+    """Why nothing can be tested here."""
+
+
+class Done:
+    """The commands that have run, and the files that they wrote, by words and bytes of what they read."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        self.path.mkdir()
+        self.lock, self.runs = threading.Lock(), {}
+
+    def once(self, key, run):
+        """What run(folder for copies of its files) has returned, now or before; and: was it before?"""
+        with self.lock:
+            before = key in self.runs
+            if not before:
+                self.runs[key] = concurrent.futures.Future(), self.path / str(len(self.runs))
+        result, copies = self.runs[key]
+        if not before:
+            copies.mkdir()
+            try:
+                result.set_result(run(copies))
+            except BaseException as error:
+                result.set_exception(error)
+        return result.result(), copies, before
+
+
 class Folder:
     """Where the commands of one document run, with the models that they name."""
 
-    def __init__(self, path, source, programs):
-        self.path, self.source, self.programs = pathlib.Path(path), source, programs
+    def __init__(self, path, source, programs, done=None, models=None):
+        self.path, self.source, self.programs, self.done = pathlib.Path(path), source, programs, done
+        if models:
+            shutil.copytree(models, self.path)
+        else:
+            self.make_models()
+
+    def make_models(self):
+        self.path.mkdir()
         for folder in ("out", "path"):
             (self.path / folder).mkdir()
         self.call(["make_model", "turtle.obj"])
@@ -140,11 +178,38 @@ class Folder:
         files = outputs_of(words)
         for file in files:
             (self.path / file).unlink(missing_ok=True)
+        (wrong, wall), copies, before = self.done.once(self.key(words), lambda to: self.run_now(words, files, to))
+        if before:
+            for copy in copies.rglob("*"):
+                if copy.is_file():
+                    shutil.copy(copy, self.path / copy.relative_to(copies))
+        self.seconds = 0 if before else wall
+        return wrong
+
+    def key(self, words):
+        """The words, and the bytes of the files and folders that they name. What a robot names is the same in all folders."""
+        named = [self.path / word for word in words[1:]]
+        files = [f for n in named for f in ([n] if n.is_file() else sorted(n.rglob("*")) if n.is_dir() else []) if f.is_file()]
+        return (*words, *((str(f.relative_to(self.path)), hashlib.sha256(f.read_bytes()).digest()) for f in files))
+
+    def run_now(self, words, files, copies):
+        """As run(), with the seconds that it took; all that it wrote is copied."""
+        there = {f: f.stat().st_mtime_ns for f in self.path.rglob("*") if f.is_file()}
+        begin = time.monotonic()
+        wrong = self.judge(words, files)
+        seconds = time.monotonic() - begin
+        for file in self.path.rglob("*"):
+            if file.is_file() and there.get(file) != file.stat().st_mtime_ns:
+                copy = copies / file.relative_to(self.path)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(file, copy)
+        return wrong, seconds
+
+    def judge(self, words, files):
         done = self.call(words)
         output = done.stdout + done.stderr
         if words[0] == "medial-vk" and done.returncode == 4 or "no device that draws" in output:
-            print(f"SKIPPED: there is no Vulkan device: {output}")
-            sys.exit(77)
+            raise Skip(f"there is no Vulkan device: {output}")
         # Without npm at the build there is no page to be looked at; without Chromium nothing to look with.
         if "was built without its page" in output or (words[0] == "node" and done.returncode == 77):
             return None
@@ -158,31 +223,48 @@ def not_run(command):
     return next((pattern for pattern in NOT_RUN if re.match(pattern, command)), None)
 
 
+def run_document(where, commands, folder):
+    """(command, what was wrong or None, seconds) for each, said at once."""
+    results = []
+    for command in commands:
+        for shown_as, meant in WORDS:
+            command = re.sub(shown_as, meant, command)
+        folder.seconds = 0
+        wrong = folder.run(command)
+        said = "cannot be run by this build" if wrong is None else wrong or "ok"
+        print(f"{where}: {command}: {said} ({folder.seconds:.1f} s)", flush=True)
+        results.append((command, wrong))
+    return results
+
+
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     programs = dict(argument.split("=", 1) for argument in sys.argv[2:])
-    commands = shown(source, programs)
-    listed, failures, ran = set(), [], 0
-    with tempfile.TemporaryDirectory() as top:
-        folders = {}
-        for where, command in commands:
-            pattern = not_run(command)
-            if pattern:
-                listed.add(pattern)
-                continue
-            for shown_as, meant in WORDS:
-                command = re.sub(shown_as, meant, command)
-            if where not in folders:
-                path = pathlib.Path(top) / where
-                path.mkdir()
-                folders[where] = Folder(path, source, programs)
-            wrong = folders[where].run(command)
-            print(f"{where}: {command}: {'cannot be run by this build' if wrong is None else wrong or 'ok'}", flush=True)
-            ran += wrong == ""
-            if wrong:
-                failures.append(f"{where}: {command}: {wrong}")
+    listed, failures, ran, documents = set(), [], 0, {}
+    for where, command in shown(source, programs):
+        pattern = not_run(command)
+        if pattern:
+            listed.add(pattern)
+        else:
+            documents.setdefault(where, []).append(command)
+    with tempfile.TemporaryDirectory() as top, concurrent.futures.ThreadPoolExecutor(2) as workers:
+        top = pathlib.Path(top)
+        models = Folder(top / "models", source, programs).path
+        done = Done(top / "done")
+        running = {where: workers.submit(run_document, where, commands, Folder(top / where, source, programs, done, models))
+                   for where, commands in documents.items()}
+        for where, document in running.items():
+            try:
+                for command, wrong in document.result():
+                    ran += wrong == ""
+                    if wrong:
+                        failures.append(f"{where}: {command}: {wrong}")
+            except Skip as skip:
+                workers.shutdown(cancel_futures=True)
+                print(f"SKIPPED: {skip}")
+                sys.exit(77)
     failures += [f"NOT_RUN lists {p}, which is shown nowhere" for p in NOT_RUN if p not in listed]
-    print(f"{ran} commands were run")
+    print(f"{ran} commands were run, {len(done.runs)} of them different")
     if ran < 20:
         failures.append("that is too few: are they still found?")
     if failures:

@@ -58,16 +58,22 @@ class ScopedEnvironment {
   bool had_ = false;
 };
 
-/// Why tests that need a device cannot run here; empty: they can.
-inline std::string no_device_reason() {
-  const Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
-  return context.ok() ? "" : context.error().message;
+/// Why a context with or without validation cannot be opened here; empty: it can. To know that takes a context, so
+/// each program asks once.
+inline const std::string& no_device_reason() {
+  static const std::string reason = [] {
+    const Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
+    return context.ok() ? "" : context.error().message;
+  }();
+  return reason;
 }
 
-/// Why tests that need the validation layer cannot run here; empty: they can.
-inline std::string no_validation_reason() {
-  const Result<Context> context = Context::create({.device = "", .validation = true, .cache_folder = "/dev/null"});
-  return context.ok() ? "" : context.error().message;
+inline const std::string& no_validation_reason() {
+  static const std::string reason = [] {
+    const Result<Context> context = Context::create({.device = "", .validation = true, .cache_folder = "/dev/null"});
+    return context.ok() ? "" : context.error().message;
+  }();
+  return reason;
 }
 
 }  // namespace medial_vk::test

@@ -3,30 +3,73 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "support/device/device.h"
 
 namespace medial_vk::test {
 
-/// A context for each test, with validation where the layer is installed; no message may come. Skipped without a
+/// What the tests of a program share: one context. It ends with the last test, before the driver is unloaded.
+class SharedContext : public testing::Environment {
+ public:
+  /// With validation where the layer is installed.
+  static Result<Context> open() {
+    ContextOptions options = {.device = "", .validation = true, .cache_folder = "/dev/null"};
+    Result<Context> made = Context::create(options);
+    if (made.ok()) return made;
+    options.validation = false;
+    return Context::create(options);
+  }
+  /// Null without a device.
+  Context* get() {
+    if (context_ == nullptr) {
+      Result<Context> made = open();
+      if (made.ok()) context_ = std::make_unique<Context>(std::move(made).value());
+    }
+    return context_.get();
+  }
+  void TearDown() override { context_.reset(); }
+
+ private:
+  std::unique_ptr<Context> context_;
+};
+
+/// GoogleTest owns it.
+inline SharedContext* const shared_context = [] {
+  auto* const shared = new SharedContext;
+  testing::AddGlobalTestEnvironment(shared);
+  return shared;
+}();
+
+/// Uses the context that all tests of the program share; no message of the validation layer may come. Skipped without a
 /// device.
 class DeviceTest : public testing::Test {
  protected:
   void SetUp() override {
-    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    const bool validation = no_validation_reason().empty();
-    Result<Context> created = Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"});
-    ASSERT_TRUE(created.ok()) << created.error().message;
-    context_.emplace(std::move(created).value());
+    context_ = shared_context->get();
+    if (context_ == nullptr) GTEST_SKIP() << no_device_reason();
+    messages_before_ = context_->validation_messages();
   }
   void TearDown() override {
-    if (context_) {
-      EXPECT_EQ(context_->validation_messages(), 0u);
+    if (context_ != nullptr) {
+      EXPECT_EQ(context_->validation_messages(), messages_before_);
     }
   }
-  std::optional<Context> context_;
+  /// Before a test alters its context, which others must not see: from now on it has one of its own.
+  void use_own_context() {
+    Result<Context> made = SharedContext::open();
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    own_ = std::make_unique<Context>(std::move(made).value());
+    context_ = own_.get();
+    messages_before_ = 0;
+  }
+  Context* context_ = nullptr;
+
+ private:
+  std::unique_ptr<Context> own_;
+  std::uint64_t messages_before_ = 0;
 };
 
 }  // namespace medial_vk::test

@@ -72,7 +72,7 @@ bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewri
   const CertifiedExtraction other = test::extract_on_device(other_context, mesh, parameters);
   EXPECT_GT(plain.spheres.size(), 500u);
   EXPECT_TRUE(test::passes_certificate(mesh, other.extraction, parameters));
-  EXPECT_LE(other.certify.rejected, plain.spheres.size() / 100);
+  EXPECT_LE(other.certificate.rejected, plain.spheres.size() / 100);
   EXPECT_EQ(count_lost(plain, other.extraction, parameters), 0u);
   EXPECT_EQ(count_lost(other.extraction, plain, parameters), 0u);
   // No more voxels stay undecided than a handful at thresholds.
@@ -151,6 +151,7 @@ std::vector<float> make_specials(Context::Impl& context, std::span<const std::ui
 }
 
 TEST_F(MakeSpecials, AreThereAndAreReplaced) {
+  use_own_context();
   const std::vector<float> plain = make_specials(Internals::of(*context_), kMakeSpecialsSpirv);
   EXPECT_TRUE(std::isinf(plain[0]));
   EXPECT_TRUE(std::isnan(plain[1]));

@@ -172,7 +172,7 @@ TEST_F(DispatchRowsTest, ResultsAreTheSameForAnyNumberOfThreads) {
       ASSERT_EQ(several.spheres.size(), one.spheres.size()) << threads;
       for (std::size_t i = 0; i < one.spheres.size(); ++i)
         ASSERT_EQ(std::memcmp(&several.spheres[i], &one.spheres[i], sizeof(MedialSphere)), 0) << threads;
-      EXPECT_EQ(several.counters.undecided, one.counters.undecided) << threads;
+      EXPECT_EQ(several.measurements.counters.undecided, one.measurements.counters.undecided) << threads;
     }
   }
 }

@@ -28,10 +28,11 @@ void expect_the_same(Mesh solid, std::uint32_t resolution) {
   ASSERT_EQ(shuffled.spheres.size(), shared.spheres.size());
   for (std::size_t i = 0; i < shared.spheres.size(); ++i)
     EXPECT_EQ(std::memcmp(&shuffled.spheres[i], &shared.spheres[i], sizeof(MedialSphere)), 0) << "sphere " << i;
-  EXPECT_EQ(shuffled.counters.undecided, shared.counters.undecided);
-  ASSERT_EQ(shuffled.counters.levels.size(), shared.counters.levels.size());
-  for (std::size_t level = 0; level < shared.counters.levels.size(); ++level)
-    EXPECT_EQ(shuffled.counters.levels[level].kept, shared.counters.levels[level].kept) << "level " << level;
+  EXPECT_EQ(shuffled.measurements.counters.undecided, shared.measurements.counters.undecided);
+  ASSERT_EQ(shuffled.measurements.counters.levels.size(), shared.measurements.counters.levels.size());
+  for (std::size_t level = 0; level < shared.measurements.counters.levels.size(); ++level)
+    EXPECT_EQ(shuffled.measurements.counters.levels[level].kept, shared.measurements.counters.levels[level].kept)
+        << "level " << level;
 }
 
 TEST(Lanes, SharedMemoryGivesTheSameAsShuffles) {

@@ -65,6 +65,7 @@ TEST_F(SceneTest, UnitBox) {
 
 // Where a mesh has more texels than the device allows in a view, kernels read storage buffers: the same answers.
 TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
+  use_own_context();
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
   for (const Point& d : spiral_points(300)) points.push_back({7 + 0.8 * d[0], -3 + 0.9 * d[1], 2 + d[2]});

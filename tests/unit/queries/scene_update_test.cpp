@@ -84,6 +84,7 @@ std::vector<Point> points_around(const Point& centre) {
 }
 
 TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
+  use_own_context();
   Context::Impl& context = Internals::of(*context_);
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
   for (const bool texels : {true, false}) {
