@@ -55,8 +55,8 @@ void build(benchmark::State& state) {
     sah = sah_cost(bvh.value());
     state.ResumeTiming();
   }
-  state.measurements.counters["sah"] = sah;
-  state.measurements.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+  state.counters["sah"] = sah;
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
 }
 
 void by_size_and_threads(benchmark::internal::Benchmark* benchmark) {
@@ -84,8 +84,8 @@ void refit(benchmark::State& state) {
     if (!bvh.refit(view_of(is_bent ? bent : mesh), threads).ok()) state.SkipWithError("refit failed");
   }
   if (!is_bent && !bvh.refit(view_of(bent)).ok()) state.SkipWithError("refit failed");
-  state.measurements.counters["sah"] = sah_cost(bvh);
-  state.measurements.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+  state.counters["sah"] = sah_cost(bvh);
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
 }
 
 /// Times body(mesh) on all threads.
@@ -93,7 +93,7 @@ template <class Body>
 void run_on_mesh(benchmark::State& state, Body body) {
   const Mesh& mesh = mesh_of(state.range(0));
   for (auto _ : state) body(mesh);
-  state.measurements.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
 }
 
 void parse_obj(benchmark::State& state) {

@@ -109,9 +109,9 @@ void time_kernel(benchmark::State& state, Subject* subject, const std::string& k
     distances += run.distances;
   }
   if (kernel == kAll)
-    state.measurements.counters["distances"] = benchmark::Counter(distances / sum);
+    state.counters["distances"] = benchmark::Counter(distances / sum);
   else
-    state.measurements.counters["share"] = sum / of_all;
+    state.counters["share"] = sum / of_all;
 }
 
 void register_kernels(Subject& subject) {

@@ -106,9 +106,9 @@ void add_benchmark(const Subject& subject, const std::string& name, std::size_t 
                                  *warm = true;
                                  double device = 0;
                                  for (auto _ : state) device += pass();
-                                 state.measurements.counters["queries"] = queries;
+                                 state.counters["queries"] = queries;
                                  if (device > 0)
-                                   state.measurements.counters["device_s"] =
+                                   state.counters["device_s"] =
                                        device / static_cast<double>(state.iterations());
                                })
       ->MeasureProcessCPUTime()

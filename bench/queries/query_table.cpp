@@ -30,9 +30,9 @@ void QueryTable::ReportRuns(const std::vector<Run>& runs) {
     const auto iterations = static_cast<double>(run.iterations);
     times.cpu.push_back(run.cpu_accumulated_time / iterations);
     times.wall.push_back(run.real_accumulated_time / iterations);
-    const auto queries = run.measurements.counters.find("queries"), device = run.measurements.counters.find("device_s");
-    if (queries != run.measurements.counters.end()) times.queries = queries->second;
-    if (device != run.measurements.counters.end()) times.device.push_back(device->second);
+    const auto queries = run.counters.find("queries"), device = run.counters.find("device_s");
+    if (queries != run.counters.end()) times.queries = queries->second;
+    if (device != run.counters.end()) times.device.push_back(device->second);
   }
   ConsoleReporter::ReportRuns(runs);
 }
