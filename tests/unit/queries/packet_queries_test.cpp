@@ -62,8 +62,8 @@ class PacketQueriesTest : public test::DeviceTest {
     return answers;
   }
 
-  Answers ask_packets(const DeviceMesh& device, const Mesh& mesh, const PacketShape& shape,
-                      std::span<const Texel> queries, std::span<const Point> group, std::uint32_t* unresolved) {
+  Answers ask_packets(const DeviceMesh& device, const PacketShape& shape, std::span<const Texel> queries,
+                      std::span<const Point> group, std::uint32_t* unresolved) {
     const auto count = static_cast<std::uint32_t>(queries.size());
     PacketQueries packets = PacketQueries::create(Internals::of(*context_), device, count, shape).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, group);
@@ -118,7 +118,7 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
       SCOPED_TRACE(testing::Message() << samples << " samples, width " << shape.width << ", shared memory "
                                       << shape.through_shared_memory);
       std::uint32_t unresolved = 1;
-      const Answers packets = ask_packets(device, mesh, shape, queries, directions, &unresolved);
+      const Answers packets = ask_packets(device, shape, queries, directions, &unresolved);
       EXPECT_EQ(unresolved, 0u);
       int other_hits = 0;
       for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -144,7 +144,7 @@ TEST_F(PacketQueriesTest, CentreOfASphere) {
   }
   std::uint32_t unresolved = 0;
   const Answers answers =
-      ask_packets(device, mesh, PacketShape::best_for(Internals::of(*context_)), queries, around, &unresolved);
+      ask_packets(device, PacketShape::best_for(Internals::of(*context_)), queries, around, &unresolved);
   EXPECT_EQ(unresolved, 51u);
   for (const Texel& nearest : answers.nearest) EXPECT_NEAR(std::sqrt(nearest[3]), 0.5, 1e-4);
 }
