@@ -231,7 +231,7 @@ TEST(ReportTables, CertificateNamesTheFirstFailure) {
 
   const Status verdict = cli::verdict(certificate);
   ASSERT_FALSE(verdict.ok());
-  EXPECT_EQ(static_cast<int>(verdict.error().code), 7);
+  EXPECT_EQ(verdict.error().code, ErrorCode::kCheckFailed);
   certificate.lines.pop_back();
   EXPECT_TRUE(cli::verdict(certificate).ok());
 }

@@ -1,0 +1,139 @@
+// How often the costly steps run: trees over triangles, uploads of a mesh, threads of the host. The linker sends calls
+// of these functions through the counters below (tests/CMakeLists.txt, --wrap).
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "device_mesh/device_mesh.h"
+#include "medial_vk/medial_vk.h"
+#include "support/device/device.h"
+#include "support/solids/solids.h"
+
+namespace {
+
+std::atomic<int> trees = 0, uploads = 0, threads = 0;
+
+}  // namespace
+
+// The names that --wrap gives: Bvh::build(), DeviceMesh::create() and the start of a std::thread.
+extern "C" {
+medial_vk::Result<medial_vk::Bvh> __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(const medial_vk::MeshView& mesh,
+                                                                                   std::uint32_t leaf_size,
+                                                                                   unsigned count);
+medial_vk::Result<medial_vk::Bvh> __wrap__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(const medial_vk::MeshView& mesh,
+                                                                                   std::uint32_t leaf_size,
+                                                                                   unsigned count) {
+  ++trees;
+  return __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(mesh, leaf_size, count);
+}
+
+medial_vk::Result<medial_vk::DeviceMesh> __real__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(
+    medial_vk::Context::Impl& context, const medial_vk::IndexedMesh& mesh, bool with_links);
+medial_vk::Result<medial_vk::DeviceMesh> __wrap__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(
+    medial_vk::Context::Impl& context, const medial_vk::IndexedMesh& mesh, bool with_links) {
+  ++uploads;
+  return __real__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(context, mesh, with_links);
+}
+
+void __real__ZNSt6thread15_M_start_threadESt10unique_ptrINS_6_StateESt14default_deleteIS1_EEPFvvE(
+    std::thread* started, std::unique_ptr<std::thread::_State> state, void (*depend)());
+void __wrap__ZNSt6thread15_M_start_threadESt10unique_ptrINS_6_StateESt14default_deleteIS1_EEPFvvE(
+    std::thread* started, std::unique_ptr<std::thread::_State> state, void (*depend)()) {
+  ++threads;
+  __real__ZNSt6thread15_M_start_threadESt10unique_ptrINS_6_StateESt14default_deleteIS1_EEPFvvE(
+      started, std::move(state), depend);
+}
+}
+
+namespace medial_vk {
+namespace {
+
+/// More triangles than a block of any loop, so that every loop has work for several threads.
+Mesh large_mesh() { return test::make_torus(1.0, 0.4, 120, 90, 0.5); }
+
+class WorkCounts : public testing::Test {
+ protected:
+  void SetUp() override {
+    MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+    ContextOptions options;
+    options.threads = 1;
+    options.cache_folder = "/dev/null";
+    context_.emplace(Context::create(options).value());
+    trees = uploads = threads = 0;
+  }
+
+  std::optional<Context> context_;
+};
+
+TEST_F(WorkCounts, AnAnalysisBuildsOneTreeAndUploadsOnce) {
+  const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh()).value()).value();
+  AnalysisOptions options;
+  options.extraction.resolution = 40;
+  options.volumes = options.medial_mesh = true;
+  ASSERT_TRUE(analyse(mesh, options, *context_).ok());
+  EXPECT_EQ(trees, 1);
+  EXPECT_EQ(uploads, 1);
+}
+
+// The method best extracts medial points on grid after grid, the method source searches for a grid.
+TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
+  for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {
+    for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
+      trees = uploads = 0;
+      int extractions = 0;
+      const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(test::make_box({1, 0.7, 0.45})).value()).value();
+      SphereOptions options;
+      options.method = method;
+      options.contract = contract;
+      options.count = 80;
+      const Extractor on_device = device_extractor(*context_);
+      const Extractor counted = [&](const auto&... arguments) {
+        ++extractions;
+        return on_device(arguments...);
+      };
+      ASSERT_TRUE(fit_spheres(mesh, options, counted).ok());
+      EXPECT_GT(extractions, 1);
+      EXPECT_EQ(trees, 1);
+      EXPECT_EQ(uploads, 1);
+    }
+  }
+}
+
+// Vertices that move refit the tree.
+TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
+  IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh()).value()).value();
+  Scene scene = Scene::create(*context_, mesh).value();
+  std::vector<Point> vertices = mesh.prepared().mesh.vertices;
+  for (Point& p : vertices) p[0] *= 1.5;
+  ASSERT_TRUE(mesh.move_vertices(vertices).ok());
+  ASSERT_TRUE(scene.update(mesh).ok());
+  EXPECT_EQ(trees, 1);
+  EXPECT_EQ(uploads, 1);
+}
+
+TEST_F(WorkCounts, OneThreadIsOneThread) {
+  const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh(), 1).value(), 1).value();
+  AnalysisOptions options;
+  options.extraction.resolution = 60;
+  options.volumes = options.removal_orders = options.medial_mesh = true;
+  options.threads = 1;
+  ASSERT_TRUE(analyse(mesh, options, *context_).ok());
+  SphereOptions spheres;
+  spheres.count = 20;
+  spheres.resolution = 16;
+  spheres.threads = 1;
+  ASSERT_TRUE(fit_spheres(mesh, spheres, *context_).ok());
+  EXPECT_EQ(threads, 0);
+}
+
+// Otherwise the test above could not fail.
+TEST_F(WorkCounts, MoreThreadsAreStarted) {
+  ASSERT_TRUE(prepare_mesh(large_mesh(), 4).ok());
+  EXPECT_GT(threads, 0);
+}
+
+}  // namespace
+}  // namespace medial_vk
