@@ -108,8 +108,7 @@ void add_benchmark(const Subject& subject, const std::string& name, std::size_t 
                                  for (auto _ : state) device += pass();
                                  state.counters["queries"] = queries;
                                  if (device > 0)
-                                   state.counters["device_s"] =
-                                       device / static_cast<double>(state.iterations());
+                                   state.counters["device_s"] = device / static_cast<double>(state.iterations());
                                })
       ->MeasureProcessCPUTime()
       ->UseRealTime()

@@ -10,9 +10,9 @@ namespace {
 using Eigen::Vector3d;
 
 // Dots of unit vectors and cosines are off by less than 1e-15.
-constexpr double kCosineSlack = 1e-12;
+constexpr double kCapSlack = 1e-12;
 // A carrier is compared with this many of the nearest: those that beat others are among them.
-constexpr std::size_t kMostRivals = 4;
+constexpr std::size_t kMostFaceRivals = 4;
 
 /// Keeps what the points of one box can touch, and how.
 class Collector {
@@ -92,7 +92,7 @@ class Collector {
     std::vector<Carrier> left;
     left.reserve(carriers_.size());
     for (const Carrier& a : carriers_) {
-      const auto rivals = std::span(left).first(std::min(kMostRivals, left.size()));
+      const auto rivals = std::span(left).first(std::min(kMostFaceRivals, left.size()));
       const auto beats = [&](const Carrier& c) { return is_beaten(a, a, 0, c, box_, slack); };
       if (std::ranges::none_of(rivals, beats)) left.push_back(a);
     }
@@ -147,7 +147,7 @@ class Collector {
     const double sine = radius_ / carrier.distance, cosine = std::sqrt(1 - sine * sine);
     if (!carrier.spokes.holds_all()) {
       const double cosine_of_sum = cosine * carrier.spokes.cosine - sine * carrier.spokes.sine;
-      if (carrier.direction.dot(carrier.spokes.axis) < cosine_of_sum - kCosineSlack) return false;
+      if (carrier.direction.dot(carrier.spokes.axis) < cosine_of_sum - kCapSlack) return false;
       if (sine >= carrier.spokes.sine) return true;
     }
     // The direction to a computed point is off by rounding() / D, and D > radius.

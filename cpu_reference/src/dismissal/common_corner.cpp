@@ -52,9 +52,9 @@ Leaving leave(const Carrier& c, int corner) {
 }
 
 /// Conditions v.y >= r on the unit vectors y across an axis: each holds on an arc of their circle.
-class Circle {
+class CornerCircle {
  public:
-  explicit Circle(const Vector3d& axis) : first_(axis.unitOrthogonal()), second_(axis.cross(first_)) {}
+  explicit CornerCircle(const Vector3d& axis) : first_(axis.unitOrthogonal()), second_(axis.cross(first_)) {}
 
   void demand(const Vector3d& v, double r) { arcs_.push_back({{v.dot(first_), v.dot(second_)}, r}); }
 
@@ -95,7 +95,7 @@ bool faces_can_meet(const Leaving& a, const Leaving& b) {
   const double size = across.norm();
   if (size < 1e-3) return true;  // no spokes that differ by 2 theta, for any theta that matters
   const double slack = kDirectionSlack * (1 + 1 / size);
-  Circle x(across / size);
+  CornerCircle x(across / size);
   x.demand(a.toward + b.toward, -2 * slack);
   for (const Leaving* face : {&a, &b}) {
     for (const Vector3d& wall : face->walls) x.demand(wall, -slack);
@@ -106,7 +106,7 @@ bool faces_can_meet(const Leaving& a, const Leaving& b) {
 bool edge_can_meet_face(const Leaving& edge, const Leaving& face, double angle) {
   const double slack = 10 * kDirectionSlack, rise = edge.along.dot(face.toward);
   if (rise < -slack) return false;
-  Circle s(edge.along);
+  CornerCircle s(edge.along);
   s.demand(edge.middle, std::cos(edge.arc) - slack);
   s.demand(face.toward, -std::cos(2 * angle) - slack);
   for (const Vector3d& wall : face.walls) {
@@ -118,7 +118,7 @@ bool edge_can_meet_face(const Leaving& edge, const Leaving& face, double angle) 
 
 bool edges_can_meet(const Leaving& a, const Leaving& b, double angle) {
   const double slack = 10 * kDirectionSlack, apart = std::max(0.0, 1 - a.along.dot(b.along));
-  Circle s(a.along);
+  CornerCircle s(a.along);
   s.demand(a.middle, std::cos(a.arc) - slack);
   s.demand(-b.along, std::sin(angle) * std::sqrt(2 * std::max(0.0, apart - slack)) - slack);
   s.demand(apart * b.middle + a.along.dot(b.middle) * b.along, apart * std::cos(b.arc) - slack);

@@ -120,7 +120,7 @@ struct Fit {
   double normal_cosine = 2, direction_cosine = 2;
 };
 
-constexpr double kCosineSlack = 1e-9;  // covers the rounding of dots and cosines (below 1e-14) many times over
+constexpr double kFitSlack = 1e-9;  // covers the rounding of dots and cosines (below 1e-14) many times over
 
 std::vector<Fit> fits(const Tree& tree, std::span<const Contact> contacts, double reach, double angle) {
   std::vector<Fit> all;
@@ -130,10 +130,10 @@ std::vector<Fit> fits(const Tree& tree, std::span<const Contact> contacts, doubl
     Fit fit;
     fit.normal = tree.normal(contact.triangle);
     fit.direction = contact.direction;
-    if (contact.trusted) fit.normal_cosine = cosine + kCosineSlack;
+    if (contact.trusted) fit.normal_cosine = cosine + kFitSlack;
     // cos(angle - asin(reach / D)), open while asin(reach / D) < angle
     const double ratio = contact.distance > 0 ? reach / contact.distance : 1;
-    if (ratio < sine) fit.direction_cosine = cosine * std::sqrt(1 - ratio * ratio) + sine * ratio + kCosineSlack;
+    if (ratio < sine) fit.direction_cosine = cosine * std::sqrt(1 - ratio * ratio) + sine * ratio + kFitSlack;
     all.push_back(fit);
   }
   return all;

@@ -19,7 +19,7 @@ Error invalid_mesh(std::string message) { return {ErrorCode::kInvalidMesh, std::
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 /// Vertices and triangles of a block that a thread looks at.
-constexpr std::size_t kBlock = 32768;
+constexpr std::size_t kTrianglesOfBlock = 32768;
 
 Status check_triangle(const MeshView& mesh, std::size_t triangle) {
   for (const std::uint32_t v : mesh.triangles[triangle]) {
@@ -39,14 +39,14 @@ Status check_mesh(const MeshView& mesh, unsigned threads) {
   const std::size_t count = mesh.triangles.size();
   if (count == 0) return invalid_mesh("the mesh has no triangle");
   if (count >= 0x7fffffffu) return invalid_mesh("the mesh has more than 2147483646 triangles");
-  std::vector<std::size_t> faults((count + kBlock - 1) / kBlock, count);  // by block
-  parallel_blocks(count, kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> faults((count + kTrianglesOfBlock - 1) / kTrianglesOfBlock, count);  // by block
+  parallel_blocks(count, kTrianglesOfBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = end; t-- > begin;) {
       const Triangle& triangle = mesh.triangles[t];
       const bool fine = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
         return v < mesh.vertices.size() && is_finite(mesh.vertices[v]);
       });
-      if (!fine) faults[begin / kBlock] = t;
+      if (!fine) faults[begin / kTrianglesOfBlock] = t;
     }
   });
   const std::size_t first = *std::min_element(faults.begin(), faults.end());
@@ -66,7 +66,7 @@ BvhPrimitive make_primitive(const std::array<Point, 3>& corners, std::size_t tri
 
 std::vector<BvhPrimitive> make_primitives(const MeshView& mesh, unsigned threads) {
   std::vector<BvhPrimitive> primitives(mesh.triangles.size());
-  parallel_blocks(primitives.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(primitives.size(), kTrianglesOfBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) primitives[t] = make_primitive(corners_of(mesh, t), t);
   });
   return primitives;
@@ -177,7 +177,7 @@ Status Bvh::refit(const MeshView& mesh, unsigned threads) {
 }
 
 void Bvh::take_corners(const MeshView& mesh, unsigned threads) {
-  parallel_blocks(order_.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(order_.size(), kTrianglesOfBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) corners_[i] = corners_of(mesh, order_[i]);
   });
   fit_boxes(nodes_, corners_, threads);

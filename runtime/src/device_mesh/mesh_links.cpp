@@ -30,7 +30,7 @@ constexpr double kCapSlack = 1e-6;
 // Spokes to a face, an edge between faces that count as one, or a corner of such: within this of its normal.
 constexpr double kFaceSpread = 1e-5;
 // Vertices that a thread looks at in one go.
-constexpr std::size_t kBlock = 2048;
+constexpr std::size_t kVerticesOfBlock = 2048;
 
 Point unit(const Point& v) {
   const double size = length(v);
@@ -223,7 +223,7 @@ class Builder {
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
     for_each([&](const HalfEdge& edge) { edges[next[edge.low]++] = edge; });
     const auto at = [&](std::size_t v) { return edges.begin() + static_cast<std::ptrdiff_t>(begin[v]); };
-    parallel_blocks(mesh_.vertices.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
+    parallel_blocks(mesh_.vertices.size(), kVerticesOfBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) {
         std::sort(at(v), at(v + 1), [](const HalfEdge& a, const HalfEdge& b) {
           return std::tie(a.high, a.position) < std::tie(b.high, b.position);
@@ -315,7 +315,7 @@ class Builder {
     const auto fan_of = [&](std::size_t v) {
       return std::span<const uint>(fans).subspan(begin[v], begin[v + 1] - begin[v]);
     };
-    parallel_blocks(mesh_.vertices.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
+    parallel_blocks(mesh_.vertices.size(), kVerticesOfBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) measure_corner(static_cast<uint>(v), fan_of(v));
     });
     for (uint v = 0; v < mesh_.vertices.size(); ++v) {
@@ -360,7 +360,7 @@ class Builder {
   // Lemma L. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
   void measure_spreads() {
     out_.spreads.resize(order_.size());
-    parallel_blocks(order_.size(), kBlock, threads_, [&](std::size_t first, std::size_t last) {
+    parallel_blocks(order_.size(), kVerticesOfBlock, threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t p = first; p < last; ++p) {
         double angle = turns_[p];
         for (const uint v : triangle(static_cast<uint>(p))) angle = std::max(angle, turn_at_corner(v, normals_[p]));

@@ -11,7 +11,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
 std::uint64_t mix(std::uint64_t h) {  // the finaliser of MurmurHash3
   h ^= h >> 33;
@@ -25,11 +25,11 @@ std::uint64_t mix(std::uint64_t h) {  // the finaliser of MurmurHash3
 template <class Hash, class Equal>
 std::vector<std::uint32_t> first_equal(std::size_t count, Hash hash, Equal equal) {
   const std::size_t mask = std::bit_ceil(count * 2 + 1) - 1;
-  std::vector<std::uint32_t> table(mask + 1, kNone), first(count);
+  std::vector<std::uint32_t> table(mask + 1, kNoVertex), first(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     std::size_t slot = hash(i) & mask;
-    while (table[slot] != kNone && !equal(table[slot], i)) slot = (slot + 1) & mask;
-    if (table[slot] == kNone) table[slot] = i;
+    while (table[slot] != kNoVertex && !equal(table[slot], i)) slot = (slot + 1) & mask;
+    if (table[slot] == kNoVertex) table[slot] = i;
     first[i] = table[slot];
   }
   return first;
@@ -219,13 +219,13 @@ void drop_duplicates(PreparedMesh& prepared) {
 
 void drop_unused_vertices(PreparedMesh& prepared) {
   Mesh& mesh = prepared.mesh;
-  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kNoVertex);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) renamed[v] = 0;
   }
   std::uint32_t used = 0;
   for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] == kNone) continue;
+    if (renamed[v] == kNoVertex) continue;
     mesh.vertices[used] = mesh.vertices[v];
     renamed[v] = used++;
   }

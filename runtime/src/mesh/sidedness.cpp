@@ -15,7 +15,7 @@ namespace medial_vk {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 class SideFinder {
  public:
@@ -58,15 +58,15 @@ class SideFinder {
  private:
   /// One value per patch, beside its largest triangle: the one that is farthest from everything, as a rule.
   void evaluate_patches(const std::vector<bool>& is_simple) {
-    std::vector<std::uint32_t> largest(parts_.patches, kNone);
+    std::vector<std::uint32_t> largest(parts_.patches, kNoTriangle);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (!is_simple[parts_.component_of[t]]) continue;
       std::uint32_t& best = largest[parts_.patch_of[t]];
-      if (best == kNone || area_[t] > area_[best]) best = t;
+      if (best == kNoTriangle || area_[t] > area_[best]) best = t;
     }
     std::vector<std::uint32_t> places;
     for (const std::uint32_t t : largest) {
-      if (t != kNone) places.push_back(place_of_[t]);
+      if (t != kNoTriangle) places.push_back(place_of_[t]);
     }
     std::sort(places.begin(), places.end());
     const std::vector<float> found = evaluate_closed(places);

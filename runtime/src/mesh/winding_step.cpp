@@ -13,8 +13,8 @@ constexpr double kRounding = 0x1p-53;
 constexpr std::uint32_t kNoPlace = 0xffffffffu;
 
 /// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have made it. The arguments
-/// are differences of doubles and carry u each: see sign_of_determinant in triangle_pairs.cpp.
-int sign_of_determinant(const Point& a, const Point& b, const Point& c, double slack = 0) {
+/// are differences of doubles and carry u each: see sign_of_volume in triangle_pairs.cpp.
+int sign_of_volume(const Point& a, const Point& b, const Point& c, double slack = 0) {
   double determinant = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const double left = b[(k + 1) % 3] * c[(k + 2) % 3];
@@ -30,7 +30,7 @@ int sign_of_determinant(const Point& a, const Point& b, const Point& c, double s
 /// which moves the determinant by at most the length of the normal times that.
 int side_of_plane(const std::array<Point, 3>& t, const Point& p, double shift) {
   const double slack = shift * length(cross(t[1] - t[0], t[2] - t[0]));
-  return -sign_of_determinant(t[0] - p, t[1] - p, t[2] - p, 2 * slack);
+  return -sign_of_volume(t[0] - p, t[1] - p, t[2] - p, 2 * slack);
 }
 
 /// A straight way, and the triangles on which it begins or ends.
@@ -62,7 +62,7 @@ std::optional<int> crossing(const Leg& leg, const std::array<Point, 3>& t, doubl
   const Point d = leg.q - leg.p;
   bool left = false, right = false, doubt = begins == 0 || ends == 0;
   for (int k = 0; k < 3; ++k) {
-    const int turn = sign_of_determinant(t[k] - leg.p, t[(k + 1) % 3] - leg.p, d);
+    const int turn = sign_of_volume(t[k] - leg.p, t[(k + 1) % 3] - leg.p, d);
     left = left || turn > 0;
     right = right || turn < 0;
     doubt = doubt || turn == 0;

@@ -13,7 +13,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kFree = 0xffffffffu;
 
 class Absorption {
  public:
@@ -23,7 +23,7 @@ class Absorption {
         voxel_size_(voxel_size),
         parameters_(parameters),
         piece_of_(piece_of),
-        nearest_(graph.size(), kNone),
+        nearest_(graph.size(), kFree),
         is_small_(graph.size()) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) {
       if (piece_of[place] >= places_.size()) places_.resize(piece_of[place] + std::size_t{1});
@@ -61,7 +61,7 @@ class Absorption {
     });
     for (std::size_t piece = 0; piece < goes.size(); ++piece) {
       if (!goes[piece]) continue;
-      for (const std::uint32_t place : places_[piece]) piece_of_[place] = kNone;
+      for (const std::uint32_t place : places_[piece]) piece_of_[place] = kFree;
     }
   }
 
@@ -98,8 +98,8 @@ class Absorption {
       for (const std::uint32_t place : front) {
         for (const std::uint32_t other : graph_.neighbours(place)) {
           if (piece_of_[other] != own) continue;
-          if (nearest_[other] == kNone) reached.push_back(other);
-          if (nearest_[other] == kNone || distance(other, nearest_[place]) < distance(other, nearest_[other])) {
+          if (nearest_[other] == kFree) reached.push_back(other);
+          if (nearest_[other] == kFree || distance(other, nearest_[place]) < distance(other, nearest_[other])) {
             nearest_[other] = nearest_[place];
           }
         }
@@ -114,7 +114,7 @@ class Absorption {
     return length(graph_.sphere(a).centre - graph_.sphere(b).centre);
   }
 
-  bool is_free(std::uint32_t place) const { return piece_of_[place] == kNone; }
+  bool is_free(std::uint32_t place) const { return piece_of_[place] == kFree; }
 
   std::vector<std::uint32_t> front_of_free_places() const {
     std::vector<std::uint32_t> front;
@@ -154,7 +154,7 @@ class Absorption {
     }
     std::sort(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(count));
     std::size_t most = 0;
-    std::uint32_t best = kNone;
+    std::uint32_t best = kFree;
     for (std::size_t first = 0, i = 0; i < count; ++i) {
       if (pieces[i] != pieces[first]) first = i;
       if (i + 1 - first <= most) continue;
@@ -169,7 +169,7 @@ class Absorption {
     std::vector<std::uint32_t> united = {place};
     piece_of_[place] = piece;
     for (std::size_t i = 0; i < united.size(); ++i) {
-      nearest_[united[i]] = kNone;
+      nearest_[united[i]] = kFree;
       for (const std::uint32_t other : graph_.neighbours(united[i])) {
         if (!is_free(other)) continue;
         piece_of_[other] = piece;

@@ -9,7 +9,7 @@
 namespace medial_vk::cli {
 namespace {
 
-Error usage_error(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
+Error number_error(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
 
 template <class T>
 bool parse_all(std::string_view text, T& value) {
@@ -31,13 +31,13 @@ int power_of_suffix(std::string suffix) {
 
 Result<double> parse_real(const std::string& text, const RealRange& range, const char* unit) {
   double value = 0;
-  if (!parse_all(text, value)) return usage_error(fmt::format("'{}' is not a number", text));
+  if (!parse_all(text, value)) return number_error(fmt::format("'{}' is not a number", text));
   // Written so that "nan" fails as well.
   const bool inside = range.ends_included ? value >= range.least && value <= range.greatest
                                           : value > range.least && value < range.greatest;
   if (inside) return value;
-  return usage_error(fmt::format("{} is not {}between {:.5g} and {:.5g}{}", text,
-                                 range.ends_included ? "" : "strictly ", range.least, range.greatest, unit));
+  return number_error(fmt::format("{} is not {}between {:.5g} and {:.5g}{}", text,
+                                  range.ends_included ? "" : "strictly ", range.least, range.greatest, unit));
 }
 
 Result<std::uint64_t> parse_whole(const std::string& text, std::uint64_t least, std::uint64_t greatest,
@@ -49,9 +49,9 @@ Result<std::uint64_t> parse_whole(const std::string& text, std::uint64_t least, 
   // Digits that are too many, or a minus sign in front of them: a whole number, but out of range.
   const bool only_digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   if (!whole && !only_digits && !parse_all(text, negative)) {
-    return usage_error(fmt::format("'{}' is not a whole number", text));
+    return number_error(fmt::format("'{}' is not a whole number", text));
   }
-  return usage_error(fmt::format("{} is not between {} and {}{}", text, least, greatest, unit));
+  return number_error(fmt::format("{} is not between {} and {}{}", text, least, greatest, unit));
 }
 
 Result<std::uint64_t> parse_memory(const std::string& text) {
@@ -61,11 +61,11 @@ Result<std::uint64_t> parse_memory(const std::string& text) {
   double value = 0;
   const int power = power_of_suffix(text.substr(digits));
   if (power < 0 || !parse_all(std::string_view(text).substr(0, digits), value)) {
-    return usage_error(fmt::format("'{}' is no amount of memory; write MiB as 512, or a suffix as in 2G", text));
+    return number_error(fmt::format("'{}' is no amount of memory; write MiB as 512, or a suffix as in 2G", text));
   }
   for (int i = 0; i < power; ++i) value *= 1024.0;
   if (value >= kLeast && value <= kGreatest) return static_cast<std::uint64_t>(value);
-  return usage_error(fmt::format("{} is not between 64 MiB and 4 TiB", text));
+  return number_error(fmt::format("{} is not between 64 MiB and 4 TiB", text));
 }
 
 }  // namespace medial_vk::cli

@@ -35,12 +35,12 @@ void append_rows(std::string& text, const char* order, const SheetRemoval& remov
 }
 
 // Of the drawing, in its units.
-constexpr double kWidth = 640, kHeight = 400, kLeft = 64, kRight = 16, kTop = 40, kBottom = 52;
+constexpr double kCurveWidth = 640, kHeight = 400, kCurveLeft = 64, kCurveRight = 16, kCurveTop = 40, kCurveBottom = 52;
 
 class Drawing {
  public:
   explicit Drawing(std::size_t sheets)
-      : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))), out_(kWidth, kHeight) {}
+      : sheets_(static_cast<double>(std::max<std::size_t>(sheets, 1))), out_(kCurveWidth, kHeight) {}
 
   void axes() {
     for (int fifths = 0; fifths <= 5; ++fifths) {
@@ -57,7 +57,7 @@ class Drawing {
     line(0, 0, sheets_, 0, "axis");
     line(0, 0, 0, 1, "axis");
     out_.text((x(0) + x(sheets_)) / 2, kHeight - 12, "middle", "number of sheets");
-    out_.text(x(0), kTop - 16, "start", "share of the volume of the union of balls");
+    out_.text(x(0), kCurveTop - 16, "start", "share of the volume of the union of balls");
   }
 
   void curve(const SheetRemoval& removal, const char* kind, const char* name, double name_height) {
@@ -66,7 +66,7 @@ class Drawing {
       points.emplace_back(x(static_cast<double>(point.sheets)), y(point.volume));
     }
     out_.curve(points, kind);
-    const double legend = kWidth - kRight - 210;
+    const double legend = kCurveWidth - kCurveRight - 210;
     out_.key(legend, y(name_height) - 4, kind);
     out_.text(legend + 32, y(name_height), "start", name);
   }
@@ -78,8 +78,8 @@ class Drawing {
   }
 
  private:
-  double x(double sheets) const { return kLeft + (kWidth - kLeft - kRight) * sheets / sheets_; }
-  static double y(double share) { return kHeight - kBottom - (kHeight - kTop - kBottom) * share; }
+  double x(double sheets) const { return kCurveLeft + (kCurveWidth - kCurveLeft - kCurveRight) * sheets / sheets_; }
+  static double y(double share) { return kHeight - kCurveBottom - (kHeight - kCurveTop - kCurveBottom) * share; }
 
   void line(double sheets_a, double share_a, double sheets_b, double share_b, const char* kind) {
     out_.line(x(sheets_a), y(share_a), x(sheets_b), y(share_b), kind);

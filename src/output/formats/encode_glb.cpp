@@ -191,7 +191,7 @@ class GlbEncoder {
   GlbContainer glb_;
 };
 
-std::uint64_t bytes_per_ball(std::uint32_t detail) {
+std::uint64_t bytes_per_node(std::uint32_t detail) {
   constexpr std::uint64_t kVertex = 2 * sizeof(Vector) + 4 * sizeof(std::uint16_t);
   return kVertex * icosphere_vertices(detail) + 3 * sizeof(std::uint32_t) * icosphere_triangles(detail);
 }
@@ -203,7 +203,7 @@ Result<std::string> encode_glb(const MedialHeader& header, std::span<const Media
   GlbEncoder encoder(header, spheres);
   if (layout == GlbLayout::kNodes) return encoder.nodes(detail.value_or(kUsualSphereDetail));
   if (layout == GlbLayout::kGpuInstances) return encoder.gpu_instances(detail.value_or(kUsualSphereDetail));
-  const Result<std::uint32_t> chosen = choose_sphere_detail(detail, spheres.size(), bytes_per_ball);
+  const Result<std::uint32_t> chosen = choose_sphere_detail(detail, spheres.size(), bytes_per_node);
   if (!chosen) return chosen.error();
   return encoder.one_mesh(chosen.value());
 }

@@ -20,7 +20,7 @@ namespace medial_vk {
 namespace {
 
 // Of balls: the one that gain() asks about stands before those in the places.
-constexpr std::uint32_t kTrial = 0, kFirst = 1, kNone = 0xffffffffu;
+constexpr std::uint32_t kTrial = 0, kFirst = 1, kNoBall = 0xffffffffu;
 
 constexpr Ball kGone = {{0, 0, 0}, std::numeric_limits<double>::quiet_NaN()};  // touches nothing
 bool is_gone(const Ball& ball) { return std::isnan(ball.radius); }
@@ -143,17 +143,17 @@ class DynamicUnion::Impl {
 
   /// Needs no memory.
   void undo() {
-    if (last_.ball == kNone) return;
+    if (last_.ball == kNoBall) return;
     set_ball(last_.ball, last_.given_before);
     for (auto& [j, piece] : last_.pieces_before) std::swap(pieces_[j], piece);
-    last_.ball = kNone;
+    last_.ball = kNoBall;
     last_.changed.clear();
   }
 
   double gain(const Ball& ball) {
     balls_[kTrial] = scaled(ball);
     find_touching(balls_[kTrial], near_);
-    build(kTrial, kNone);
+    build(kTrial, kNoBall);
     double sum = measure(kTrial).volume;
     for (const std::uint32_t j : near_) {
       if (sum <= 0) break;
@@ -177,7 +177,7 @@ class DynamicUnion::Impl {
 
  private:
   struct Change {
-    std::uint32_t ball = kNone;
+    std::uint32_t ball = kNoBall;
     Ball given_before{};
     std::vector<std::uint32_t> changed;
     std::vector<std::pair<std::uint32_t, Piece>> pieces_before;
@@ -231,7 +231,7 @@ class DynamicUnion::Impl {
   void change(std::uint32_t i, const Ball& to) {
     const std::uint32_t end_before = end_;
     std::swap(last_, change_before_);
-    last_.ball = kNone;
+    last_.ball = kNoBall;
     last_.changed.clear();
     last_.pieces_before.clear();
     try {
@@ -264,7 +264,7 @@ class DynamicUnion::Impl {
   void update(std::uint32_t j, std::uint32_t i, bool was_there) {
     if (j == i && is_gone(balls_[i])) return;
     if (j == i || (was_there && pieces_[j].may_grow_without(i))) {
-      build(j, kNone);
+      build(j, kNoBall);
       put_cell(j);
     } else if (touch(balls_[i], balls_[j]) && cut(j, i)) {
       put_cell(j);

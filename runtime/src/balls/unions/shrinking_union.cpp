@@ -18,12 +18,12 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBallsAtOnce = 64;
 // Of a radius cubed: below it rounding may have found a ball in a cell that it misses, or the other way round.
 constexpr double kSliver = 0x1p-30;
 
 /// What the power cell of one ball says.
-struct Piece {
+struct Share {
   double volume = 0;
   bool is_hidden = false;                 // none of the ball is in its cell, or nearly none
   std::vector<std::uint32_t> neighbours;  // balls that bound the cell
@@ -42,7 +42,7 @@ class ShrinkingUnion::Impl {
         mask_(tree_),
         pieces_(balls.size()),
         volumes_(balls.size()) {
-    std::vector<std::pair<std::uint32_t, Piece>> all = measure(tree_.order());
+    std::vector<std::pair<std::uint32_t, Share>> all = measure(tree_.order());
     for (auto& [i, piece] : all) put(i, std::move(piece));
   }
 
@@ -68,7 +68,7 @@ class ShrinkingUnion::Impl {
     sort_unique(gone);
     std::erase_if(gone, [&](std::uint32_t i) { return !mask_.holds(i); });
     for (const std::uint32_t i : gone) mask_.set(i, false);
-    std::vector<std::pair<std::uint32_t, Piece>> changed;
+    std::vector<std::pair<std::uint32_t, Share>> changed;
     std::vector<std::uint32_t> touched;
     try {
       touched = touched_by(gone);
@@ -95,7 +95,7 @@ class ShrinkingUnion::Impl {
   }
 
  private:
-  void put(std::uint32_t i, Piece piece) {
+  void put(std::uint32_t i, Share piece) {
     pieces_[i] = std::move(piece);
     refresh_volume(i);
   }
@@ -133,9 +133,9 @@ class ShrinkingUnion::Impl {
     return result;
   }
 
-  std::vector<std::pair<std::uint32_t, Piece>> measure(std::span<const std::uint32_t> balls) const {
-    std::vector<std::pair<std::uint32_t, Piece>> result(balls.size());
-    parallel_blocks(balls.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::pair<std::uint32_t, Share>> measure(std::span<const std::uint32_t> balls) const {
+    std::vector<std::pair<std::uint32_t, Share>> result(balls.size());
+    parallel_blocks(balls.size(), kBallsAtOnce, threads_, [&](std::size_t begin, std::size_t end) {
       CellBuilder builder(balls_, tree_, &mask_);
       SimplexCollector collector;
       for (std::size_t n = begin; n < end; ++n) {
@@ -146,7 +146,7 @@ class ShrinkingUnion::Impl {
     return result;
   }
 
-  void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, Piece& piece) const {
+  void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, Share& piece) const {
     const Ball& ball = balls_[i];
     if (ball.radius == 0) return;
     const PowerCell& cell = builder.build(i);
@@ -166,11 +166,11 @@ class ShrinkingUnion::Impl {
   unsigned threads_;
   BallTree tree_;
   BallMask mask_;
-  std::vector<Piece> pieces_;
+  std::vector<Share> pieces_;
   std::vector<double> volumes_;
   // Of the last removal.
   std::vector<std::uint32_t> gone_, changed_;
-  std::vector<std::pair<std::uint32_t, Piece>> before_;
+  std::vector<std::pair<std::uint32_t, Share>> before_;
 };
 
 ShrinkingUnion::ShrinkingUnion(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kBallsOfBlock = 4096;
 constexpr double kRounding = 0x1p-24;  // of a float
 
 /// What devices that flush tiny numbers keep of the rounded one.
@@ -73,7 +73,7 @@ SplitBalls split_balls(std::span<const Ball> balls, std::span<const std::uint32_
 
 std::vector<gpu::BallNode> split_nodes(const BallTree& tree, unsigned threads) {
   std::vector<gpu::BallNode> out(tree.node_count());
-  parallel_blocks(out.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(out.size(), kBallsOfBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) out[k] = split_node(tree.node(static_cast<std::uint32_t>(k)));
   });
   return out;

@@ -13,7 +13,7 @@
 namespace medial_vk {
 namespace {
 
-Error usage(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
+Error source_usage(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
 
 constexpr std::uint32_t kFinestGrid = 4096;  // the range of ExtractionOptions::resolution
 constexpr std::uint32_t kFirstGrid = 4;
@@ -30,7 +30,7 @@ class GridSearch {
     Status status = by_count ? finest_within_count() : by_error ? coarsest_within_error() : one_grid();
     if (!status) return status.error();
     if (by_count && by_error && !(error_of(best_).value_or(1) <= request_.error)) {
-      return usage(
+      return source_usage(
           fmt::format("one ball per voxel leaves {:.3g} of the volume uncovered with {} balls, more than the "
                       "error of {:.3g} wanted; allow more balls, or use the method best",
                       error_of(best_).value_or(1), best_.size(), request_.error));
@@ -112,7 +112,7 @@ class GridSearch {
     if (!found) return found.error();
     if (!best_.empty()) return {};
     if (fewest_ == SIZE_MAX) return no_balls();
-    return usage(
+    return source_usage(
         fmt::format("one ball per voxel gives {} balls even on the coarsest grid that has any, more than the {} "
                     "wanted; allow more, or use the method best",
                     fewest_, request_.count));
@@ -122,12 +122,13 @@ class GridSearch {
     const Result<std::uint32_t> found = search([this](std::uint32_t n) { return within_error(n); }, false);
     if (!found) return found.error();
     if (!best_.empty()) return {};
-    return usage(
+    return source_usage(
         fmt::format("one ball per voxel reaches an error of {:.3g} on no grid; use the method best", request_.error));
   }
 
   Status no_balls() const {
-    return usage(fmt::format("no medial ball has an object angle of {:.3g} or more; lower it", request_.object_angle));
+    return source_usage(
+        fmt::format("no medial ball has an object angle of {:.3g} or more; lower it", request_.object_angle));
   }
 
   const Solid& solid_;
@@ -143,12 +144,13 @@ class GridSearch {
 
 Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                  const SphereProgress& progress) {
-  if (request.max_gap > 0) return usage("the method source knows no greatest gap; use the method best");
+  if (request.max_gap > 0) return source_usage("the method source knows no greatest gap; use the method best");
   const bool has_goal = request.count > 0 || request.error > 0;
   if (has_goal && request.resolution > 0) {
-    return usage("the method source finds its own resolution; give either that or a count or error");
+    return source_usage("the method source finds its own resolution; give either that or a count or error");
   }
-  if (!has_goal && request.resolution == 0) return usage("there is no goal: give a count, an error or a resolution");
+  if (!has_goal && request.resolution == 0)
+    return source_usage("there is no goal: give a count, an error or a resolution");
   return GridSearch(solid, request, extractor, progress).run();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-const Vector3f kInk(0.22f, 0.25f, 0.30f);
+const Vector3f kLetters(0.22f, 0.25f, 0.30f);
 
 class Pen {
  public:
@@ -29,7 +29,7 @@ class Pen {
 
   void write(std::uint32_t left, std::uint32_t top, const std::string& text) {
     draw_text(text, [&](std::uint32_t x, std::uint32_t y) {
-      fill(left + x * scale_, top + y * scale_, scale_, scale_, kInk);
+      fill(left + x * scale_, top + y * scale_, scale_, scale_, kLetters);
     });
   }
 
