@@ -18,7 +18,7 @@ const kTurns = {
 const kFilled = 0.88;  // The share of the picture that the model fills at first.
 // The time limit of the balls in milliseconds, so that the page stays responsive.
 const kTurningTime = 40, kRestingTime = 700;
-const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: at first that of a slow device, then measured.
+const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: first of a slow device, then measured.
 
 export class Viewer {
   /** `context`: of WebGL 2, without antialiasing. */
