@@ -106,8 +106,7 @@ Result<std::string> read_bytes(const std::string& path, const std::string& name,
 
 Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name) {
   try {
-    if (bytes.starts_with("\xef\xbb\xbf"))
-      bytes.remove_prefix(3);  // the byte order mark that some editors write before text
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // the byte order mark that some editors write
     if (bytes.empty()) return file_error(name, "file is empty");
     Result<Mesh> mesh = read_by_content(bytes, name);
     if (!mesh.ok() || !mesh.value().triangles.empty()) return mesh;

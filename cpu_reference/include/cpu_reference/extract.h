@@ -49,8 +49,7 @@ enum class UndecidedKind : std::uint8_t {
 struct Undecided {
   Eigen::Vector3i voxel;
   UndecidedKind kind;
-  double
-      width;  // the largest distance of two feet of a salient medial point that hides there (Section 3.4, equation 3.1)
+  double width;  // greatest distance of two feet of a salient medial point hidden there (Section 3.4, equation 3.1)
 };
 
 struct LevelCount {

@@ -90,9 +90,9 @@ class Checker {
            std::isfinite(s.object_angle) && s.radius > 0;
   }
 
-  /// Lemma 2.3: moved away from its contact by epsilon and grown by epsilon, the ball still touches that contact; if
+  /// Lemma 2.3: pushed away from its contact by epsilon and grown by epsilon, the ball still touches that contact; if
   /// the boundary comes closer than that, it is another part of it. The margin covers the rounding of both distances
-  /// and of the moved centre.
+  /// and of the pushed centre.
   void grow(std::size_t i, const Sphere& s, const Closest& nearest) {
     const Vector3d pushed = s.centre - epsilon_ * direction_to(s.centre, nearest);
     const double there = tree_.closest(pushed).distance;

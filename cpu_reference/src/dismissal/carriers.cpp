@@ -184,8 +184,8 @@ std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, cons
 }
 
 // Let m = centre + x have feet on a and b. Their distances from m are both D(m), and at least D - g . x (convexity),
-// and so is the mean of these bounds. D(m) is at most the distance to the nearest point of c, at most D_c - g_c . x +
-// |x|^2 / (2 D_c) (as in Lemma A). Three computed distances: 3 rounding().
+// and so is the mean of these bounds. D(m) is at most the distance to the nearest point of c, at most
+// D_c - g_c . x + |x|^2 / (2 D_c) (as in Lemma A). Three computed distances: 3 rounding().
 bool is_beaten(const Carrier& a, const Carrier& b, double share, const Carrier& c, const Box& box, double slack) {
   if (c.distance <= 0) return false;
   const double distance = a.distance + share * (b.distance - a.distance) - c.distance;

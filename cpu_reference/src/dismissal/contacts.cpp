@@ -36,10 +36,11 @@ void ContactList::measure(int triangle, const Vector3d& centre, double reach) {
   if (can_touch(contact, reach)) contacts_.push_back(contact);
 }
 
-// Lemma A. Let x = m - centre, |x| <= reach. Distance to a convex set is convex with gradient -g_t, so dist(m, t) >=
-// D_t - g_t . x. On the other hand dist(m, P0) = sqrt(D0^2 - 2 D0 g0 . x + |x|^2), which is at most D0 - g0 . x + |x|^2
-// / (2 D0) and at most D0 + |x|. If t is nearest to m, then D_t - D0 is at most reach |g_t - g0| + reach^2 / (2 D0),
-// and at most 2 reach. The test allows four roundings of a distance in favour of keeping.
+// Lemma A. Let x = m - centre, |x| <= reach. Distance to a convex set is convex with gradient -g_t, so
+// dist(m, t) >= D_t - g_t . x. On the other hand dist(m, P0) = sqrt(D0^2 - 2 D0 g0 . x + |x|^2), which is at most
+// D0 - g0 . x + |x|^2 / (2 D0) and at most D0 + |x|. If t is nearest to m, then D_t - D0 is at most
+// reach |g_t - g0| + reach^2 / (2 D0), and at most 2 reach. The test allows four roundings of a distance in favour of
+// keeping.
 bool ContactList::can_touch(const Contact& contact, double reach) const {
   const double behind = contact.distance - nearest_.distance - 4 * tree_->rounding();
   if (behind > 2 * reach) return false;

@@ -94,8 +94,7 @@ std::optional<Arc> arc_across(const Vector3d& along, std::span<const Vector3d> t
   const Vector3d u = towards.front(), v = along.cross(u);
   double from = -kRightAngle, to = kRightAngle;  // angles from u
   for (const Vector3d& d : towards) {
-    const double at =
-        std::atan2(d.dot(v), d.dot(u));  // within pi of 0, and so is the remaining interval: no turn to add
+    const double at = std::atan2(d.dot(v), d.dot(u));  // within pi of 0, as is the remainder: no turn to add
     from = std::max(from, at - kRightAngle);
     to = std::min(to, at + kRightAngle);
   }

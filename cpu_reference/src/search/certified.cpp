@@ -37,7 +37,7 @@ class Certified {
   }
 
  private:
-  /// Bounds all query points below a cell: its own, moved ones (epsilon), and the flux samples of its voxels, at one
+  /// Bounds all query points below a cell: its own, pushed ones (epsilon), and the flux samples of its voxels, at one
   /// voxel side l from voxel centres that are at most circumradius - l sqrt(3)/2 from the cell's.
   double list_reach(int level) const {
     const double voxel = grid_.voxel_size;

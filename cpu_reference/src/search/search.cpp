@@ -47,7 +47,7 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
   LevelCount& count = result_.levels[grid_.levels - 1 + depth];
   ++count.visited;
   const Box box = cube(cell.centre, cell.side);
-  // Larger by epsilon, so that the list also holds the nearest points of the moved balls of the growth test.
+  // Larger by epsilon, so that the list also holds the nearest points of the pushed balls of the growth test.
   const ContactList list(parent, cell.centre, box.reach() + thresholds_.epsilon);
   ++result_.queries;
   const Closest& nearest = list.nearest_to_centre();
@@ -64,8 +64,8 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
     ++count.found;
     return Outcome::kFound;
   }
-  // A cell that meets the boundary where normals are unreliable may hold medial points of either side, so it is not
-  // subdivided further.
+  // A cell that meets the boundary where normals are unreliable may hold medial points of either side, so it is
+  // subdivided only to kLevelsAlongBoundary.
   const auto distrusted = [](const Contact& contact) { return !contact.trusted; };
   const bool hopeless =
       nearest.distance <= box.reach() && std::any_of(test.contacts().begin(), test.contacts().end(), distrusted);

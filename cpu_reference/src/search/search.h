@@ -71,8 +71,8 @@ class VoxelSearch {
 /// The written radius for a computed distance: rounded down, so that the ball cannot protrude.
 double safe_radius(const Tree& tree, double distance);
 
-/// Lemma 2.3: the ball at p, moved away from its contact by epsilon and grown by epsilon, meets the boundary elsewhere,
-/// by more than rounding. `distance_at` gives the distance to the boundary.
+/// Lemma 2.3: the ball at p, pushed away from its contact by epsilon and grown by epsilon, meets the boundary
+/// elsewhere, by more than rounding. `distance_at` gives the distance to the boundary.
 template <typename Distance>
 bool grows_into_boundary(const Tree& tree, const Eigen::Vector3d& p, double distance, const Eigen::Vector3d& spoke,
                          double epsilon, const Distance& distance_at) {

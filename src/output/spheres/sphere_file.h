@@ -23,10 +23,9 @@ enum class SphereFormat {
 /// Spheres of one geometry, in the frame of its link.
 struct PartSpheres {
   std::string link;
-  std::string name;  ///< File of the mesh, or primitiveI.
-  std::vector<std::vector<Ball>>
-      levels;                   ///< The smallest first; all parts have the same number of levels, at least one.
-  std::vector<ReachOut> reach;  ///< Per level.
+  std::string name;                       ///< File of the mesh, or primitiveI.
+  std::vector<std::vector<Ball>> levels;  ///< The smallest first; the same number in all parts, at least one.
+  std::vector<ReachOut> reach;            ///< Per level.
 };
 
 struct SphereFile {

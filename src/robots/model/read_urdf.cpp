@@ -28,7 +28,7 @@ std::size_t after(std::string_view bytes, std::string_view end, std::size_t from
   return found == std::string_view::npos ? bytes.size() : found + end.size();
 }
 
-/// Counts values in quotes in one tag; comments and the like are skipped as by the parser.
+/// True if a tag has more than kMostAttributes values in quotes; comments and the like are skipped as by the parser.
 bool has_too_many_attributes(std::string_view bytes) {
   for (std::size_t i = bytes.find('<'); i < bytes.size(); i = bytes.find('<', i)) {
     const std::string_view rest = bytes.substr(i);
