@@ -2,7 +2,7 @@
 // triangulation of the same balls alone, where it is built in. The median of the repeats by wall clock, and the median
 // of the CPU seconds of the process.
 //   bench_unions [--repeats N] [--threads N] [--made] [--largest N] [SPHERES.csv ...]
-// --made: also balls that it makes itself, random ones up to --largest, a lattice, centres in a plane.
+// --made: also generated balls, random ones up to --largest, a lattice, centres in a plane.
 #include <fmt/core.h>
 #include <time.h>
 

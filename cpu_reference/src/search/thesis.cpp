@@ -6,8 +6,8 @@
 // cell whose sphere meets the boundary is subdivided without a test, and searched by Algorithm 2 at the finest level if
 // narrow features are enabled (2.4.3). Cells wholly outside are dropped, which changes nothing in the output.
 //
-// Algorithm 2 accepts what the source accepts and, beyond it, demands the growth test of Lemma 2.3, because every
-// output ball has to pass the certificate: RETRACT keeps to it except on lines that run through the boundary.
+// Algorithm 2 requires the growth test of Lemma 2.3 in addition to the conditions of the source, because every output
+// ball has to pass the certificate: RETRACT satisfies it except on lines that pass through the boundary.
 #include <cmath>
 #include <vector>
 

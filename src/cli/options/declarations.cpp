@@ -45,7 +45,7 @@ std::string suggestion(const CLI::App& app, const std::string& unknown) {
 
 Status check_extras(const CLI::App& app, const char* one_only) {
   std::vector<std::string> extras = app.remaining();
-  std::erase(extras, "--");  // CLI11 includes the mark itself.
+  std::erase(extras, "--");  // CLI11 counts the mark as an extra.
   for (const std::string& extra : extras) {
     if (extra.size() > 1 && extra[0] == '-') {
       return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
