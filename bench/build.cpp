@@ -1,5 +1,5 @@
-// What a mesh goes through before its extraction, by triangles (Google Benchmark): the hierarchy built and refitted,
-// and everything else that is done to it on the host.
+// The work on a mesh before its extraction, by triangles (Google Benchmark): the hierarchy built and refitted, and all
+// other steps on the host.
 //   build/release/bin/bench_build [--benchmark_filter=REGEX] [--benchmark_format=json]
 // The counter `sah` is the cost of the tree by the surface area heuristic: the expected number of boxes and triangles
 // that a random line through the mesh's box tests.
@@ -71,7 +71,7 @@ void by_size_and_threads(benchmark::internal::Benchmark* benchmark) {
   }
 }
 
-/// To and fro between two shapes, so that every run moves everything.
+/// Alternates between two shapes, so that every run moves all vertices.
 void refit(benchmark::State& state) {
   const Mesh& mesh = mesh_of(state.range(0));
   Mesh bent = mesh;

@@ -1,6 +1,6 @@
 // Iterated foam sampling (Section 3.5, problem 2): spheres that DECIDEMS leaves undetermined get the centres of their
-// full foam as new samples, again and again. What is still undetermined, what is missed in truth, and what the foam
-// says about it. docs/foam.md has the table.
+// full foam as new samples, repeatedly. The output is the number still undetermined, the actual misses, and their
+// bounds by the foam. docs/foam.md has the table.
 //   bench_foam_iterations [SPHERES [POINTS [ITERATIONS [RESOLUTION]]]]
 #include <fmt/core.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using namespace medial_vk;
 
-constexpr std::uint32_t kMostSpiralPoints = 200;  // each has a site of its own, and time grows with sites * samples
+constexpr std::uint32_t kMostSpiralPoints = 200;  // each has its own site, and time grows with sites * samples
 constexpr double kQueryError = 1e-14;             // of distances to meshes of size 1 by Bvh
 
 struct Settings {
@@ -77,13 +77,13 @@ std::vector<Medial> medial_points(const Bvh& bvh, const Ball& sphere, int tries)
   return out;
 }
 
-/// One sphere through the iterations.
+/// One sphere in all iterations.
 struct Run {
   SphereSamples samples;
   std::vector<Medial> medial;
 };
 
-/// What stands in one row of the table, of the spheres that are still undetermined.
+/// The contents of one row of the table, for the spheres that are still undetermined.
 struct Row {
   std::vector<double> samples, sites, widths, depths, uncovered;
   std::size_t undetermined = 0, with_medial_points = 0;
@@ -119,7 +119,7 @@ std::vector<Run> undetermined_spheres(const Bvh& bvh, const Settings& settings, 
       }
     }
   }
-  // Half of the spheres wanted hold medial points, if there are as many; both kinds evenly over the solid.
+  // Half of the requested spheres hold medial points, if there are enough; both kinds are spread evenly over the solid.
   std::vector<Run> out;
   const auto take = [&](std::vector<Run>& from, std::size_t wanted) {
     for (std::size_t k = 0; k < std::min(wanted, from.size()); ++k)
@@ -158,7 +158,7 @@ void print(const std::string& name, const std::string& iteration, const Row& row
   std::fflush(stdout);
 }
 
-/// The same spheres with one denser sampling instead.
+/// Measures the same spheres with one denser sampling instead.
 bool measure_spiral(const std::vector<Run>& runs, std::uint32_t points, double side,
                     const NearestPointsFunction& nearest, Row& row) {
   for (const Run& run : runs) {

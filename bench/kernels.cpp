@@ -2,9 +2,9 @@
 //   build/release/bin/bench_kernels [MESH ...] [--resolution=N] [--benchmark_filter=REGEX] [--benchmark_format=json]
 // Without meshes: a flattened torus of 16,000 triangles, whose points are many and easy, and a torus with bumps of
 // 100,000, whose contact lists are long. An iteration of all benchmarks of a mesh is one extraction, so their times add
-// up, and what disturbs one disturbs all. The time of a kernel is the sum over its dispatches on all levels. Counters:
-// `share` of all kernels; of the sum of all, the distances between points and triangles a second (`triangle_tests` of
-// the report).
+// up, and a disturbance affects all of them. The time of a kernel is the sum over its dispatches on all levels.
+// Counters: for each kernel its `share`; for the sum of all, the distances between points and triangles per second
+// (`triangle_tests` of the report).
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -30,7 +30,7 @@ using namespace medial_vk;
 constexpr int kRepeats = 5;
 constexpr const char* kAll = "all";
 
-/// Seconds of every kernel, of all, and what the run asked.
+/// The seconds of every kernel and of all, and the number of tests of the run.
 struct Run {
   std::map<std::string, double> seconds;
   double distances = 0;
@@ -50,8 +50,8 @@ Mesh make_flat_torus() {
   std::exit(1);
 }
 
-/// A mesh and the extractions from it so far, which all its benchmarks share. The first one, which made the programs,
-/// is not among them.
+/// A mesh and its extractions so far, which all its benchmarks share. The first one, which compiled the programs, is
+/// not included.
 class Subject {
  public:
   Subject(Context& context, std::string name, Mesh mesh, std::uint32_t resolution)
@@ -96,7 +96,7 @@ class Subject {
   std::vector<Run> runs_;
 };
 
-/// `next`: the run after those that earlier repetitions have told of.
+/// `next`: the run after those that earlier repetitions have reported.
 void time_kernel(benchmark::State& state, Subject* subject, const std::string& kernel, std::size_t& next) {
   double sum = 0, of_all = 0, distances = 0;
   for (auto _ : state) {

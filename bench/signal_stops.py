@@ -34,20 +34,20 @@ def main(arguments):
         arguments = arguments[2:]
     if not arguments:
         sys.exit(__doc__)
-    # The paths of meshes are those of the caller.
+    # The paths of meshes are relative to the folder of the caller.
     command = [os.path.abspath(a) if os.path.exists(a) else a for a in arguments]
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(2):  # the first one compiles kernels
+        for _ in range(2):  # the first run compiles kernels
             whole, code, messages = run(command, folder)
             if code != 0:
                 sys.exit(f"{messages}exit code {code}")
     stops = []
     for i in range(count):
         with tempfile.TemporaryDirectory() as folder:
-            # Not before the handlers are there: some milliseconds after the start.
+            # Not before the handlers are installed, some milliseconds after the start.
             seconds, code, messages = run(command, folder, 0.03 + (whole - 0.03) * i / count)
             if code == 0:
-                continue  # it was done before
+                continue  # the run had already finished
             if code != 130 or os.listdir(folder):
                 sys.exit(f"{messages}exit code {code}, left {os.listdir(folder)}")
             stops.append(seconds)

@@ -1,7 +1,8 @@
-// How long an extraction takes to stop (docs/reliability.md): stops are requested at moments spread evenly over a run.
+// The time that an extraction takes to stop (docs/reliability.md): stops are requested at moments spread evenly over a
+// run.
 //   bench_stops [--mode thesis|certified] [--stops N] [--resolution N] [--seconds S] MESH ...
-// Processor time is that of all threads while a stop is waited for: what it costs however busy the machine is.
-// A run that takes longer than S seconds is not waited for: its stops are spread over its first S seconds.
+// Processor time is that of all threads during the wait for a stop, which is independent of the load of the machine. Of
+// a run that takes longer than S seconds, only the first S seconds are used for stops.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -34,7 +35,7 @@ T or_exit(Result<T> result) {
 }
 
 struct Latencies {
-  double run = 0;             // seconds of a run that nobody stops
+  double run = 0;             // seconds of a run without a stop
   std::vector<double> stops;  // seconds from each request to the return, sorted
   double most_work = 0;       // seconds of processors in between, at most
 };
@@ -55,7 +56,7 @@ double time_run(Context& context, const IndexedMesh& mesh, const ExtractionOptio
 Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOptions& parameters, int count,
                   double most) {
   Latencies out;
-  for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, parameters, most);  // the first one compiles
+  for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, parameters, most);  // the first run compiles
   for (int i = 0; i < count; ++i) {
     std::stop_source source;
     Clock::time_point requested;
@@ -70,7 +71,7 @@ Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOpt
     const Clock::time_point returned = Clock::now();
     const std::clock_t after = std::clock();
     other.join();
-    if (stopped.ok()) continue;  // it was done before
+    if (stopped.ok()) continue;  // the run had already finished
     if (stopped.error().code != ErrorCode::kInterrupted) or_exit(stopped);
     out.stops.push_back(Seconds(returned - requested).count());
     out.most_work = std::max(out.most_work, static_cast<double>(after - before) / CLOCKS_PER_SEC);

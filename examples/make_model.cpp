@@ -1,4 +1,4 @@
-// Makes a closed mesh to try medial-vk on: a turtle, as a Wavefront OBJ.
+// Makes a closed mesh for experiments with medial-vk: a turtle, as a Wavefront OBJ.
 //   make_model FILE.obj [CELLS]
 // The solid is a smooth union of ellipsoids, given by an implicit function; naive surface nets (Gibson 1998) turn its
 // zero set on a grid of CELLS cells along the longest side into quadrilaterals, and Newton steps move the vertices onto
@@ -30,7 +30,7 @@ struct Part {
   double yaw;
 };
 
-// x ahead, z up. Parts with y != 0 stand for two, left and right.
+// x forward, z up. A part with y != 0 stands for two, left and right.
 constexpr std::array<Part, 6> kParts = {{
     {{0.00, 0.00, 0.00}, {0.62, 0.48, 0.22}, 0.0},     // shell
     {{0.78, 0.00, 0.03}, {0.19, 0.14, 0.13}, 0.0},     // head
@@ -42,7 +42,7 @@ constexpr std::array<Part, 6> kParts = {{
 constexpr Vector kLower = {-1.0, -1.1, -0.4};
 constexpr Vector kUpper = {1.1, 1.1, 0.4};
 
-/// About the signed distance to a part, negative inside.
+/// The approximate signed distance to a part, negative inside.
 double part_value(const Part& part, const Vector& p) {
   const Vector d = p - part.centre;
   const double c = std::cos(part.yaw), s = std::sin(part.yaw);
@@ -60,7 +60,7 @@ double smooth_minimum(double a, double b, double width) {
 }
 
 double value(Vector p) {
-  p[1] = std::abs(p[1]);  // left and right alike; smooth, since the parts that cross the plane are symmetric
+  p[1] = std::abs(p[1]);  // mirror symmetry; smooth, since the parts that cross the plane are symmetric
   double result = part_value(kParts[0], p);
   for (std::size_t i = 1; i < kParts.size(); ++i) result = smooth_minimum(result, part_value(kParts[i], p), 0.08);
   return result;
@@ -88,8 +88,8 @@ class SurfaceNets {
   explicit SurfaceNets(int cells) {
     const Vector extent = kUpper - kLower;
     side_ = *std::max_element(extent.begin(), extent.end()) / cells;
-    // One cell more on every side, so that the surface stays clear of the border. The half keeps the plane y = 0
-    // between two rows of grid points.
+    // One more cell on every side keeps the surface clear of the border. The half keeps the plane y = 0 between two
+    // rows of grid points.
     for (std::size_t i = 0; i < 3; ++i) size_[i] = static_cast<int>(std::ceil(extent[i] / side_)) + 2;
     size_[1] += size_[1] % 2 == 0 ? 1 : 0;
     origin_ = 0.5 * (kLower + kUpper) - 0.5 * side_ * Vector{1.0 * size_[0], 1.0 * size_[1], 1.0 * size_[2]};
@@ -118,7 +118,7 @@ class SurfaceNets {
     return (static_cast<std::size_t>(c[2]) * (size_[1] + 1) + c[1]) * (size_[0] + 1) + c[0];
   }
 
-  /// The four cells around the edge from grid point `from` along `axis`, if the surface crosses it.
+  /// Adds the four cells around the edge from grid point `from` along `axis`, if the surface crosses it.
   void add_quad(const Cell& from, std::size_t axis) {
     Cell to = from;
     ++to[axis];
@@ -177,7 +177,7 @@ class SurfaceNets {
   Mesh mesh_;
 };
 
-/// Every edge must be run through exactly once in each direction.
+/// True if every edge is traversed exactly once in each direction.
 bool is_closed_manifold(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (const auto& t : mesh.triangles)

@@ -1,5 +1,5 @@
-// The smallest host with a Vulkan device of its own: it records an extraction into its command buffer, submits it with
-// a timeline semaphore, and reads the spheres from the buffer they are in. Compute only; no window.
+// The smallest host with its own Vulkan device: it records an extraction into its command buffer, submits it with a
+// timeline semaphore, and reads the spheres from the buffer of the job. Compute only; no window.
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
 #include <vulkan/vulkan.h>
@@ -43,7 +43,7 @@ VkInstance create_instance() {
   return instance;
 }
 
-// The first device that will do, with its first queue family that will.
+// The first suitable device, with its first suitable queue family.
 medial_vk::HostDevice create_device(VkInstance instance) {
   medial_vk::HostDevice host;
   host.get_instance_proc_addr = vkGetInstanceProcAddr;
@@ -80,7 +80,7 @@ VkCommandBuffer begin_commands(VkDevice device, VkCommandPool pool) {
   return commands;
 }
 
-// Submits, and waits for the value that the timeline reaches when all is done.
+// Submits the commands, and waits for the final value of the timeline.
 void run(const medial_vk::HostDevice& host, VkCommandBuffer commands) {
   check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
   auto type = vulkan_struct<VkSemaphoreTypeCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO);
@@ -109,7 +109,7 @@ void run(const medial_vk::HostDevice& host, VkCommandBuffer commands) {
 }  // namespace
 
 int main() {
-  // A box of 3 x 2 x 1. Triangles are counter-clockwise seen from outside; all normals may be trusted.
+  // A box of 3 x 2 x 1. Triangles are counter-clockwise seen from outside; all normals can be trusted.
   const std::vector<medial_vk::Point> vertices = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0},
                                                   {0, 0, 1}, {3, 0, 1}, {3, 2, 1}, {0, 2, 1}};
   const std::vector<medial_vk::Triangle> triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},

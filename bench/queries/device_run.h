@@ -1,4 +1,4 @@
-// Queries that stay on the device: what a kernel takes by itself.
+// Queries that stay on the device, for the time of the kernels.
 #pragma once
 
 #include <cstdint>

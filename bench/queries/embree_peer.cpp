@@ -21,7 +21,7 @@ Vector along(const Vector& a, float v, const Vector& b, float w, const Vector& c
   return {a[0] + v * b[0] + w * c[0], a[1] + v * b[1] + w * c[1], a[2] + v * b[2] + w * c[2]};
 }
 
-/// Nearest point of a triangle by the regions of Ericson 2005, 5.1.5, as Embree's own tutorial does.
+/// The nearest point of a triangle by the regions of Ericson 2005, 5.1.5, as in Embree's tutorial.
 Vector nearest_on_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
   const Vector ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const float d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -113,7 +113,7 @@ EmbreePeer::~EmbreePeer() {
 }
 
 void EmbreePeer::distances(std::span<const std::array<float, 3>> queries, std::span<float> out) {
-  // Parts small enough that all threads end at about the same time.
+  // Chunks small enough that all threads end at about the same time.
   constexpr std::size_t kPart = 4096;
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {

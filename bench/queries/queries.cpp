@@ -1,7 +1,7 @@
 // Closest points: the centre and 50 samples of each voxel sphere, l = 1/160, and the same points shuffled; by the
 // public calls (host to host), by the kernels alone (queries and results stay on the device), and by Embree with as
-// many threads. Also few points scattered over the mesh's box, where the choice of the kernel turns. Time is process
-// CPU time, the driver's and Embree's threads included, and wall time.
+// many threads. Also few points scattered over the mesh's box, around the number at which the choice of kernel changes.
+// Time is process CPU time, including the threads of the driver and of Embree, and wall time.
 //   bench_queries [--queries N] [--meshes torus16k,blob100k,blob1m,FILE,...] [--benchmark_* ...]
 #include <benchmark/benchmark.h>
 
@@ -28,14 +28,14 @@ namespace medial_vk::bench {
 namespace {
 
 constexpr std::array<std::size_t, 4> kFew = {256, 1024, 4096, 16384};
-constexpr std::size_t kFewInAll = 65536;  // queries of a pass
+constexpr std::size_t kFewInAll = 65536;  // queries per pass
 #ifdef NDEBUG
 constexpr const char* kBuild = "optimised";
 #else
 constexpr const char* kBuild = "with assertions: no figure of this run counts";
 #endif
 
-/// Everything that the benchmarks of one mesh use.
+/// The data of all benchmarks of one mesh.
 struct Subject {
   explicit Subject(Workload w) : workload(std::move(w)) {}
   Workload workload;
@@ -95,14 +95,14 @@ std::unique_ptr<Subject> make_subject(Context& context, const std::string& name,
   return s;
 }
 
-/// `pass` answers all queries once and returns the device's seconds, or 0 if it does not know them.
+/// `pass` answers all queries once and returns the seconds on the device, or 0 if unknown.
 void add_benchmark(const Subject& subject, const std::string& name, std::size_t count,
                    const std::function<double()>& pass) {
   const auto queries = static_cast<double>(count);
   const auto warm = std::make_shared<bool>(false);
   benchmark::RegisterBenchmark((subject.workload.name + "/" + name).c_str(),
                                [=](benchmark::State& state) {
-                                 if (!*warm) pass();  // pipelines are made, pages are touched
+                                 if (!*warm) pass();  // pipelines are created, pages are touched
                                  *warm = true;
                                  double device = 0;
                                  for (auto _ : state) device += pass();
@@ -124,7 +124,7 @@ double require(const Status& status) {
 void add_benchmarks(Subject& s) {
   const Workload& w = s.workload;
   const std::size_t n = w.spheres.size();
-  // Both write into memory that is there, as the peer does.
+  // Both write into existing memory, as the peer does.
   add_benchmark(s, "spheres/call", n,
                 [&] { return require(s.scene->closest_points_of_groups(w.spheres, kGroup, s.closest)); });
   add_benchmark(s, "spheres/packets", n, [&] { return s.device->spheres_by_packets(); });

@@ -9,19 +9,19 @@
 
 namespace medial_vk::bench {
 
-/// Benchmarks are named MESH/QUERIES/WHO, and the counter "queries" says how many queries an iteration answers.
+/// Benchmarks are named MESH/QUERIES/WHO, and the counter "queries" is the number of queries per iteration.
 class QueryTable : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override;
-  /// Rates per CPU-second and per second of wall time, in millions, and the ratio to WHO = "embree" where there is one.
+  /// Rates per CPU-second and per second of wall time, in millions, and the ratio to WHO = "embree" if present.
   std::string markdown() const;
 
  private:
   struct Times {
-    std::vector<double> cpu, wall, device;  // seconds of an iteration
+    std::vector<double> cpu, wall, device;  // seconds per iteration
     double queries = 0;
   };
-  std::vector<std::string> names_;  // as they came first
+  std::vector<std::string> names_;  // in order of first appearance
   std::map<std::string, Times> times_;
 };
 

@@ -13,7 +13,7 @@
 namespace medial_vk::bench {
 namespace {
 
-/// Translated and scaled so that the box starts at the origin and its longest side is 1. Returns the box's sides.
+/// Translates and scales so that the box starts at the origin and its longest side is 1. Returns the sides of the box.
 Point normalise(Mesh& mesh) {
   Point lower = mesh.vertices[0], upper = mesh.vertices[0];
   for (const Point& p : mesh.vertices) {

@@ -26,11 +26,11 @@ struct Workload {
 /// A sphere with bumps and dents of several sizes, at least `triangles` faces.
 Mesh make_blob(std::uint32_t triangles);
 
-/// Interior voxels in 4^3 blocks that are taken in random order, until there are at least `queries` queries. The same
-/// every time.
+/// Interior voxels in 4^3 blocks in random order, until there are at least `queries` queries. The result is
+/// reproducible.
 Result<Workload> make_workload(Context& context, std::string name, Mesh mesh, std::uint64_t queries);
 
-/// Points anywhere in the mesh's box, the same every time.
+/// Points anywhere in the box of the mesh; the result is reproducible.
 std::vector<Point> scattered_points(const Workload& workload, std::size_t count);
 
 }  // namespace medial_vk::bench

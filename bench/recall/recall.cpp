@@ -91,8 +91,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Samples that climb may end at the same corner of the medial surface. Those are told apart that are in different
-/// cubes of this side.
+/// Samples that climb may end at the same corner of the medial surface. Those in different cubes of this side count as
+/// distinct.
 std::size_t count_apart(const std::vector<MedialSample>& samples, double side) {
   std::set<std::array<long long, 3>> places;
   for (const MedialSample& s : samples) {
@@ -102,7 +102,7 @@ std::size_t count_apart(const std::vector<MedialSample>& samples, double side) {
   return places.size();
 }
 
-/// As many as are wanted of those that are also clear of their voxel's faces: a share of 0.9 along each axis.
+/// Draws the requested number of samples that are also clear of their voxel's faces: a share of 0.9 along each axis.
 std::vector<MedialSample> draw_samples(const Subject& subject, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const double axis = 1 - 2 * bench::kClearOfFaces;
@@ -138,7 +138,7 @@ void log(const RecallRow& row, double seconds) {
   if (row.mode == Mode::kCertified && row.undecided_listed) name_all("lost", row.first_lost);
 }
 
-/// Where all that is salient is next to the centre of the box, that is a corner of voxels if their number is even.
+/// If everything salient lies next to the centre of the box, that is a corner of voxels if their number is even.
 std::vector<std::uint32_t> resolutions_for(const Subject& subject, const std::vector<std::uint32_t>& wanted) {
   std::vector<std::uint32_t> resolutions;
   for (const std::uint32_t resolution : wanted) {
@@ -196,7 +196,7 @@ Status run(const Options& options) {
   std::vector<RecallRow> rows;
   for (const Subject& subject : subjects.value()) {
     if (Status done = measure(subject, options, context ? &*context : nullptr, rows); !done) return done;
-    // After every mesh, so that a long run that is stopped leaves what it has.
+    // Written after every mesh, so that a run that is stopped keeps its results.
     if (options.csv.empty()) continue;
     if (Status done = write(options.csv, bench::to_csv(rows)); !done) return done;
   }

@@ -12,7 +12,7 @@ using Voxel = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t kMostNamed = 5;
 
-/// The voxel of a point, and how far from its faces the point is, as a share of the voxel's side.
+/// The voxel of a point, and the distance of the point from its faces as a share of the voxel side.
 struct Place {
   Voxel voxel;
   double depth;

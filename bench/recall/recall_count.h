@@ -1,4 +1,4 @@
-// One extraction against independent samples of the medial surface: what of them was found.
+// Compares one extraction with independent samples of the medial surface.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace medial_vk::bench {
 
-/// A sample counts for recall if its object angle is this much above the threshold and it is this far from the faces of
-/// its voxel, as a share of the voxel's side.
+/// A sample counts for recall if its object angle is this much above the threshold and its distance from the faces of
+/// its voxel is at least this share of the voxel side.
 inline constexpr double kClearAngle = 0.05, kClearOfFaces = 0.05;
 /// For dismissal every salient sample counts: the device lowers the threshold by this much (docs/theory.md,
 /// "Rounding").
 inline constexpr double kAngleSlack = 1e-5;
 
-/// What became of the voxels that hold samples.
+/// The outcomes of the voxels that hold samples.
 struct Tally {
   std::uint64_t samples = 0, found = 0, undecided = 0;
 
@@ -44,14 +44,14 @@ struct RecallRow {
   Tally dismissal;
   std::uint64_t points = 0, undecided = 0, visited = 0;  ///< Finest voxels.
   std::array<std::uint64_t, kUndecidedKinds> undecided_by_kind = {};
-  /// Does the extraction list its undecided voxels? If not, a missed sample may be an undecided or a lost one.
+  /// True if the extraction lists its undecided voxels. If not, a missed sample may be an undecided or a lost one.
   bool undecided_listed = false;
   std::vector<test::MedialSample> first_missed, first_lost;  ///< A few of each, for the log.
 
   Tally of(RadiusClass radius) const;
 };
 
-/// Fills in everything that follows from samples and extraction.
+/// Computes all values that follow from samples and extraction.
 RecallRow count_recall(const std::string& mesh, const std::vector<test::MedialSample>& samples,
                        const ExtractionOptions& parameters, const Extraction& extraction);
 

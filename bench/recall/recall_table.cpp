@@ -24,7 +24,7 @@ std::vector<Line> lines_of(const std::vector<RecallRow>& rows, Mode mode) {
   return lines;
 }
 
-/// 1234567 as 1,234,567.
+/// Prints 1234567 as 1,234,567.
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
   for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");

@@ -1,7 +1,8 @@
-// The volume of a union of balls by samples, against measure_ball_union(): how many standard errors they are apart.
+// The volume of a union of balls by samples, against measure_ball_union(): their difference in standard errors.
 //   bench_union_samples [--samples N] [--seed N] [--threads N] [--limit SIGMAS] SPHERES.csv ...
-// Two samples in each of N / 2 equal boxes: fewer go astray than without boxes, and what the two disagree by gives the
-// standard error. A grid tells for most boxes that they are in one ball or in none. Exit code 1: beyond the limit.
+// Two samples in each of N / 2 equal boxes: the variance is lower than without boxes, and the differences of the two
+// give the standard error. A grid shows for most boxes that they are in one ball or in none. Exit code 1: beyond the
+// limit.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr int kBoxesPerCell = 4;  // along each axis
 
-/// A grid of cells over the balls: which are in one ball, and which balls meet the others.
+/// A grid of cells over the balls: the cells in one ball, and the balls that meet the others.
 class CellGrid {
  public:
   CellGrid(const std::vector<Ball>& balls, std::size_t cells) : balls_(balls), cells_(cells) {
@@ -95,7 +96,7 @@ class CellGrid {
   std::vector<std::vector<Ball>> meeting_;
 };
 
-/// Of boxes with two samples: samples in the union, and boxes whose samples disagree.
+/// For boxes with two samples: the samples in the union, and the boxes whose samples disagree.
 struct Counts {
   std::uint64_t hits = 0, disagree = 0;
 };

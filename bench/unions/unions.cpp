@@ -2,7 +2,7 @@
 // triangulation of the same balls alone, where it is built in. The median of the repeats by wall clock, and the median
 // of the CPU seconds of the process.
 //   bench_unions [--repeats N] [--threads N] [--made] [--largest N] [SPHERES.csv ...]
-// --made: also balls that it makes itself, random ones up to --largest, a lattice, centres in a plane.
+// --made: also generated balls, random ones up to --largest, a lattice, centres in a plane.
 #include <fmt/core.h>
 #include <time.h>
 
@@ -70,7 +70,8 @@ class Table {
         "|---|---|---|---|---|---|---|\n");
   }
 
-  /// CPU seconds without the complex. The three kinds of runs alternate, so that what else the machine does meets all.
+  /// CPU seconds without the complex. The three kinds of runs alternate, so that other load affects all of them
+  /// equally.
   double add(const std::string& name, const std::vector<Ball>& balls) {
     std::vector<Times> plain, with_complex, peer;
     for (int k = 0; k < repeats_; ++k) {
@@ -109,7 +110,7 @@ void print_growth(const std::string& name, const Line& line) {
   fmt::print("Growth of {}: exponent {:.2f}.\n", name, (count * xy - x * y) / (count * xx - x * x));
 }
 
-/// Random balls of which each meets as many others at every size, a lattice, and a plane.
+/// Random balls with a constant number of overlaps per ball at every size, a lattice, and a plane.
 Line add_made(Table& table, std::size_t largest) {
   Line line;
   for (std::size_t n = 20000; n <= largest; n *= 5) {

@@ -41,7 +41,7 @@ std::vector<Ball> balls_along_a_sheet(std::size_t count) {
   return balls;
 }
 
-/// The least of some runs, in seconds, after one that compiles.
+/// The least time of some runs, in seconds, after one that compiles.
 template <class Run>
 double time_of(int repeats, const Run& run) {
   double least = HUGE_VAL;

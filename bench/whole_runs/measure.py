@@ -16,7 +16,7 @@ class RunFailed(Exception):
 def wait(process, limit):
     """Waits for the process; its exit status and resource usage, or RunFailed after `limit` seconds."""
     end = time.monotonic() + limit
-    pause = 0.0005  # seconds; the time between two looks adds to what is measured, a little
+    pause = 0.0005  # seconds; the interval of polling adds a little to the measured time
     while True:
         pid, status, usage = os.wait4(process.pid, os.WNOHANG)
         if pid != 0:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
-# Cells along the turtle's longest side, by about how many triangles that gives: an animal-like smooth union of
+# Cells along the turtle's longest side, by the approximate number of triangles: an animal-like smooth union of
 # ellipsoids (examples/make_model.cpp), the same solid each time.
 TURTLES = {"turtle-6k": 52, "turtle-24k": 104, "turtle-96k": 208, "turtle-1m": 672}
 GENERATED = ["torus-16k", *TURTLES]

@@ -3,9 +3,9 @@
 import math
 from html import escape
 
-# Told apart by people with the common kinds of colour blindness (Okabe and Ito), on white and on dark grey.
+# Distinguishable with the common kinds of colour blindness (Okabe and Ito), on white and on dark grey.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#8c564b"]
-# Without CSS variables, which not every program that shows SVG knows.
+# Without CSS variables, which some programs that show SVG do not support.
 STYLE = """
   .page { fill: #ffffff; } .grid { stroke: #d1d9e0; } .line { fill: none; stroke-width: 2; }
   text { fill: #1f2328; font: 12px sans-serif; } .title { font-weight: bold; }

@@ -26,7 +26,7 @@ DeformingTorus::DeformingTorus(std::uint32_t around, std::uint32_t along) : arou
       triangles_.push_back({a, c, d});
     }
   }
-  // Closed and rightly oriented, and it never meets itself: all normals may be trusted.
+  // The mesh is closed, correctly oriented and never meets itself, so all normals can be trusted.
   flags_.assign(triangles_.size(), medial_vk::kTrustedNormal);
   deform(0);
 }

@@ -10,7 +10,7 @@ class DeformingTorus {
  public:
   DeformingTorus(std::uint32_t around, std::uint32_t along);
 
-  /// Moves the vertices to where they are at `phase`, 0 to 1 for a whole period.
+  /// Moves the vertices to their positions at `phase`, 0 to 1 for a whole period.
   void deform(double phase);
 
   medial_vk::MeshView view() const { return {vertices_, triangles_, flags_, true}; }

@@ -65,7 +65,8 @@ void ForwardPass::create_target() {
                                                      VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
   constexpr VkAccessFlags kAttachmentWrites =
       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-  // The images are shared by all frames: after the copy and the tests of the frame before, and before the copy of this.
+  // All frames share the images: the pass runs after the copy and the tests of the previous frame, and before its own
+  // copy.
   const std::array<VkSubpassDependency, 2> dependencies = {
       {{VK_SUBPASS_EXTERNAL, 0, kAttachmentStages | VK_PIPELINE_STAGE_TRANSFER_BIT, kAttachmentStages,
         kAttachmentWrites, kAttachmentWrites | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT, 0},
@@ -110,7 +111,7 @@ void ForwardPass::create_layouts(const medial_vk::JobBuffers& spheres) {
   allocation.descriptorSetCount = 1;
   allocation.pSetLayouts = &set_layout_;
   check(vkAllocateDescriptorSets(host_.device, &allocation, &set_), "vkAllocateDescriptorSets");
-  // The vertex shader reads the very buffer that the job writes.
+  // The vertex shader reads the buffer that the job writes.
   const VkDescriptorBufferInfo range = {spheres.spheres, 0, spheres.sphere_bytes};
   auto write = vulkan_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
   write.dstSet = set_;
@@ -137,7 +138,7 @@ VkShaderModule ForwardPass::create_shader(const std::uint32_t* code, std::size_t
   return shader;
 }
 
-// long: all of a pipeline's state, one member after the other.
+// long: all state of a pipeline, one member after the other.
 VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
@@ -156,7 +157,7 @@ VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 3 * sizeof(float)}}};
   auto input =
       vulkan_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-  if (translucent_mesh) {  // spheres have no attributes: they come from storage
+  if (translucent_mesh) {  // spheres have no attributes: they are read from storage
     input.vertexBindingDescriptionCount = 1;
     input.pVertexBindingDescriptions = &binding;
     input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());

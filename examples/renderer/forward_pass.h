@@ -1,5 +1,5 @@
-// The forward pass: spheres first, opaque, then the mesh, translucent; into an image that is copied to the host for the
-// file. A swap chain would take the image's place in a program with a window.
+// The forward pass: first the opaque spheres, then the translucent mesh, into an image that is copied to the host for
+// the file. A program with a window would use a swap chain instead of the image.
 #pragma once
 
 #include <medial_vk/extraction_job.h>
@@ -16,7 +16,7 @@ struct FrameConstants {
   float placement[4];
 };
 
-/// What a frame draws.
+/// The inputs of a frame.
 struct DrawnMesh {
   VkBuffer vertices, indices;
   std::uint32_t index_count;

@@ -1,8 +1,7 @@
-// A renderer that owns its Vulkan device and has medial-vk compute on it: every frame the mesh deforms, the medial
-// spheres are found again, and they are drawn from the buffer that they were found into. Nothing of them comes to the
-// host.
+// A renderer with its own Vulkan device, on which medial-vk computes: in every frame the mesh deforms, the medial
+// spheres are found again, and they are drawn from the buffer of the job. None of them is copied to the host.
 //   renderer FOLDER [FRAMES]     writes frame-0.png and so on to FOLDER (default: 4 frames, at least 2)
-// It ends with 1 if the validation layer, where that is installed, has anything to say.
+// The exit code is 1 if the validation layer, where installed, reports anything.
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
 
@@ -44,7 +43,7 @@ T take(medial_vk::Result<T> result) {
 // A camera that looks at the origin: columns of perspective times view, depth 0 to 1, y down.
 FrameConstants camera(const medial_vk::Placement& placement) {
   constexpr float kFar = 10, kNear = 0.1f, kZoom = 2.4f, kDistance = 3.6f, kHeight = 0.62f;  // kHeight: sine
-  constexpr float kRaised = 0.2f;  // the near part is the larger one
+  constexpr float kRaised = 0.2f;  // the near part appears larger
   const float across = std::sqrt(1 - kHeight * kHeight);
   const float aspect = static_cast<float>(kSize.width) / static_cast<float>(kSize.height);
   const float eye[3] = {0, -kDistance * across, kDistance * kHeight};
@@ -69,12 +68,12 @@ FrameConstants camera(const medial_vk::Placement& placement) {
   return c;
 }
 
-// What one frame in flight has for itself.
+// The objects of one frame in flight.
 struct Frame {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence finished = VK_NULL_HANDLE;
   HostBuffer vertices, pixels;
-  int number = -1;  // the one that is under way, or none
+  int number = -1;  // the frame in progress, or none
 };
 
 class Renderer {
@@ -181,14 +180,14 @@ class Renderer {
     frame.number = number;
   }
 
-  // Of the oldest frame, which has finished: six words that the job has for the host.
+  // For the oldest frame, which has finished: six words of the job for the host.
   void count_spheres() {
     const medial_vk::RecordedCounts counts = job_.counts();
     if (counts.complete == 0) fail("the job's memory is too small for the spheres");
     spheres_ = counts.spheres;
   }
 
-  // Waits for a frame that is under way, and writes its file.
+  // Waits for a frame in progress, and writes its file.
   void finish(Frame& frame) {
     if (frame.number < 0) return;
     ::check(vkWaitForFences(host_.device, 1, &frame.finished, VK_TRUE, UINT64_MAX), "vkWaitForFences");
@@ -221,7 +220,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   Renderer renderer(argv[1]);
-  // Two at least: the job says of a frame how it went when the next but one is due.
+  // At least two: the job reports on a frame when the next but one is due.
   renderer.draw(argc == 3 ? std::max(static_cast<int>(kFramesInFlight), std::atoi(argv[2])) : 4);
   return renderer.validation_messages() == 0 ? 0 : 1;
 }

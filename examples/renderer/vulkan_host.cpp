@@ -92,7 +92,7 @@ void VulkanHost::create_instance() {
   check(create(instance, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
 
-// The first device and family that draw, and that medial-vk can compute on.
+// The first device and family that draw, and that medial-vk supports for computation.
 void VulkanHost::create_device() {
   std::uint32_t count = 0;
   vkEnumeratePhysicalDevices(instance, &count, nullptr);

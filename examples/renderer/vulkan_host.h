@@ -1,5 +1,5 @@
-// The renderer's own Vulkan: instance with validation if the layer is there, device, one queue that draws and computes,
-// and buffers and images with a memory block each. Errors end the program: it is an example.
+// The Vulkan objects of the renderer: instance with validation if the layer is installed, device, one queue that draws
+// and computes, and buffers and images with a memory block each. Errors end the program, since it is an example.
 #pragma once
 
 #include <vulkan/vulkan.h>

@@ -83,7 +83,7 @@ def revolved(profile, sides=48):
                 triangles.append((a, c, b))
             if profile[(k + 1) % n][0] > 0:
                 triangles.append((b, c, d))
-    # Points on the axis are one: those of the first turn.
+    # Points on the axis coincide: those of the first turn are used.
     merged = {}
     index = [merged.setdefault(tuple(round(x, 12) + 0.0 for x in v), i) for i, v in enumerate(vertices)]
     kept = {old: new for new, old in enumerate(sorted(set(index)))}

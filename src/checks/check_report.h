@@ -1,4 +1,4 @@
-// What `--check` found, condition by condition, whoever checked it.
+// The results of `--check`, condition by condition, for every checker.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace medial_vk {
 
 struct CheckLine {
-  std::string condition;  ///< A phrase for people, e.g. "radius <= exact distance".
+  std::string condition;  ///< A phrase for readers, e.g. "radius <= exact distance".
   std::uint64_t tested = 0;
   std::uint64_t failed = 0;
-  double worst = 0;  ///< Largest violation or smallest margin; `unit` says which.
+  double worst = 0;  ///< Largest violation or smallest margin, depending on `unit`.
   std::string unit;
   std::string first_failure;  ///< "ball 17 at (x, y, z): ..." or empty.
 };

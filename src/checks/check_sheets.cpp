@@ -11,14 +11,14 @@ namespace {
 
 using Voxel = std::array<std::uint32_t, 3>;
 
-/// Fills the part of a sheet that holds one voxel, voxel by voxel.
+/// Fills the part of a sheet that holds a given voxel, voxel by voxel.
 class Flood {
  public:
   explicit Flood(std::span<const MedialSphere> spheres) {
     for (const MedialSphere& s : spheres) left_.emplace(s.voxel, s.sheet);
   }
 
-  /// How many parts each sheet has.
+  /// The number of parts of each sheet.
   std::map<std::int32_t, std::uint64_t> count_parts() {
     std::map<std::int32_t, std::uint64_t> parts;
     while (!left_.empty()) {
@@ -37,7 +37,7 @@ class Flood {
       const Voxel at = open.back();
       open.pop_back();
       for (std::uint32_t n = 0; n < 27; ++n) {
-        // One less than 0 is a voxel that no grid has.
+        // An index of 0 minus 1 wraps to a voxel that no grid has.
         const auto found = left_.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
         if (found == left_.end() || found->second != sheet) continue;
         open.push_back(found->first);

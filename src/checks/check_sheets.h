@@ -1,4 +1,4 @@
-// `--check`: what the sheets promise, tested again from the written numbers.
+// `--check`: the guarantees for sheets, tested again on the written numbers.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace medial_vk {
 
-/// Every sheet is connected by voxels that touch, and numbers are 0, 1, ... by decreasing number of points; with gaps
-/// unless `all_kept`. One line for each; by another way than find_sheets() takes.
+/// Tests that every sheet is connected by voxels that touch, and that sheets are numbered 0, 1, ... by decreasing
+/// number of points (with gaps unless `all_kept`). The report has one line per condition. The method differs from that
+/// of find_sheets().
 std::vector<CheckLine> check_sheets(std::span<const MedialSphere> spheres, bool all_kept = true);
 
 }  // namespace medial_vk

@@ -47,7 +47,8 @@ Status list_devices() {
   return print_result(device_table(devices.value()));
 }
 
-// Sanitizers report threads that still run at the end, and memory that a driver points to from where they do not look.
+// Sanitizers report threads that still run at the end, and memory that a driver points to from regions they do not
+// scan.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSanitized = true;
 #elif defined(__has_feature)
@@ -70,7 +71,7 @@ AnalysisOptions analysis_options(const Options& options) {
   return out;
 }
 
-/// One run: parse has been done; load, analyse, encode, write.
+/// One run after the parsing of options: load, analyse, encode, write.
 class ExtractionRun {
  public:
   explicit ExtractionRun(const Options& options) : options_(options), progress_(!options.quiet) {}
@@ -91,7 +92,7 @@ class ExtractionRun {
   }
 
  private:
-  /// Better now than after an hour of work.
+  /// An early test, which saves hours of work.
   Status check_outputs() const {
     if (!options_.html.empty()) {
       if (Status status = check_page_available(); !status) return status;
@@ -134,12 +135,12 @@ class ExtractionRun {
     return {};
   }
 
-  /// Elsewhere only the certificate reads the index, and its time counts as part of the extraction.
+  /// In other runs only the certificate reads the index, and its time counts as part of the extraction.
   bool reports_index() const {
     return options_.backend == Backend::kVulkan && options_.parameters.mode == Mode::kCertified;
   }
 
-  /// While a device computes, a signal asks for a stop; afterwards it may end the program at once.
+  /// While a device computes, a signal requests a stop; afterwards it may end the program at once.
   Status analyse_mesh() {
     std::optional<EndAtOnce> on_host;
     std::stop_source stop;
@@ -186,7 +187,7 @@ class ExtractionRun {
     }
   }
 
-  /// In memory: until they are written a signal may end the program. These steps check for none themselves.
+  /// Files are made in memory: until they are written a signal may end the program. These steps do not test for one.
   Status make_files() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
@@ -211,7 +212,7 @@ class ExtractionRun {
     }
   }
 
-  /// The report has it last, and the page not at all.
+  /// The mesh comes last in the report, and is not part of the page.
   void encode_mesh() {
     if (!analysis_.medial_mesh) return;
     record_.medial_mesh = analysis_.medial_mesh->topology;
@@ -233,7 +234,7 @@ class ExtractionRun {
     return {};
   }
 
-  /// The numbers as written: read back from the bytes that go to the file. The other formats are made from the same
+  /// The check reads the numbers as written, back from the bytes of the file. The other formats are made from the same
   /// numbers as a PLY, so their points are checked as that PLY.
   Status check() {
     if (!options_.check) return {};
@@ -288,7 +289,7 @@ class ExtractionRun {
     return std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
   }
 
-  /// All is done, and the process ends: the operating system takes the device back sooner than its driver would.
+  /// All work is done, and the process ends: the operating system releases the device sooner than its driver would.
   void leave_device() {
     if (!context_ || kIsSanitized) return;
     context_->close_programs();
@@ -319,7 +320,7 @@ class ExtractionRun {
   MedialHeader header_;
   std::vector<OutputFile> files_;
   double index_seconds_ = 0;
-  std::size_t points_file_ = 0;  // its place among them
+  std::size_t points_file_ = 0;  // its index among them
   RunRecord record_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace medial_vk::cli {
 
-/// Parses, works, prints; returns the exit code (0 or an exit code of the command line). Does not throw.
+/// Parses, runs and prints; returns the exit code (0 or an exit code of the command line). Does not throw.
 int run(const std::vector<std::string>& arguments);
 
 }  // namespace medial_vk::cli

@@ -1,11 +1,11 @@
-// Who finds the medial spheres.
+// The implementation that finds the medial spheres.
 #pragma once
 
 namespace medial_vk {
 
 enum class Backend {
   kVulkan,  ///< A Vulkan device.
-  kCpu,     ///< The CPU reference: double precision, one thread, no Vulkan at all.
+  kCpu,     ///< The CPU reference: double precision, one thread, no Vulkan.
 };
 
 }  // namespace medial_vk

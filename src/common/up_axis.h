@@ -1,4 +1,4 @@
-// Which axis of a mesh is up: y where nobody says otherwise, z in most parts made in CAD.
+// The upward axis of a mesh: y by default, z in most parts made in CAD.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@ namespace medial_vk {
 
 enum class UpAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
 
-/// As --up takes it, and the page: "-z".
+/// The spelling of --up and of the page: "-z".
 constexpr const char* axis_name(UpAxis up) {
   switch (up) {
     case UpAxis::kX:
@@ -26,8 +26,8 @@ constexpr const char* axis_name(UpAxis up) {
   return "";
 }
 
-/// A direction seen from the front (x to the right, y up, z towards the viewer) in the axes of a mesh. Shapes are
-/// turned by the least: with z up the front is where -y points, as in CAD. src/page/viewer.js does the same.
+/// Maps a direction seen from the front (x to the right, y up, z towards the viewer) to the axes of a mesh. Shapes are
+/// turned by the smallest rotation: with z up, the front faces -y, as in CAD. src/page/viewer.js does the same.
 constexpr std::array<double, 3> in_mesh_axes(const std::array<double, 3>& d, UpAxis up) {
   switch (up) {
     case UpAxis::kX:

@@ -54,7 +54,7 @@ class HeaderParser {
 
   Result<PlyHeader> finish() {
     if (!has_format_) return error("the header has no \"format\" line");
-    // Data may begin with any byte, so the end of this line must be of the kind that ended the first one.
+    // Data may begin with any byte, so this line must end in the same way as the first one.
     const std::size_t first_end = bytes_.find_first_of("\r\n");
     const bool has_pair = bytes_.substr(first_end, 2) == "\r\n";
     std::size_t end = bytes_.size() - scanner_.bytes_left();
@@ -156,7 +156,7 @@ int PlyElement::find(std::string_view wanted, std::string_view other_name) const
 }
 
 std::uint64_t PlyElement::smallest_size(PlyFormat format) const {
-  if (format == PlyFormat::kAscii) return 2 * properties.size();  // a digit and what separates it from the next
+  if (format == PlyFormat::kAscii) return 2 * properties.size();  // a digit and a separator
   std::uint64_t size = 0;
   for (const PlyProperty& p : properties) size += size_of(p.is_list ? p.count_type : p.type);
   return size;

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, and what each is made of.
+// The header of a PLY file: its elements and their properties.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::kFloat;
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  ///< Of a list's length.
+  PlyType count_type = PlyType::kUint8;  ///< Of the length of a list.
 };
 
 struct PlyElement {
@@ -29,7 +29,7 @@ struct PlyElement {
 
   /// Index of the property with one of these names; -1: none.
   int find(std::string_view wanted, std::string_view other_name = {}) const;
-  /// The fewest bytes one of these can take, lists being empty.
+  /// The fewest bytes that one of these elements can take, with all lists empty.
   std::uint64_t smallest_size(PlyFormat format) const;
 };
 
@@ -37,7 +37,7 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
   std::uint64_t body = 0;       ///< Byte at which the first element starts.
-  std::uint64_t body_line = 1;  ///< And its line.
+  std::uint64_t body_line = 1;  ///< The line of that byte.
 };
 
 /// Errors: kInvalidMesh with the line.

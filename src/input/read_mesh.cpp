@@ -1,4 +1,4 @@
-// Which reader a file needs, and its bytes.
+// Choice of the reader for a file, and input of its bytes.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -26,13 +26,13 @@ std::string lower_case_extension(const std::string& name) {
   return extension;
 }
 
-/// OFF, COFF, NOFF, STOFF, ...: prefixes name extra columns. 4OFF and nOFF are told apart by the reader.
+/// OFF, COFF, NOFF, STOFF, ...: prefixes name extra columns. The reader rejects 4OFF and nOFF.
 bool is_off_keyword(std::string_view word) {
   return word.size() >= 3 && word.size() <= 8 && word.ends_with("OFF") &&
          word.find_first_not_of("STCN4n") == word.size() - 3;
 }
 
-/// "solid" and then a facet or the end of the solid, within the first lines.
+/// True for "solid" and then a facet or the end of the solid, within the first lines.
 bool looks_like_ascii_stl(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, 4096), 0, false);
   if (scanner.word() != "solid") return false;
@@ -44,7 +44,7 @@ bool looks_like_ascii_stl(std::string_view bytes) {
   return false;
 }
 
-/// The first line that is no comment is one of OBJ's usual beginnings.
+/// True if the first line that is no comment begins as usual in OBJ.
 bool looks_like_obj(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, 65536), '#', true);
   const std::string_view word = scanner.word_across_lines();
@@ -72,7 +72,7 @@ Error too_long(const std::string& name, std::uint64_t most_bytes) {
   return file_error(name, fmt::format("longer than {} MiB, the most that is read", mebibytes));
 }
 
-/// The length of a regular file; 0 for streams and devices, which do not tell.
+/// The length of a regular file; 0 for streams and devices, whose length is unknown.
 std::uint64_t told_length(std::FILE* file) {
   struct stat status = {};
   if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
@@ -87,7 +87,7 @@ Result<std::string> read_bytes(const std::string& path, const std::string& name,
   const std::uint64_t told = told_length(file.get());
   if (told > most_bytes) return too_long(name, most_bytes);
   std::string bytes;
-  // One byte more shows that the file has ended, or that it goes on.
+  // One byte more shows whether the file has ended.
   const auto grow = [&](std::uint64_t size) { bytes.resize(std::min(std::max(size, told), most_bytes) + 1); };
   std::size_t used = 0;
   for (;;) {
@@ -106,7 +106,7 @@ Result<std::string> read_bytes(const std::string& path, const std::string& name,
 
 Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name) {
   try {
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // the byte order mark some editors put before text
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // the byte order mark that some editors write
     if (bytes.empty()) return file_error(name, "file is empty");
     Result<Mesh> mesh = read_by_content(bytes, name);
     if (!mesh.ok() || !mesh.value().triangles.empty()) return mesh;

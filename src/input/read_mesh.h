@@ -1,4 +1,4 @@
-// From a file to triangles.
+// Reads a mesh file to triangles.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace medial_vk {
 
-/// No file is read beyond this: streams may have no end. The largest mesh that a device takes, 8 million triangles, is
-/// half as long in the wordiest format (text STL).
+/// No file is read beyond this size: streams may have no end. The largest mesh that a device takes, 8 million
+/// triangles, is half as long in the longest format (text STL).
 inline constexpr std::uint64_t kMostFileBytes = 4ull << 30;
 
-/// Reads OBJ, PLY, STL or OFF, by content where it is clear and else by extension; "-" is standard input.
-/// Errors: kInvalidMesh with file name and line, face or byte; also if there are more than `most_bytes`.
+/// Reads OBJ, PLY, STL or OFF, determined by content where it is unambiguous and else by extension; "-" is standard
+/// input. Errors: kInvalidMesh with file name and line, face or byte; also if there are more than `most_bytes`.
 Result<Mesh> read_mesh(const std::string& path, std::uint64_t most_bytes = kMostFileBytes);
 
-/// The same from the bytes of a file; `name` is used in messages, and its extension where the content is not clear.
+/// Parses the bytes of a file; `name` is used in messages, and its extension where the content is ambiguous.
 Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name);
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// Wavefront OBJ: v and f; everything else is skipped. Indices count from 1, or back from the last vertex if negative,
+// Wavefront OBJ: v and f; all other lines are skipped. Indices count from 1, or back from the last vertex if negative,
 // and may carry texture and normal indices behind slashes.
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ class ObjReader {
       if (keyword == "f") status = read_face();
       if (!status) return status.error();
     } while (scanner_.next_line());
-    // A face may name vertices that follow it; how many there are is known only now.
+    // A face may name later vertices; only at the end is their number known.
     for (const Forward& f : forward_) {
       if (f.vertex > soup_.vertices.size()) return index_error(f.line, static_cast<std::int64_t>(f.vertex));
     }
@@ -49,7 +49,7 @@ class ObjReader {
       }
     }
     if (soup_.vertices.size() == kMaxVertices) return line_error(name_, scanner_.line(), "too many vertices");
-    soup_.vertices.push_back(p);  // a fourth number is a weight, more are colours
+    soup_.vertices.push_back(p);  // a fourth number is a weight, further ones are colours
     return {};
   }
 

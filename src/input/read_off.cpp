@@ -1,6 +1,6 @@
-// OFF as Geomview and its successors write it: an optional keyword with prefixes for extra columns (COFF, NOFF, STOFF,
-// CNOFF, ...), three counts, vertices, faces. What follows the three coordinates or the indices of a face on its line
-// (normals, colours) is skipped.
+// OFF as written by Geomview and its successors: an optional keyword with prefixes for extra columns (COFF, NOFF,
+// STOFF, CNOFF, ...), three counts, vertices, faces. Further values (normals, colours) on the line of a vertex or a
+// face are skipped.
 #include <fmt/format.h>
 
 #include "input/polygon_soup.h"
@@ -48,8 +48,8 @@ class OffReader {
       *count = static_cast<std::uint64_t>(value);
       if (count == &vertices_) word = next();
     }
-    scanner_.next_line();  // the count of edges, which nobody needs
-    // "0 0 0\n" and "3 0 0 0\n" are the shortest; only an end of line may be missing. Checked before memory is taken.
+    scanner_.next_line();  // the count of edges, which is not needed
+    // "0 0 0\n" and "3 0 0 0\n" are the shortest; only a line end may be missing. Tested before memory is allocated.
     constexpr std::uint64_t kVertex = 6, kFace = 2;
     const std::uint64_t left = scanner_.bytes_left() + 1;
     if (vertices_ > left / kVertex || faces_ > (left - kVertex * vertices_) / kFace) {

@@ -1,5 +1,5 @@
 // PLY (Turk 1994), text and binary. Vertices are the element "vertex" with x, y, z of any type; faces are the element
-// "face" with a list vertex_index or vertex_indices. Other elements and properties are stepped over.
+// "face" with a list vertex_index or vertex_indices. Other elements and properties are skipped.
 #include <fmt/format.h>
 
 #include <bit>
@@ -21,7 +21,7 @@ struct PlyValue {
   bool is_integer = false;  ///< `integer` holds it (a whole number written as a float counts as one).
 };
 
-/// From the bits of a value to the value.
+/// Converts the bits of a value.
 PlyValue value_of(PlyType type, std::uint64_t bits) {
   const auto integer = [](std::int64_t i) { return PlyValue{static_cast<double>(i), i, true}; };
   const auto real = [](double d) {
@@ -54,7 +54,7 @@ PlyValue value_of(PlyType type, std::uint64_t bits) {
   return {};
 }
 
-/// Values one after the other, from either kind of body.
+/// Reads values in sequence, from either kind of body.
 class PlyBody {
  public:
   PlyBody(std::string_view bytes, const PlyHeader& header, const std::string& name)
@@ -69,7 +69,7 @@ class PlyBody {
     return format_ == PlyFormat::kAscii ? scanner_.bytes_left() : bytes_.size() - at_;
   }
 
-  /// At the value read last: "name:line: what", or "name: what (byte N)".
+  /// An error at the last value read: "name:line: what", or "name: what (byte N)".
   Error error(std::string_view what) const {
     if (format_ == PlyFormat::kAscii) return line_error(name_, first_line_ + scanner_.line() - 1, what);
     return file_error(name_, fmt::format("{} (byte {})", what, last_));
@@ -105,7 +105,7 @@ class PlyBody {
     return {};
   }
 
-  /// The length of a list, checked against what the file can still hold.
+  /// The length of a list, tested against the rest of the file.
   Status read_length(const PlyProperty& property, std::uint64_t& length) {
     PlyValue value;
     if (Status status = read(property.count_type, value); !status) return status;
@@ -134,7 +134,7 @@ class PlyBody {
     }
     std::string_view why;
     if (!parse_coordinate(word, value.real, why)) {
-      // Not finite is for the caller to judge: it does not matter in a property that nobody reads.
+      // The caller tests that values are finite: in an unused property it does not matter.
       if (why == "is not a number") return error(fmt::format("{} {}", quoted(word), why));
       value.real = std::numeric_limits<double>::quiet_NaN();
     }
@@ -174,7 +174,7 @@ class PlyReader {
   }
 
  private:
-  /// Before any memory is taken: does the file have the elements that are needed, and room for all it declares?
+  /// Before any memory is allocated, tests that the file has the required elements, and room for all that it declares.
   Status check_elements() {
     std::uint64_t room = body_.bytes_left() + 1;  // the last end of line may be missing
     const PlyElement *vertex = nullptr, *face = nullptr;

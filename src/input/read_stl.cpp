@@ -1,5 +1,5 @@
-// STL, text and binary. The format repeats every corner: equal ones become one vertex. The normals it carries are
-// often wrong or zero and are not read; the order of the corners counts.
+// STL, text and binary. The format repeats every corner: equal ones become one vertex. Its normals are often wrong or
+// zero and are not read; the order of the corners determines the orientation.
 #include <fmt/format.h>
 
 #include <bit>
@@ -131,7 +131,7 @@ Result<Mesh> read_binary_stl(std::string_view bytes, const std::string& name) {
   mesh.vertices.reserve(3 * facets);
   mesh.triangles.reserve(facets);
   for (std::uint64_t facet = 0; facet < facets; ++facet) {
-    const std::uint64_t start = kHeaderSize + kFacetSize * facet + 12;  // behind the normal
+    const std::uint64_t start = kHeaderSize + kFacetSize * facet + 12;  // after the normal
     for (std::uint64_t corner = 0; corner < 3; ++corner) {
       Point p;
       for (std::uint64_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
-// One reader per format, from bytes in memory. All return kInvalidMesh with file name and line, face or byte.
-// The indices of what they return are valid, the coordinates finite; there may be no triangle.
+// One reader per format, from bytes in memory. All return kInvalidMesh with file name and line, face or byte. The
+// indices of the result are valid and its coordinates finite; it may have no triangles.
 #pragma once
 
 #include <string>
@@ -16,12 +16,13 @@ Result<Mesh> read_off(std::string_view bytes, const std::string& name);
 Result<Mesh> read_ascii_stl(std::string_view bytes, const std::string& name);
 Result<Mesh> read_binary_stl(std::string_view bytes, const std::string& name);
 
-/// Is the size of the file that which a binary STL's triangle count calls for? (Some begin with "solid" as well.)
+/// True if the size of the file is the one that the triangle count of a binary STL requires. (Some begin with "solid"
+/// too.)
 bool has_size_of_binary_stl(std::string_view bytes);
 
-/// Indices are 32 bits wide, and the last value is kept for "none".
+/// Indices are 32 bits wide, and the last value is reserved for "none".
 constexpr std::uint64_t kMaxVertices = 0xfffffffe;
-/// Of one face: their number is kept in 32 bits.
+/// The limit for one face, because the number of its corners is stored in 32 bits.
 constexpr std::uint64_t kMaxCorners = 0xffffffff;
 
 }  // namespace medial_vk

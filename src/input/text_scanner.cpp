@@ -9,8 +9,8 @@
 namespace medial_vk {
 namespace {
 
-/// A number that std::from_chars found out of range: is it too small (true) or too large (false)? Decided by the place
-/// of its first digit that is not zero; anything near 1 was in range.
+/// For a number that std::from_chars found out of range: too small (true) or too large (false). The position of its
+/// first nonzero digit decides; any number near 1 was in range.
 bool is_underflow(std::string_view word) {
   std::int64_t place = 0;  // decimal exponent of the first non-zero digit, without the written exponent
   bool in_fraction = false, found = false;

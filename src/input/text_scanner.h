@@ -16,10 +16,10 @@ Error file_error(const std::string& name, std::string_view what);
 /// A word of a file for a message: quoted, cut to a readable length, control characters replaced.
 std::string quoted(std::string_view word);
 
-/// Decimal or scientific notation, a leading '+' allowed, the nearest double. Too small for a double gives 0.
-/// False, and `why` set: not a number, beyond the range of a double, infinite or not a number (nan).
+/// Parses decimal or scientific notation, with an optional leading '+', to the nearest double. Too small for a double
+/// gives 0. False, with `why` set: not a number, beyond the range of a double, infinite or nan.
 bool parse_coordinate(std::string_view word, double& value, std::string_view& why);
-/// Decimal integer with optional sign. False: not an integer, or beyond 64 bits.
+/// Parses a decimal integer with an optional sign. False: not an integer, or beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// Reads words separated by blanks and tabs. Lines end with LF, CR LF or CR. With `comment`, that character hides the
@@ -35,7 +35,7 @@ class TextScanner {
   std::string_view word_across_lines();
   /// Skips the rest of this line. False at the end of the text.
   bool next_line();
-  /// Of the word read last, from 1.
+  /// The line of the last word read, from 1.
   std::uint64_t line() const { return line_; }
   bool at_end() const { return at_ == end_; }
   std::uint64_t bytes_left() const { return static_cast<std::uint64_t>(end_ - at_); }

@@ -1,7 +1,7 @@
-// Ear clipping (Meisters 1975) in the plane of two coordinates. The plane is that of the Newell normal's largest
-// component: dropping one coordinate instead of rotating leaves the other two as they are in the file, so that corners
-// on a line stay on it. Every corner is used, also one in the middle of a straight side: the neighbouring face has it
-// too, and leaving it out would open a crack.
+// Ear clipping (Meisters 1975) in the plane of two coordinates. The dropped coordinate is that of the largest component
+// of the Newell normal: dropping one coordinate instead of rotating leaves the other two as they are in the file, so
+// that corners on a line stay on it. Every corner is used, also one in the middle of a straight side: the neighbouring
+// face has it too, and without it a crack would open.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,8 +16,8 @@ struct Point2 {
   bool operator==(const Point2&) const = default;
 };
 
-/// Twice the signed area of (a, b, c), or 0 where rounding could have made the sign: with u = 2^-53 the differences
-/// carry u each, the products one more, the subtraction another; 4u of the sum of magnitudes bounds it
+/// Twice the signed area of (a, b, c), or 0 where rounding could have determined the sign: with u = 2^-53 the
+/// differences carry u each, the products one more, the subtraction another; 4u of the sum of magnitudes bounds it
 /// (Shewchuk 1997, the first filter of orient2d: 3u + 16u^2).
 double area_of(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (b.x - a.x) * (c.y - a.y);
@@ -26,7 +26,7 @@ double area_of(const Point2& a, const Point2& b, const Point2& c) {
   return std::abs(area) > 4.5e-16 * (std::abs(left) + std::abs(right)) ? area : 0;
 }
 
-/// A uniform grid over the corners, for polygons that are long enough to need one.
+/// A uniform grid over the corners, for polygons that are long enough to benefit.
 class CornerGrid {
  public:
   void build(const std::vector<Point2>& points) {
@@ -46,8 +46,8 @@ class CornerGrid {
     }
   }
 
-  /// Calls visit(i) for the corners near the box until it returns true; returns whether it did. Takes every cell that
-  /// it looks into from `work_left`.
+  /// Calls visit(i) for the corners near the box until it returns true, which is the result. Subtracts every visited
+  /// cell from `work_left`.
   template <class Visit>
   bool any(const Point2& lower, const Point2& upper, std::int64_t& work_left, Visit visit) const {
     for (std::ptrdiff_t r = row(lower.y); r <= row(upper.y); ++r) {
@@ -65,7 +65,7 @@ class CornerGrid {
  private:
   std::ptrdiff_t step(double t, double low, double high) const {
     const double s = (t - low) / (high - low) * static_cast<double>(side_);
-    if (!(s > 0)) return 0;  // also where all corners lie on one line, or the extent overflows
+    if (!(s > 0)) return 0;  // also if all corners lie on one line, or the extent overflows
     return s < static_cast<double>(side_) ? static_cast<std::ptrdiff_t>(s) : side_ - 1;
   }
   std::ptrdiff_t column(double x) const { return step(x, lower_.x, upper_.x); }
@@ -107,7 +107,7 @@ class EarClipper {
       } else {
         at = next_[at];
         if (++tried <= left_) continue;
-        // Stuck. A corner on a line with its neighbours, or a spike, bounds no area: leave one out and go on.
+        // Stuck. A corner on a line with its neighbours, or a spike, bounds no area: one is left out.
         std::uint32_t flat = at;
         for (std::uint32_t i = 0; i < left_ && area(flat) != 0; ++i, --work_left_) flat = next_[flat];
         if (area(flat) != 0) return false;
@@ -142,7 +142,7 @@ class EarClipper {
       --work_left_;
       if (!alive_[j] || j == i || j == previous_[i] || j == next_[i]) return false;
       const Point2& p = points_[j];
-      // A repeated point (the bridge to a hole) blocks only if its own sides lead into the ear.
+      // A repeated point (the bridge to a hole) blocks only if its own sides enter the ear.
       if (p == a || p == b || p == c) return leads_into(j, a, b, c);
       return area_of(a, b, p) >= 0 && area_of(b, c, p) >= 0 && area_of(c, a, p) >= 0;
     };
@@ -157,7 +157,7 @@ class EarClipper {
     return true;
   }
 
-  /// Does a side at corner j, which lies on a corner of the triangle, run into the triangle's inside?
+  /// True if a side at corner j, which lies on a corner of the triangle, enters the interior of the triangle.
   bool leads_into(std::uint32_t j, const Point2& a, const Point2& b, const Point2& c) const {
     const Point2& p = points_[j];
     const Point2& left = p == a ? b : p == b ? c : a;  // the triangle's wedge at p, counter-clockwise from here
@@ -228,7 +228,7 @@ bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t
     triangles.push_back({corners[0], corners[1], corners[2]});
     return true;
   }
-  if (kept.size() == 4) {  // start where the shorter of the two diagonals is cut first
+  if (kept.size() == 4) {  // start such that the shorter of the two diagonals is cut first
     const double first = squared_distance(vertices[kept[0]], vertices[kept[2]]);
     const double second = squared_distance(vertices[kept[1]], vertices[kept[3]]);
     if (second >= first) {
@@ -249,9 +249,9 @@ bool triangulate_polygon(const std::vector<Point>& vertices, const std::uint32_t
 Mesh triangulate(PolygonSoup soup) {
   Mesh mesh;
   mesh.triangles.reserve(soup.sizes.size());
-  // A circle of a million corners takes 330 looks for each, a spiral of 8000 takes 18000. A tangle with many corners on
-  // a line takes the square of its length for each: from a file of 1 MB, hours. So beyond an allowance of its own, all
-  // polygons together have a few seconds: a look takes 5 to 10 ns.
+  // A circle of a million corners takes 330 visits per corner, a spiral of 8000 takes 18000. A tangle with many corners
+  // on a line takes the square of its length per corner: hours for a file of 1 MB. So beyond an allowance per polygon,
+  // all polygons together have a few seconds: a visit takes 5 to 10 ns.
   constexpr std::int64_t kLooksPerCorner = 400;
   std::int64_t reserve = 400'000'000;
   const std::uint32_t* corners = soup.corners.data();

@@ -1,4 +1,4 @@
-// `--check`: the CPU reference's answer about balls as they were written, in double precision and in the plainest way.
+// `--check`: tests of the written balls by the CPU reference, in double precision and by the simplest method.
 #pragma once
 
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace medial_vk {
 
-/// Every medial sphere against what the file promises. `epsilon` and `radius` are lengths, 0: no threshold of the
-/// radius; the object angle is in radians.
+/// Tests every medial sphere against the guarantees of the file. `epsilon` and `radius` are lengths, with 0 for no
+/// threshold of the radius; the object angle is in radians.
 CheckReport check_medial_spheres(const PreparedMesh& mesh, const VoxelGrid& grid,
                                  const std::vector<MedialSphere>& spheres, double epsilon, double object_angle,
                                  double radius);
 
-/// Does every ball lie inside the solid?
+/// Tests that every ball lies inside the solid.
 CheckReport check_balls_inside(const PreparedMesh& mesh, std::span<const Ball> balls);
-/// Do the balls cover the solid; of an open mesh, its surface?
+/// Tests that the balls cover the solid or, for an open mesh, its surface.
 CheckReport check_balls_cover(const PreparedMesh& mesh, std::span<const Ball> balls);
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// Between the product's types and the CPU reference's own: nothing but copying.
+// Copies between the types of the product and those of the CPU reference.
 #pragma once
 
 #include "cpu_reference/extract.h"
@@ -10,7 +10,7 @@ namespace medial_vk {
 
 reference::Mesh to_reference(const PreparedMesh& mesh);
 reference::Parameters to_reference(const ExtractionOptions& parameters);
-/// Grid and spheres only: what `--check` reads.
+/// Copies grid and spheres only, the input of `--check`.
 reference::Result to_reference(const VoxelGrid& grid, const std::vector<MedialSphere>& spheres);
 
 /// Spokes, angle and flux are rounded to float; centre and radius stay double.

@@ -1,6 +1,7 @@
-// In which order balls are drawn when not all of them are: any number from the front covers the solid as well as it can.
+// The order in which balls are drawn when only some of them are: any number from the front covers the solid as well as
+// possible.
 
-/** Points in cells of a grid, to be found by place. */
+/** Points in cells of a grid, found by position. */
 class Cells {
   constructor(centres, side) {
     this.centres = centres;
@@ -34,8 +35,8 @@ class Cells {
   }
 }
 
-/** Largest first, without those whose centre lies well inside an earlier one; then again with a smaller idea of "well
- * inside"; then the rest. */
+/** Largest first, without those whose centre lies well inside an earlier one; then again with a smaller margin for
+ * "well inside"; then the rest. */
 export function coverOrder(centres, radii, voxelSize) {
   const count = radii.length;
   const bySize = new Uint32Array(count).map((_, i) => i).sort((i, j) => radii[j] - radii[i] || i - j);

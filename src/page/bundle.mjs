@@ -1,5 +1,5 @@
-// Puts the page together: page.html with the styles, the program and the licences of others in it, and the two marks
-// where medial-vk writes the title and the data.
+// Bundles the page: page.html with the styles, the program and the licences of its libraries, and the two marks where
+// medial-vk writes the title and the data.
 //   node bundle.mjs NODE_MODULES OUTPUT.html
 import {createHash} from 'node:crypto';
 import {readFileSync, writeFileSync} from 'node:fs';
@@ -21,14 +21,14 @@ function bundle(entry) {
     target: ['chrome100', 'firefox100', 'safari15.4'],
     loader: {'.glsl': 'text'},
     nodePaths: [packages],
-    legalComments: 'none',  // The whole licence goes into the page.
+    legalComments: 'none',  // The full licence is part of the page.
     charset: 'ascii',
     logLevel: 'warning',
   });
   return result.outputFiles[0].text.trim();
 }
 
-/** Only what the build has made may run in the page, and nothing may be fetched: whatever the data holds. */
+/** Only code of the build may run in the page, and nothing may be fetched, for any data. */
 function policy(script, style) {
   const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
   return `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data: blob:; base-uri 'none'`;

@@ -1,10 +1,10 @@
-// Colours of the attributes, and of the page's own things in the light and in the dark.
+// Colours of the attributes, and of the page itself in its light and dark themes.
 
 // Ten samples of viridis, evenly spaced: the map of --picture.
 const kViridis = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
   [31, 158, 137], [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
 
-// One colour per sheet, by turns: Okabe and Ito's, told apart by everybody, and paler or darker ones after them.
+// One colour per sheet, in turn: those of Okabe and Ito, which all readers can distinguish, then paler or darker ones.
 const kSheets = [[230, 159, 0], [86, 180, 233], [0, 158, 115], [213, 94, 0], [204, 121, 167], [240, 228, 66],
   [0, 114, 178], [168, 216, 160], [150, 90, 40], [176, 160, 224], [250, 180, 160], [110, 130, 40]];
 
@@ -20,7 +20,7 @@ function viridis(share) {
   return kViridis[below].map((c, i) => Math.round(c + (place - below) * (kViridis[below + 1][i] - c)));
 }
 
-/** 256 x 2 texels: the map of numbers, and the sheets' colours. */
+/** 256 x 2 texels: the map of numbers, and the colours of sheets. */
 export function colourTexels() {
   const texels = new Uint8Array(4 * 512).fill(255);
   for (let i = 0; i < 256; ++i) texels.set(viridis(i / 255), 4 * i);
@@ -35,7 +35,7 @@ export const kThemes = {
          spokeB: [0.48, 0.74, 1.0]},
 };
 
-/** What can be coloured by; `component` is that of the kernels' `values`. */
+/** The attributes for colouring; `component` is the index in the kernels' `values`. */
 export const kAttributes = {
   angle: {component: 0, label: 'object angle (rad)'},
   radius: {component: 1, label: 'radius (units of the mesh)'},

@@ -1,11 +1,11 @@
-// The form beside the canvas, the keys, and what is picked.
+// The form beside the canvas, the keys, and the selection.
 import {kAttributes, kSheetColours, sheetColour, viridisGradient} from './colours.js';
 import {brief, grouped, lengthFormat} from './format.js';
 import {kLayers} from './viewer.js';
 
 const byId = (id) => document.getElementById(id);
-const kStep = Math.PI / 36;      // One press of an arrow.
-const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to be told apart.
+const kStep = Math.PI / 36;      // One press of an arrow key.
+const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to distinguish.
 const kClick = 4;                // Pixels that the mouse may move in a click.
 
 function rangeOf(numbers) {
@@ -49,7 +49,7 @@ export class Controls {
       flux: rangeOf(scene.fluxes),
       sheet: rangeOf(scene.sheets),
     };
-    // Angles are shown between the threshold and the greatest there is, as in --picture.
+    // Angles are shown between the threshold and the greatest value, as in --picture.
     this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
       Math.PI / 2]};
     this.describeRun();
@@ -95,7 +95,7 @@ export class Controls {
     byId('fold').setAttribute('aria-expanded', String(!closed));
   }
 
-  /** From the form to the picture; cheap, so always all of it. */
+  /** Applies the form to the picture; this is cheap, so all of it is applied each time. */
   refresh() {
     this.refreshOpacity();
     this.refreshBalls();
@@ -117,7 +117,7 @@ export class Controls {
     this.sayBalls();
   }
 
-  /** How many, and if the device is too slow for them, how many of those are drawn. */
+  /** Shows the number of balls and, if the device is too slow for them, the number drawn. */
   sayBalls() {
     const {ballCount, drawnBalls, shown} = this.viewer;
     byId('ball-count-value').textContent = grouped(ballCount);
@@ -146,7 +146,7 @@ export class Controls {
     return [bar, ends];
   }
 
-  /** Sheets by number; there may be more than colours, then those come again. */
+  /** Sheets by number; if they outnumber the colours, the colours repeat. */
   swatches() {
     const numbers = [...new Set(this.scene.sheets)].sort((a, b) => a - b);
     const list = document.createElement('ul');
@@ -179,7 +179,7 @@ export class Controls {
     }
   }
 
-  /** The smallest value of a slider lets everything through, whatever its rounding. */
+  /** The smallest value of a slider lets everything pass, for any rounding. */
   leastOf(id, range) {
     const share = byId(id).value / 1000;
     return share === 0 ? -Infinity : Math.fround(range[0] + share * (range[1] - range[0]));
@@ -194,7 +194,7 @@ export class Controls {
     byId('count').textContent = `${grouped(this.viewer.countVisible())} of ${grouped(this.scene.points)} points shown`;
   }
 
-  /** Picks point i; -1: none. */
+  /** Selects point i; -1: none. */
   choose(i) {
     this.pickedPoint = i;
     this.viewer.highlight(i);
@@ -223,7 +223,7 @@ export class Controls {
     ];
   }
 
-  /** The next or previous point that is shown. */
+  /** Selects the next or previous visible point. */
   step(by) {
     const count = this.scene.points;
     for (let k = 1; k <= count; ++k) {
@@ -250,7 +250,7 @@ export class Controls {
     this.choose(this.viewer.pickAt(clientWidth / 2, clientHeight / 2));
   }
 
-  /** Keys, what they are called, and what they do. */
+  /** Keys, their names, and their actions. */
   keys() {
     const click = (id) => () => byId(id).click();
     const turn = (right, up) => () => this.viewer.turn(right * kStep, up * kStep);
@@ -287,7 +287,7 @@ export class Controls {
     });
   }
 
-  /** Keys that an element of the form takes for itself. */
+  /** Keys that an element of the form handles itself. */
   ownsKey(target, key, onPictureOnly) {
     if (key === 'Escape') return false;
     if (onPictureOnly) return target !== this.viewer.canvas && target !== document.body;
@@ -300,7 +300,7 @@ export class Controls {
       const dialog = byId(`${name}-dialog`);
       byId(`open-${name}`).addEventListener('click', () => dialog.showModal());
       dialog.querySelector('[data-close]').addEventListener('click', () => dialog.close());
-      // A click beside it.
+      // A click outside it.
       dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
     }
   }

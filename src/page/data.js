@@ -1,4 +1,4 @@
-// What medial-vk has written into the page.
+// The data that medial-vk has written into the page.
 
 function bytesOf(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
@@ -8,7 +8,7 @@ function bytesOf(text) {
   return bytes;
 }
 
-/** The numbers of an element; the element is emptied, as its text takes more memory than they do. */
+/** The numbers of an element; the element is emptied, as its text takes more memory than the numbers. */
 function block(name, Type) {
   const element = document.getElementById(`data-${name}`);
   const bytes = bytesOf(element.textContent);
@@ -22,7 +22,7 @@ function json(name) {
 
 export const readReport = () => json('report');
 
-/** Lengths and places are the page's own: `origin` and `scale` lead back to the units of the mesh. */
+/** Lengths and positions are in the units of the page: `origin` and `scale` lead back to the units of the mesh. */
 export function readScene() {
   const scene = json('scene');
   return {

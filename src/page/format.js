@@ -1,8 +1,8 @@
-// Numbers for people.
+// Numbers in readable form.
 
 export const grouped = (n) => n.toLocaleString('en-US');
 
-/** Seven significant digits of the size of the mesh, wherever it lies: what single precision holds. */
+/** Seven significant digits relative to the size of the mesh, for any position: the precision of floats. */
 export function lengthFormat(scale) {
   const digits = 6 - Math.floor(Math.log10(scale));
   if (!(digits >= 0 && digits <= 16)) return (x) => x.toExponential(6);

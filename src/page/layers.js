@@ -1,4 +1,4 @@
-// What is drawn: one geometry and one kernel per layer.
+// The layers of the drawing: one geometry and one kernel per layer.
 import {
   BackSide, BufferAttribute, BufferGeometry, CustomBlending, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3,
   LineSegments, Mesh, OneFactor, OneMinusSrcAlphaFactor, Points, RawShaderMaterial, RedIntegerFormat, RGBAFormat,
@@ -24,10 +24,10 @@ import wideLineVertex from './shaders/wide_line.vert.glsl';
 import {cornerGeometry, creaseLines} from './surface.js';
 
 const kDiscRadius = 0.75;   // In voxels: the discs of neighbouring voxels overlap into a sheet.
-const kPointRadius = 0.32;  // In voxels: neighbours can be told apart.
+const kPointRadius = 0.32;  // In voxels: small enough to distinguish neighbours.
 
-// The order of drawing: what is behind the glass, what is in it, its near side (depth first, so that only the nearest
-// wall is seen), and what is shown whatever is in front of it.
+// The order of drawing: objects behind the glass, objects in it, its near side (depth first, so that only the nearest
+// wall is visible), and objects shown in front of all others.
 const kOrder = {back: 0, content: 1, depth: 2, front: 3, crease: 4, picked: 5};
 
 function colourMap() {
@@ -36,7 +36,7 @@ function colourMap() {
   return texture;
 }
 
-/** Uniforms that all layers share: set once, seen by every kernel. */
+/** Uniforms that all layers share: set once, visible to every kernel. */
 export function makeUniforms(scene) {
   const voxel = scene.voxel_size / scene.scale;
   return {
@@ -63,19 +63,19 @@ function material(vertex, fragment, uniforms, options = {}) {
     vertexShader: vertex,
     fragmentShader: fragment,
     uniforms,
-    transparent: true,  // All in one list, so that `renderOrder` alone decides.
+    transparent: true,  // All in one list, so that only `renderOrder` determines the order.
     ...options,
   });
 }
 
-/** Over what is there, the colour already multiplied by its share. */
+/** Blends over the background, with the colour already multiplied by its share. */
 const kOver = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, depthWrite: false};
 const kOpaque = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor};
 
 function placed(object, order) {
   object.renderOrder = order;
   object.frustumCulled = false;
-  object.geometry.boundingSphere = new Sphere();  // Not needed, and three.js would take a vertex for a place.
+  object.geometry.boundingSphere = new Sphere();  // Not needed; three.js would otherwise read a vertex as a position.
   return object;
 }
 
@@ -99,7 +99,7 @@ export class MeshLayer {
     ];
   }
 
-  /** Lines along creases: after the first frame, as finding them takes a while. */
+  /** Lines along creases, added after the first frame, as their search takes a while. */
   addCreases() {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(creaseLines(this.scene.vertices, this.scene.triangles), 3));
@@ -111,7 +111,7 @@ export class MeshLayer {
   }
 }
 
-/** Numbers as a texture, row by row; the last row is filled up with zeros. */
+/** Numbers as a texture, row by row; the last row is padded with zeros. */
 function numbers(array, components, format, type, internalFormat, widest) {
   const texels = Math.max(array.length / components, 1);
   const width = Math.min(texels, widest), height = Math.ceil(texels / width);
@@ -123,7 +123,7 @@ function numbers(array, components, format, type, internalFormat, widest) {
   return texture;
 }
 
-/** What the kernels read of the points (shaders/attributes.glsl). */
+/** The textures of the points for the kernels (shaders/attributes.glsl). */
 function pointTextures(scene, widest) {
   const places = new Float32Array(4 * scene.points), others = new Float32Array(4 * scene.points);
   const spokes = new Int16Array(8 * scene.points);
@@ -146,7 +146,7 @@ function pointTextures(scene, widest) {
   };
 }
 
-/** As many corners as there are; the kernels know them by their number. */
+/** A geometry of `count` corners; the kernels identify them by index. */
 function corners(count) {
   const geometry = new BufferGeometry();
   geometry.setDrawRange(0, count);
@@ -155,7 +155,7 @@ function corners(count) {
 
 export const kCornersOfABall = 6;
 
-/** The layers of points, each made when it is first shown. */
+/** The layers of points, each created when it is first shown. */
 export class PointLayers {
   /** `widest`: the greatest width of a texture. */
   constructor(scene, uniforms, widest) {
@@ -170,7 +170,8 @@ export class PointLayers {
     return this.ballOrder;
   }
 
-  /** For each number of balls from the front, the sum of the squares of their radii: how much of the screen they take. */
+  /** For each number of balls from the front, the sum of the squares of their radii: a measure of the covered part of
+   * the screen. */
   get squares() {
     if (!this.sums) {
       this.sums = new Float64Array(this.scene.points + 1);
@@ -195,7 +196,7 @@ export class PointLayers {
   }
 }
 
-/** The picked ball as glass, its two spokes and the places that it touches. */
+/** The selected ball as glass, its two spokes and its contacts. */
 export class PickedLayer {
   constructor(uniforms) {
     this.colours = {picked: new Vector3(), spokeA: new Vector3(), spokeB: new Vector3()};
@@ -218,7 +219,7 @@ export class PickedLayer {
     for (const object of this.objects) object.visible = visible;
   }
 
-  /** `tips`: where the spokes end. */
+  /** `tips`: the ends of the spokes. */
   set(centre, radius, tips) {
     this.place.set(...centre, radius);
     this.spokes.forEach((line, i) => {

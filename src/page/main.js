@@ -1,4 +1,4 @@
-// From the data in the page to a picture that can be turned.
+// From the data in the page to an interactive picture.
 import {Controls} from './controls.js';
 import {readReport, readScene} from './data.js';
 import {showReport} from './report.js';
@@ -6,7 +6,7 @@ import {Viewer} from './viewer.js';
 
 const byId = (id) => document.getElementById(id);
 
-/** Without WebGL 2 the report is what can be shown. */
+/** Without WebGL 2 only the report can be shown. */
 function showReportAlone(why) {
   document.body.classList.add('no-drawing');
   byId('sentence').textContent = `${why} The report of the run follows.`;
@@ -14,8 +14,8 @@ function showReportAlone(why) {
   byId('stage').append(byId('report-body'));
 }
 
-/** `data-ready` is the time to the first frame in milliseconds since the page was asked for; `data-complete` comes when
- * nothing is left to be added. */
+/** `data-ready` is the time to the first frame, in milliseconds since the request of the page; `data-complete` is set
+ * when nothing remains to be added. */
 function markReady(viewer) {
   viewer.finish();
   document.documentElement.dataset.ready = Math.round(performance.now());
@@ -49,7 +49,7 @@ function start() {
     viewer.addCreases();
     document.documentElement.dataset.complete = '';
   }, 50);
-  window.medialVk = {viewer, controls};  // For the browser's console.
+  window.medialVk = {viewer, controls};  // For the console of the browser.
 }
 
 start();

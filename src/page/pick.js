@@ -1,11 +1,11 @@
-// Which point or ball is under a place of the screen: a ray against all of them. A million take some milliseconds, so
-// no buffer of numbers has to be drawn and read back.
+// The point or ball at a position of the screen: a ray is tested against all of them. A million take some milliseconds,
+// so no buffer of indices has to be drawn and read back.
 
-const kTolerance = 6;  // Pixels beside a point that still count.
+const kTolerance = 6;  // The distance beside a point, in pixels, that still counts.
 
-/** `ray`: origin and unit direction; `plane`: kept where dot(plane, p) + plane[3] >= 0; all in the page's units.
- * `ballCount`: balls drawn, from the front of `order`; `points`: are points to be picked, and how large; `unitsPerPixel`:
- * at distance 1 from the origin. Returns the index of a point, or -1. */
+/** `ray`: origin and unit direction; `plane`: the side where dot(plane, p) + plane[3] >= 0 is kept; all in the units of
+ * the page. `ballCount`: balls drawn, from the front of `order`; `points`: whether points can be picked, and their
+ * size; `unitsPerPixel`: at distance 1 from the origin. Returns the index of a point, or -1. */
 export function pick(scene, {ray, plane, visible, order, ballCount, points, unitsPerPixel}) {
   const {origin: o, direction: d} = ray;
   const kept = (x, y, z) => plane[0] * x + plane[1] * y + plane[2] * z + plane[3] >= 0;

@@ -1,4 +1,4 @@
-// The report of the run, for reading: docs/report.md says what each key means.
+// The report of the run in readable form: docs/report.md explains the keys.
 import {bytes, plain} from './format.js';
 
 const kBytes = new Set(['memory_bytes']);
@@ -12,10 +12,10 @@ const kNames = {
   undecided_kinds: 'undecided: ', object_angle: 'object angle', api_version: 'Vulkan version',
   memory_bytes: 'memory',
 };
-// What matters about a mesh even if it is 0; other counts are named only if something happened.
+// Counts of a mesh that matter even if 0; others are shown only if nonzero.
 const kAlways = new Set(['vertices', 'triangles', 'components', 'open_edges', 'undecided', 'rejected', 'found',
   'written', 'proved_empty', 'radius', 'perturb', 'extra_levels', 'signed_volume', 'tunnels', 'cavities']);
-const kSheets = 30;  // In the table.
+const kSheets = 30;  // The limit of rows in the table.
 
 function element(tag, text, ...children) {
   const made = document.createElement(tag);
@@ -93,7 +93,7 @@ function certificate(value) {
   return section('Check', element('p', verdict), table(value.conditions));
 }
 
-/** Those with the most points. */
+/** The sheets with the most points. */
 function sheets(all) {
   const shown = all.slice(0, kSheets);
   const more = all.length - shown.length;

@@ -1,4 +1,4 @@
-// The surface of the mesh as it is drawn: normals that are smooth but for creases, and the creases as lines.
+// The surface of the mesh for drawing: normals that are smooth except at creases, and the creases as lines.
 
 const kCreaseCosine = 0.80;  // Facets that turn by more (37 degrees) meet in a crease; the same as in --picture.
 
@@ -20,7 +20,7 @@ function faceNormals(vertices, triangles) {
   return {normals, areas};
 }
 
-/** Of each vertex its triangles: those of v are list[start[v]] to list[start[v + 1] - 1]. */
+/** The triangles of each vertex: those of v are list[start[v]] to list[start[v + 1] - 1]. */
 function trianglesOfVertices(vertexCount, triangles) {
   const start = new Uint32Array(vertexCount + 1);
   for (const v of triangles) ++start[v + 1];
@@ -31,13 +31,13 @@ function trianglesOfVertices(vertexCount, triangles) {
   return {start, list};
 }
 
-/** Places and normals of all corners, three to a triangle: the normal of a corner is the mean, weighted by area, of the
- * triangles at its vertex that do not turn away by a crease. */
+/** Positions and normals of all corners, three to a triangle: the normal of a corner is the mean, weighted by area, of
+ * the triangles at its vertex that do not turn away by a crease. */
 export function cornerGeometry(vertices, triangles) {
   const {normals, areas} = faceNormals(vertices, triangles);
   const {start, list} = trianglesOfVertices(vertices.length / 3, triangles);
   const positions = new Float32Array(3 * triangles.length);
-  const corners = new Int8Array(4 * triangles.length);  // Normals; four bytes each, as devices like it.
+  const corners = new Int8Array(4 * triangles.length);  // Normals; four bytes each, the alignment that devices prefer.
   for (let corner = 0; corner < triangles.length; ++corner) {
     const v = triangles[corner];
     const own = 3 * Math.floor(corner / 3);
@@ -64,7 +64,7 @@ export function cornerGeometry(vertices, triangles) {
 export function creaseLines(vertices, triangles) {
   const {normals} = faceNormals(vertices, triangles);
   const vertexCount = vertices.length / 3;
-  // An edge as one number, whoever walks along it; sorted, the triangles of an edge follow each other.
+  // An edge as one number, independent of its direction; after sorting, the triangles of an edge are consecutive.
   const edges = new Float64Array(triangles.length);
   const order = new Uint32Array(triangles.length);
   for (let corner = 0; corner < triangles.length; ++corner) {

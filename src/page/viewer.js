@@ -1,4 +1,4 @@
-// The canvas: camera, layers, cut, filter and picking. Draws when something has changed, and only then.
+// The canvas: camera, layers, cut, filter and picking. Draws only when something has changed.
 import {Group, MathUtils, Matrix4, PerspectiveCamera, Plane, Scene, Spherical, Vector3, WebGLRenderer} from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -10,15 +10,15 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 
 const kFieldOfView = 32;  // Degrees, of the shorter side.
 const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
-// Turns that bring an axis up, about x, y and z: those of --picture (src/common/up_axis.h).
+// Rotations that bring an axis up, about x, y and z: those of --picture (src/common/up_axis.h).
 const kTurns = {
   y: [0, 0, 0], '-y': [Math.PI, 0, 0], z: [-Math.PI / 2, 0, 0], '-z': [Math.PI / 2, 0, 0], x: [0, 0, Math.PI / 2],
   '-x': [0, 0, -Math.PI / 2],
 };
-const kFilled = 0.88;  // Share of the picture that the model fills at first.
-// Milliseconds that the balls may take, so that the page always answers.
+const kFilled = 0.88;  // The share of the picture that the model fills at first.
+// The time limit of the balls in milliseconds, so that the page stays responsive.
 const kTurningTime = 40, kRestingTime = 700;
-const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls in a millisecond: first that of a slow device, then learned.
+const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: first of a slow device, then measured.
 
 export class Viewer {
   /** `context`: of WebGL 2, without antialiasing. */
@@ -27,7 +27,7 @@ export class Viewer {
     this.scene = scene;
     this.renderer = new WebGLRenderer({canvas, context});
     this.renderer.setClearColor(0, 0);
-    this.renderer.outputColorSpace = 'srgb-linear';  // Colours are given as they are to be seen.
+    this.renderer.outputColorSpace = 'srgb-linear';  // Colours are given as displayed.
     this.root = new Scene();
     this.model = new Group();
     this.root.add(this.model);
@@ -42,9 +42,9 @@ export class Viewer {
     this.ballCount = 0;
     this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
     this.pace = kFirstPace;
-    this.otherTime = [0, 0];  // Milliseconds of a frame without balls, quickly and at rest.
+    this.otherTime = [0, 0];  // Milliseconds of a frame without balls, in motion and at rest.
     this.frame = 0;
-    this.stripBelow = () => 0;  // CSS pixels of the picture that something else covers.
+    this.stripBelow = () => 0;  // CSS pixels of the picture that other elements cover.
     this.setUpCamera();
   }
 
@@ -77,12 +77,12 @@ export class Viewer {
     this.draw();
   }
 
-  /** The model fills the picture again, unless somebody has chosen a view. */
+  /** Fits the model into the picture again, unless the user has chosen a view. */
   refit() {
     if (!this.chosen) this.resetView();
   }
 
-  /** At rest twice as many pixels each way as the screen has, if those are large: no edge is jagged then. */
+  /** At rest, doubles the resolution of a screen with large pixels in both directions, against jagged edges. */
   setSharpness(atRest) {
     const screen = Math.min(window.devicePixelRatio, 2);
     const ratio = atRest && screen < 2 ? 2 * screen : screen;
@@ -91,7 +91,7 @@ export class Viewer {
     this.uniforms.pixelsPerUnit.value = ratio / this.unitsPerPixel;
   }
 
-  /** Calls `visit` with the vertices as they are seen from the first place. Some thousand of them are enough. */
+  /** Calls `visit` with the vertices in the initial view. A sample of some thousand suffices. */
   forVerticesInView(visit) {
     const {vertices} = this.scene;
     const toView = new Matrix4().lookAt(kFrom, new Vector3(), this.camera.up).invert().multiply(this.model.matrixWorld);
@@ -100,7 +100,8 @@ export class Viewer {
     for (let i = 0; i < vertices.length; i += stride) visit(place.fromArray(vertices, i).applyMatrix4(toView));
   }
 
-  /** Far enough away that every vertex is seen from the first place: the model's box is in the middle of the picture. */
+  /** A distance from which every vertex is visible in the initial view: the middle of the model's box is in the middle
+   * of the picture. */
   safeDistance() {
     const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
     let distance = 0.1 * this.size;
@@ -108,7 +109,8 @@ export class Viewer {
     return distance;
   }
 
-  /** What the model covers of the picture from a distance: the middle and half the size, 1 being half the picture. */
+  /** The part of the picture that the model covers from a distance: the middle and half the size, 1 being half the
+   * picture. */
   covered(distance) {
     const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
     const least = [Infinity, Infinity], greatest = [-Infinity, -Infinity];
@@ -124,7 +126,7 @@ export class Viewer {
     return {left, top, width, height};
   }
 
-  /** What is seen of the model is in the middle of the picture, or of what the legend leaves of it. */
+  /** Centres the visible part of the model in the picture, or in the part that the legend leaves free. */
   resetView() {
     this.chosen = false;
     this.model.updateMatrixWorld();
@@ -144,7 +146,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Turns about what is looked at, in radians, and goes `nearer` times as close. */
+  /** Turns about the target, in radians, and moves `nearer` times as close. */
   turn(right, up, nearer = 1) {
     this.chosen = true;
     const offset = this.camera.position.clone().sub(this.controls.target);
@@ -189,7 +191,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** 0: nothing of the mesh, 0.5: glass, 1: nothing through it. */
+  /** 0: invisible, 0.5: glass, 1: opaque. */
   setOpacity(share) {
     this.uniforms.density.value = share < 1 ? share / (1 - share) : 1e4;
     this.draw();
@@ -207,7 +209,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Kept is where dot(plane, p) + plane[3] >= 0, in the model. */
+  /** The side where dot(plane, p) + plane[3] >= 0 is kept, in the model. */
   setPlane(plane) {
     this.plane = plane;
     this.draw();
@@ -241,7 +243,7 @@ export class Viewer {
     return count;
   }
 
-  /** Shows point i as picked; -1: none. */
+  /** Shows point i as selected; -1: none. */
   highlight(i) {
     if (i < 0) {
       this.picked.show(false);
@@ -253,14 +255,14 @@ export class Viewer {
     this.draw();
   }
 
-  /** Where point i is on the canvas, in CSS pixels. */
+  /** The position of point i on the canvas, in CSS pixels. */
   project(i) {
     const place = this.model.localToWorld(new Vector3(...this.centre(i))).project(this.camera);
     const {clientWidth, clientHeight} = this.canvas;
     return [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
   }
 
-  /** The point or ball at a place of the canvas, in CSS pixels; -1: none. */
+  /** The point or ball at a position of the canvas, in CSS pixels; -1: none. */
   pickAt(x, y) {
     const {clientWidth, clientHeight} = this.canvas;
     this.root.updateMatrixWorld();
@@ -281,7 +283,7 @@ export class Viewer {
     });
   }
 
-  /** Draws at the next moment: quickly, and once more with care when nothing has changed for a while. */
+  /** Draws at the next opportunity: quickly, and once more at full quality when nothing has changed for a while. */
   draw() {
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.drawNow(true), 250);
@@ -293,13 +295,13 @@ export class Viewer {
     });
   }
 
-  /** Pixels of the squares around the first balls, if the model is as far away as its middle. */
+  /** Pixels of the squares around the first balls, for a model at the distance of its middle. */
   pixelsOfBalls(count) {
     const scale = 2 * this.uniforms.pixelsPerUnit.value / Math.max(this.camera.position.length(), 0.3);
     return this.points.squares[count] * scale * scale;
   }
 
-  /** How many of the balls can be drawn in the time; those left out hide behind those drawn, mostly. */
+  /** The number of balls that can be drawn in the time; those left out are mostly hidden behind those drawn. */
   ballsWithin(milliseconds) {
     let least = Math.min(20, this.ballCount), most = this.ballCount;
     while (least < most) {
@@ -309,7 +311,7 @@ export class Viewer {
     return least;
   }
 
-  /** Learns from a frame how fast the device is, without waiting for it; at rest, more balls may follow. */
+  /** Measures the speed of the device from a frame, without waiting for it; at rest, more balls may follow. */
   learnPace(atRest) {
     const gl = this.renderer.getContext();
     const pixels = this.shown.balls ? this.pixelsOfBalls(this.drawnBalls) : 0, begin = performance.now(), frame = this.frame;
@@ -327,7 +329,8 @@ export class Viewer {
         this.otherTime[Number(atRest)] = time;
         return;
       }
-      // At least half of the time counts as that of the balls: other layers may have been shown when theirs was taken.
+      // At least half of the time is attributed to the balls: other layers may have been shown when theirs was
+      // measured.
       const pace = pixels / Math.max(time - Math.min(this.otherTime[Number(atRest)], time / 2), 1);
       this.pace = Math.min(Math.max(pace, kLeastPace), 8 * this.pace);
       const more = this.ballsWithin(kRestingTime) > 1.25 * this.drawnBalls;
@@ -368,7 +371,7 @@ export class Viewer {
     this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
   }
 
-  /** Waits for the device: the frame is there when this returns. */
+  /** Waits for the device: the frame is complete when this returns. */
   finish() {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));

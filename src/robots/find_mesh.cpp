@@ -26,7 +26,7 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, error) && !fs::is_directory(path, error);
 }
 
-/// The parts of a path list, with `below` added to each.
+/// Adds the parts of a path list, with `below` appended to each.
 void add_paths(const char* variable, const char* below, std::vector<std::string>& paths) {
   const char* value = std::getenv(variable);
   std::string_view rest = value == nullptr ? "" : value;
@@ -82,7 +82,7 @@ Result<fs::path> path_of(const std::string& uri, const MeshPlaces& places) {
   const bool is_file_uri = uri.starts_with("file://");
   const fs::path path = is_file_uri ? uri.substr(7) : uri;
   if (path.is_absolute()) return path;
-  // With a scheme there is nothing that a path could be relative to.
+  // A URI with a scheme has no base for a relative path.
   if (uri.find("://") != std::string::npos) {
     return invalid(fmt::format("{} is neither package:// nor file:/// nor a path", medial_vk::quoted(uri)));
   }

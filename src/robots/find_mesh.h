@@ -1,4 +1,4 @@
-// Where the meshes of a robot lie: package://, file:// and relative paths.
+// Resolves the meshes of a robot: package://, file:// and relative paths.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace medial_vk {
 
-/// Where to look.
+/// The locations to search.
 struct MeshPlaces {
-  std::string folder;  ///< Of the URDF: relative paths start there, and packages may lie around it.
-  std::vector<std::pair<std::string, std::string>> packages;  ///< Name and folder, as told.
+  std::string folder;  ///< Of the URDF: the base of relative paths; packages may lie around it.
+  std::vector<std::pair<std::string, std::string>> packages;  ///< Name and folder, as given by the user.
   std::vector<std::string> search;                            ///< Folders that hold packages, or are one.
 };
 
-/// The folder of `urdf`, what ROS_PACKAGE_PATH and AMENT_PREFIX_PATH say, and the packages that were told:
-/// "name=folder". Error: kUsage for what has no name or no folder.
+/// The folder of `urdf`, the folders in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH, and the packages given as
+/// "name=folder". Error: kUsage for one without a name or a folder.
 Result<MeshPlaces> mesh_places(const std::string& urdf, const std::vector<std::string>& packages);
 
-/// The path of a file that exists. A package is looked for among those told, then along `search`, then among the
-/// folders above the URDF and beside those. Error: kInvalidMesh, naming the file or package and what to do.
+/// The path of a file that exists. A package is searched among those given, then along `search`, then among the folders
+/// above the URDF and beside those. Error: kInvalidMesh, with the file or package and a remedy.
 Result<std::string> find_mesh(const std::string& uri, const MeshPlaces& places);
 
 }  // namespace medial_vk

@@ -24,7 +24,7 @@ struct Group {
   std::size_t balls = 0;
 };
 
-/// An open mesh has no volume; what its surface encloses with the middle of its box, wherever that is, will do.
+/// An open mesh has no volume; the volume between its surface and the middle of its box serves instead.
 double enclosed_with_middle(const PreparedMesh& mesh) {
   const Point middle = 0.5 * (mesh.report.lower + mesh.report.upper);
   double six_times = 0;
@@ -103,8 +103,8 @@ class Fitting {
     return {};
   }
 
-  /// Curves for an equal share first, and longer ones for those who get more: in the end every curve says all that was
-  /// asked, and the shares are those of whole curves.
+  /// Curves are computed for an equal share first, and longer ones for parts that get more: in the end every curve has
+  /// the required length, and the shares are those of complete curves.
   Result<std::vector<std::size_t>> counts_by_need(const Group& group) {
     const std::size_t balls = static_cast<std::size_t>(
         std::ranges::count_if(group.parts, [&](std::size_t part) { return parts_[part].ball.has_value(); }));
@@ -129,7 +129,7 @@ class Fitting {
     return counts;
   }
 
-  /// The method of the source has no set that another begins with: its curves are continued instead.
+  /// The sets of the source's method are not prefixes of each other: its curves are continued instead.
   bool is_long_enough(const NeedCurve& curve, std::size_t count) const {
     return curve.is_ball || curve.ends || goals_.options.method == SphereMethod::kSource ||
            curve.uncovered.size() >= curve_length(count);
@@ -154,7 +154,7 @@ class Fitting {
     return curve;
   }
 
-  /// Made for the curve of a part, and used again for its spheres.
+  /// Computed for the curve of a part, and used again for its spheres.
   Result<IndexedMesh> indexed(std::size_t number) {
     if (!indexed_[number]) {
       Result<IndexedMesh> made = IndexedMesh::create(parts_[number].mesh, goals_.options.threads);
@@ -198,8 +198,8 @@ class Fitting {
     return {};
   }
 
-  /// What radii may lose, or gain, where spheres are moved to the frame of the link. What was measured before is then
-  /// still true to the digits that are shown.
+  /// Bounds the loss or gain of radii where spheres are moved to the frame of the link. Earlier measurements then
+  /// remain true to the digits that are shown.
   static Status check_position(const Part& part) {
     constexpr double kMost = 1e-6;  // of the diagonal
     const MeshReport& report = part.mesh.report;
@@ -216,7 +216,7 @@ class Fitting {
   void take(const Part& part, SphereFit fitted, PartFit& fit) const {
     fit.measures = std::move(fitted.measures);
     fit.solid_volume = fitted.solid_volume;
-    // Balanced balls are measured by the facets, which are what they were balanced for.
+    // Balanced balls are measured by the facets, for which they were balanced.
     fit.of_shape = goals_.options.contract != SphereContract::kBalanced && part.volume &&
                    measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
@@ -242,7 +242,7 @@ class Fitting {
     return error;
   }
 
-  /// The coarsest of a part with few levels stands for the levels below it, too.
+  /// The coarsest level of a part with few levels also serves as the levels below it.
   void align_levels() {
     std::size_t most = 0;
     for (const PartFit& fit : fits_) most = std::max(most, fit.levels.size());

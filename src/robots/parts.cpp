@@ -17,13 +17,13 @@
 namespace medial_vk {
 namespace {
 
-/// What foam calls a mesh: its file without the scheme.
+/// The name of a mesh in foam: its file without the scheme.
 std::string short_name(const std::string& uri) {
   const std::size_t scheme = uri.starts_with("package://") ? 10 : 0;
   return uri.substr(scheme);
 }
 
-/// A mirror turns triangles inside out; prepare_mesh() would turn them back, but only if they all agree.
+/// A mirror inverts the orientation of triangles; prepare_mesh() would restore it, but only if all agree.
 void scale_mesh(const Point& scale, Mesh& mesh) {
   for (Point& p : mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= scale[axis];
@@ -90,7 +90,7 @@ class PartLoader {
     return {};
   }
 
-  /// `found` gets its path.
+  /// Sets `found` to its path.
   Result<const Mesh*> mesh_file(const std::string& uri, std::string& found) {
     const Result<std::string> path = find_mesh(uri, places_);
     if (!path) return path.error();
@@ -139,7 +139,7 @@ Ball place(const Part& part, const Ball& ball, int grow) {
   const double rounding = placement_rounding(part.pose, reach_of(ball));
   Ball placed = {part.pose * ball.centre, ball.radius};
   if (rounding == 0 || grow == 0) return placed;
-  // The sum rounds, too.
+  // The sum is rounded too.
   placed.radius = std::nextafter(ball.radius + grow * rounding, grow > 0 ? std::numeric_limits<double>::infinity() : 0);
   placed.radius = std::max(placed.radius, 0.0);
   return placed;

@@ -1,4 +1,4 @@
-// The solids of a robot, or of one mesh: what spheres are fitted to, each by itself.
+// The solids of a robot, or of one mesh, each fitted with its own spheres.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,26 @@ namespace medial_vk {
 
 /// One geometry of a link.
 struct Part {
-  std::string link;              ///< Of a mesh by itself: its name.
-  std::string name;              ///< A mesh: its file as the URDF has it, without package://; else primitiveI, from 0.
-  Pose pose;                     ///< From the part's frame to its link's.
-  std::optional<Ball> ball;      ///< A sphere: the part itself, in its own frame. Then there is no mesh.
+  std::string link;              ///< For a single mesh, its name.
+  std::string name;              ///< For a mesh, its file in the URDF without package://; else primitiveI, from 0.
+  Pose pose;                     ///< From the part's frame to that of its link.
+  std::optional<Ball> ball;      ///< For a sphere, the part itself in its own frame. Then there is no mesh.
   PreparedMesh mesh;             ///< In the part's frame, scaled.
-  std::string file;              ///< That the mesh was read from; empty: none, or not known.
-  std::optional<double> volume;  ///< Of a primitive: of the shape itself, cubic metres; not of its facets.
-  double facet_share = 0;        ///< Of a curved primitive: how far the mesh is from it, as a share of the radius.
+  std::string file;              ///< The source of the mesh; empty: none, or unknown.
+  std::optional<double> volume;  ///< Of a primitive, in cubic metres: of the shape itself, not of its facets.
+  double facet_share = 0;        ///< Of a curved primitive: distance of the mesh from it, as a share of the radius.
 };
 
-/// `side`: of the facets of curved primitives. Meshes are read once, however often they are used. Errors: kInvalidMesh,
+/// `side` applies to the facets of curved primitives. A mesh used several times is read once. Errors: kInvalidMesh,
 /// naming the file, link and mesh; also if no link has such geometry.
 Result<std::vector<Part>> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
                                      const std::string& name);
 
-/// A mesh by itself.
+/// A part from a single mesh.
 Part single_part(std::string name, PreparedMesh mesh);
 
-/// The ball in the frame of the link. `grow`: by how much rounding may move it; negative to stay inside (-1), positive
-/// to cover (1), 0 not at all.
+/// The ball in the frame of the link. `grow` adds the motion by rounding to the radius: -1 to stay inside, 1 to cover,
+/// 0 for none.
 Ball place(const Part& part, const Ball& ball, int grow);
 
 }  // namespace medial_vk

@@ -75,16 +75,16 @@ class Revolution {
   std::vector<Ring> rings_;
 };
 
-/// Room for rounding, as a share of the radius: of sines and products, a few 2^-53 of it each, and of the sum with half
-/// the length.
+/// Allowance for rounding, as a share of the radius: of sines and products, a few 2^-53 of it each, and of the sum with
+/// half the length.
 double room(const Geometry& geometry) { return 0x1p-48 + 0x1p-52 * geometry.size[1] / geometry.size[0]; }
 
 }  // namespace
 
-// Chords of a circle cut in n are at least cos(pi/n) of the radius away from its centre. A facet of a sphere cut by n
+// Chords of a circle cut in n are at least cos(pi/n) of the radius from its centre. A facet of a sphere cut by n
 // meridians and by rings a quarter turn / m apart lies, seen along the middle of its two meridians, on a chord of the
-// ellipse with axes cos(pi/n) and 1; squeezing one axis brings a chord no nearer than that factor times its distance
-// cos(pi/4m) from the centre of the circle. With m = n/4 the two are equal.
+// ellipse with axes cos(pi/n) and 1; compression of one axis brings a chord no nearer than that factor times its
+// distance cos(pi/4m) from the centre of the circle. With m = n/4 the two are equal.
 double facet_share(GeometryKind kind) {
   static_assert(4 * kCapRings == kCircleSides);
   const double chord = std::cos(pi / kCircleSides);

@@ -1,4 +1,4 @@
-// Box, cylinder and capsule as triangle meshes that keep a contract: within the shape, or around it.
+// Box, cylinder and capsule as triangle meshes that keep a contract: inside the shape, or around it.
 #pragma once
 
 #include "medial_vk/mesh.h"
@@ -6,24 +6,24 @@
 
 namespace medial_vk {
 
-/// Which side of a curved wall the facets are on.
+/// The side of a curved wall on which its facets lie.
 enum class FacetSide {
-  kInscribed,      ///< The mesh is inside the shape: for balls that must not stick out.
+  kInscribed,      ///< The mesh is inside the shape: for balls that must not protrude.
   kCircumscribed,  ///< The shape is inside the mesh: for balls that must cover it.
 };
 
-/// Sides of the polygon that stands for a circle, and rings of facets of a hemisphere.
+/// Sides of the polygon that approximates a circle, and rings of facets of a hemisphere.
 inline constexpr std::uint32_t kCircleSides = 96;
 inline constexpr std::uint32_t kCapRings = 24;
 
-/// Greatest distance between mesh and shape as a share of the radius: 1 - cos(pi/96) = 5.4e-4 for a cylinder; for a
-/// capsule 1 - cos(pi/96) cos(pi/96) = 1.1e-3. Circumscribed ones are 1/(1 - share) - 1 outside. A box is exact.
+/// The greatest distance between mesh and shape as a share of the radius: 1 - cos(pi/96) = 5.4e-4 for a cylinder; for a
+/// capsule 1 - cos(pi/96) cos(pi/96) = 1.1e-3. Circumscribed meshes are 1/(1 - share) - 1 outside. A box is exact.
 double facet_share(GeometryKind kind);
 
-/// A closed mesh of a box, cylinder or capsule in its own frame, within or around it even by rounding.
+/// A closed mesh of a box, cylinder or capsule in its own frame, inside or around it even by rounding.
 Mesh make_primitive(const Geometry& geometry, FacetSide side);
 
-/// Of the shape itself, cubic metres; of a sphere, too. 0 for a mesh.
+/// The volume of the shape itself, also of a sphere, in cubic metres. 0 for a mesh.
 double primitive_volume(const Geometry& geometry);
 
 }  // namespace medial_vk

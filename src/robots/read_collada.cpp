@@ -30,7 +30,7 @@ void append(const aiMesh& from, Mesh& to) {
   }
   for (unsigned i = 0; i < from.mNumFaces; ++i) {
     const aiFace& face = from.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines: what is left after triangulation
+    if (face.mNumIndices != 3) continue;  // points and lines, which remain after triangulation
     to.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
   }
 }
@@ -39,7 +39,7 @@ void append(const aiMesh& from, Mesh& to) {
 
 Result<Mesh> read_collada(const std::string& path) {
   Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);  // as ROS shows them
+  importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);  // as ROS displays them
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) return file_error(path, "this is no COLLADA that assimp reads");
   Mesh mesh;

@@ -1,4 +1,4 @@
-// COLLADA (.dae), which many robots' visual meshes are, by assimp: only in builds with it (MEDIAL_VK_COLLADA).
+// COLLADA (.dae), the format of many robots' visual meshes, by assimp: only in builds with it (MEDIAL_VK_COLLADA).
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace medial_vk {
 
-/// All meshes of the scene in its root frame, in the file's unit as metres. Errors: kInvalidMesh; in a build without
-/// assimp it says so, and how to convert the file.
+/// All meshes of the scene in its root frame, in metres by the unit of the file. Errors: kInvalidMesh; in a build
+/// without assimp the message names its absence, and a way to convert the file.
 Result<Mesh> read_collada(const std::string& path);
 
 }  // namespace medial_vk

@@ -7,13 +7,13 @@
 namespace medial_vk {
 namespace {
 
-/// Error falls at least like this power of the count on smooth solids.
+/// On smooth solids the error falls at least like this power of the count.
 constexpr double kLeastPower = 0.6, kGreatestPower = 2;
 
-/// What the power law takes from an error when a ball is added to `balls`.
+/// The decrease of an error by the power law when a ball is added to `balls`.
 double fall(double error, double balls, double power) { return error * (1 - std::pow(balls / (balls + 1), power)); }
 
-/// The part's answer to "what is the next ball worth?" for any count.
+/// The worth of the next ball to the part, for any count.
 class Need {
  public:
   explicit Need(const NeedCurve& curve) : is_ball_(curve.is_ball), ends_(curve.ends) {

@@ -1,4 +1,4 @@
-// One number of balls for a whole robot: who gets how many.
+// Distribution of a number of balls among the parts of a robot.
 #pragma once
 
 #include <cstddef>
@@ -7,28 +7,28 @@
 
 namespace medial_vk {
 
-/// How a part gains from balls.
+/// The benefit of a part from balls.
 struct NeedCurve {
-  /// Volume that k + 1 balls leave uncovered, for as many k as were tried; cubic metres.
+  /// The volume that k + 1 balls leave uncovered, for every k that was evaluated; cubic metres.
   std::vector<double> uncovered;
-  /// The part is a ball: one is all it needs.
+  /// The part is a ball, and needs one only.
   bool is_ball = false;
-  /// No more balls than these are of use.
+  /// More balls than these have no use.
   bool ends = false;
 };
 
-/// `total` balls, at least one each: every next ball goes where it covers the most, on average over those that would
-/// follow it there up to curve_length(), as a ball may pay off only together with the next; but none counts for less
-/// than the fall of error as count^-0.6. Beyond its end a curve goes on as a power of the count, as steep as its last
-/// half was. Parts that are balls get one, so fewer may be given out. Ties go to the first part. `total` is not below
-/// the number of parts.
+/// Distributes `total` balls, at least one to each part: every next ball goes to the part where it covers the most, on
+/// average over the balls that would follow it there up to curve_length(), as a ball may pay off only together with the
+/// next; but none counts for less than the decrease of error as count^-0.6. Beyond its end a curve continues as a power
+/// of the count, as steep as its last half. Parts that are balls get one, so fewer than `total` may be distributed.
+/// Ties go to the first part. `total` is not below the number of parts.
 ///
-/// What the next ball is worth to a part depends on that part alone and on how many it has. So if the curves do not
+/// The worth of the next ball to a part depends on that part alone and on its number of balls. So if the curves do not
 /// depend on `total` and reach far enough, a larger total gives no part fewer (the shares are house-monotone; M.
 /// Balinski and H. P. Young, "Fair Representation", 1982).
 std::vector<std::size_t> share_out(std::span<const NeedCurve> curves, std::size_t total);
 
-/// How far a curve must be known to say what one more ball than `count` is worth.
+/// The length of a curve that determines the worth of one more ball than `count`.
 std::size_t curve_length(std::size_t count);
 
 }  // namespace medial_vk

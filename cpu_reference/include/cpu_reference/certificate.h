@@ -10,10 +10,10 @@
 namespace medial_vk::reference {
 
 struct CertificateLine {
-  std::string condition;  // a phrase for people, e.g. "radius <= exact distance"
+  std::string condition;  // a phrase for readers, e.g. "radius <= exact distance"
   std::uint64_t tested = 0;
   std::uint64_t failed = 0;
-  double worst = 0;  // largest violation or smallest margin; unit says which
+  double worst = 0;  // largest violation or smallest margin, depending on the unit
   std::string unit;
   std::string first_failure;  // "ball 17 at (x, y, z): ..." or empty
 };

@@ -1,5 +1,5 @@
-// The independent reference: medial spheres in double precision, one thread, written for reading.
-// Shares no code with the runtime or the shaders.
+// The independent reference: medial spheres in double precision, one thread, written for readability. It shares no code
+// with the runtime or the shaders.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +21,9 @@ struct Parameters {
   int extra_levels = 6;                              // certified: subdivision below the finest voxel
   bool narrow_features = true;                       // thesis: Section 2.4.3
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
-  // With a radius threshold on: the object angle that a point of that radius must have (never above object_angle).
-  // Without it every convex edge of a finely faceted solid would put a sheet of tiny angle into the deep voxels.
+  // The object angle that a point above the radius threshold, if one is set, must have (never above object_angle).
+  // Without this bound every convex edge of a finely faceted solid would put a sheet of tiny angle into the deep
+  // voxels.
   double deep_angle = 0.15;
 };
 
@@ -35,8 +36,8 @@ struct Sphere {
   Eigen::Vector3i voxel;
 };
 
-/// What a salient medial point must be like that hides in an undecided voxel (docs/theory.md, "What undecided means");
-/// the first of these that holds.
+/// The kind of a salient medial point that may hide in an undecided voxel (docs/theory.md, "What undecided means"): the
+/// first of these that holds.
 enum class UndecidedKind : std::uint8_t {
   kNearFace,   // within 1/64 of the voxel side of a face of its voxel
   kNearAngle,  // of an object angle less than 0.05 above the threshold
@@ -48,7 +49,7 @@ enum class UndecidedKind : std::uint8_t {
 struct Undecided {
   Eigen::Vector3i voxel;
   UndecidedKind kind;
-  double width;  // no two feet of a salient medial point that hides there are farther apart (Section 3.4, equation 3.1)
+  double width;  // greatest distance of two feet of a salient medial point hidden there (Section 3.4, equation 3.1)
 };
 
 struct LevelCount {
@@ -67,8 +68,8 @@ struct Result {
   bool interrupted = false;
 };
 
-/// Section 2.3 to 2.4 as published, or the certified method; every ball of both passes check() (certificate.h).
-/// `progress` gets the share done and returns false to stop.
+/// The method of Sections 2.3 to 2.4 as published, or the certified method; every ball of both passes check()
+/// (certificate.h). `progress` receives the completed share and returns false to stop.
 Result extract(const Mesh& mesh, const Parameters& parameters, const std::function<bool(double)>& progress = {});
 
 }  // namespace medial_vk::reference

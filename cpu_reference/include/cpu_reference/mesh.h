@@ -1,4 +1,4 @@
-// The reference's own mesh.
+// The mesh type of the reference.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@ namespace medial_vk::reference {
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;  // counter-clockwise from outside
-  std::vector<std::uint8_t> trusted;       // one per triangle: may its outward normal be trusted (Lemma B)? empty: no
-  bool closed = false;                     // inside and outside can be decided for whole cells
+  std::vector<std::uint8_t> trusted;       // one per triangle: its outward normal may be trusted (Lemma B); empty: no
+  bool closed = false;                     // inside and outside are defined for whole cells
 };
 
 }  // namespace medial_vk::reference

@@ -1,5 +1,5 @@
-// Geometric questions about a triangle mesh, in double precision: what every other part of the reference asks, and
-// what device kernels are compared with. Lengths are in the units of the mesh.
+// Geometric queries on a triangle mesh, in double precision, for all other parts of the reference and for comparison
+// with device kernels. Lengths are in the units of the mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace medial_vk::reference {
 
-/// Which part of a triangle holds the nearest point.
+/// The part of a triangle that holds the nearest point.
 enum class Feature : std::uint8_t { kFace, kEdge, kVertex };
 
 /// The point of one triangle that is nearest to a query.
@@ -22,8 +22,8 @@ struct TrianglePoint {
   Feature feature;
 };
 
-/// Nearest point of the triangle abc to p. Safe for needles and for triangles without area: the point is always a
-/// convex combination of the corners, so the distance is never below the true one by more than rounding.
+/// The nearest point of the triangle abc to p. Safe for needles and for triangles without area: the point is always a
+/// convex combination of the corners, so the distance is below the true one by rounding at most.
 TrianglePoint closest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                         const Eigen::Vector3d& c);
 
@@ -41,7 +41,7 @@ Eigen::Vector3d direction_to(const Eigen::Vector3d& p, const Closest& nearest);
 /// A bounding volume hierarchy: boxes, split at the median of the longest side of the centroids.
 class Tree {
  public:
-  /// Copies what it needs of the mesh, which must have at least one triangle and valid indices.
+  /// Copies the required data of the mesh, which must have at least one triangle and valid indices.
   explicit Tree(const Mesh& mesh);
 
   Closest closest(const Eigen::Vector3d& p) const;
@@ -62,7 +62,7 @@ class Tree {
   const Eigen::Vector3d& upper() const { return nodes_[0].upper; }
   double longest_side() const { return (upper() - lower()).maxCoeff(); }
 
-  /// A bound on the error of any distance computed here, from rounding: see tree.cpp.
+  /// A bound on the rounding error of any distance computed by this class, derived in tree.cpp.
   double rounding() const { return rounding_; }
 
  private:
@@ -95,10 +95,12 @@ class Tree {
 /// The generalised winding number (Jacobson et al. 2013), exact: the sum of all solid angles over 4 pi.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p);
 
-/// The same within `tolerance`: far nodes by their first two moments (Barill et al. 2018), opened by a proved bound.
+/// The winding number within `tolerance`: far nodes by their first two moments (Barill et al. 2018), opened by a proved
+/// bound.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p, double tolerance);
 
-/// Winding number at least 1/2; decided by the fast form unless that is too close to tell, and then exactly.
+/// True if the winding number is at least 1/2; decided by the fast form unless it is too close to 1/2, and then
+/// exactly.
 bool is_inside(const Tree& tree, const Eigen::Vector3d& p);
 
 /// N unit vectors spread over the sphere by the generalised spiral of Rakhmanov, Saff and Zhou (1994), Section 2.3.2.
@@ -116,7 +118,7 @@ struct Flux {
   double greatest_distance = 0;  // from a sample, fans included, to the boundary (2.4.2)
 };
 
-/// Answers nearest boundary points: a tree, or a list that is known to suffice.
+/// Returns nearest boundary points: a tree, or a list that is known to suffice.
 using ClosestFunction = std::function<Closest(const Eigen::Vector3d&)>;
 
 /// `directions` are unit vectors (spiral_points). Two gradients are the same if they differ by at most `same`.
@@ -125,7 +127,7 @@ Flux outward_flux(const ClosestFunction& closest, const Eigen::Vector3d& centre,
 Flux outward_flux(const Tree& tree, const Eigen::Vector3d& centre, double radius,
                   const std::vector<Eigen::Vector3d>& directions, double same = 1e-7);
 
-/// What Algorithm 1 returns: p, its distance and both gradients; q is the other end, within epsilon of p.
+/// The result of Algorithm 1: p, its distance and both gradients; q is the other end, within epsilon of p.
 struct Retraction {
   Eigen::Vector3d p, q;
   double radius;

@@ -1,4 +1,4 @@
-// Do balls lie inside a solid? Do they cover it? Recomputed from the numbers as written, plainly.
+// Tests that balls lie inside a solid, or that they cover it, from the numbers as written and by simple methods.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace medial_vk::reference {
 
-/// Of every ball: finite numbers, centre inside, radius at most the exact distance (rounded down).
+/// Tests of every ball: finite numbers, centre inside, radius at most the exact distance (rounded down).
 Certificate check_inside(const Mesh& mesh, const std::vector<UnionBall>& balls);
 
-/// Of every triangle: it can be cut into pieces each of which lies in one ball. Of every point that three spheres have
-/// in common and that no ball holds: it is outside the solid. With a closed mesh both together say that the balls cover
-/// the solid (docs/theory.md, "Tight spheres"); of an open one, that they cover its surface: one more row says so.
+/// Tests of every triangle: it can be cut into parts each of which lies in one ball. Tests of every point that three
+/// spheres have in common and that no ball holds: it is outside the solid. For a closed mesh both together prove that
+/// the balls cover the solid (docs/theory.md, "Tight spheres"); for an open one, that they cover its surface, as an
+/// additional row states.
 Certificate check_cover(const Mesh& mesh, const std::vector<UnionBall>& balls);
 
 }  // namespace medial_vk::reference

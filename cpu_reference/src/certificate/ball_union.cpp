@@ -16,7 +16,7 @@ struct Disk {
   double x, y, radius;
 };
 
-/// The angles of the rim of `disk` that `other` covers, [from, to] with from in [-pi, pi); nothing, or all.
+/// The angles of the circle of `disk` that `other` covers, [from, to] with from in [-pi, pi); nothing, or all.
 std::optional<std::pair<double, double>> covered(const Disk& disk, const Disk& other, bool other_is_first) {
   const double dx = other.x - disk.x, dy = other.y - disk.y, distance = std::hypot(dx, dy);
   const bool same = distance == 0 && disk.radius == other.radius;
@@ -28,7 +28,7 @@ std::optional<std::pair<double, double>> covered(const Disk& disk, const Disk& o
   return {{middle - half, middle + half}};
 }
 
-/// Green's theorem along the rim of a disk: the integral of (x dy - y dx) / 2.
+/// Green's theorem along the circle of a disk: the integral of (x dy - y dx) / 2.
 double rim(const Disk& disk, double from, double to) {
   return 0.5 * disk.radius *
          (disk.radius * (to - from) + disk.x * (std::sin(to) - std::sin(from)) -
@@ -99,7 +99,7 @@ void add_points(const Circle& circle, const UnionBall& sphere, std::vector<doubl
   }
 }
 
-/// Where slices change shape, ascending.
+/// The heights at which slices change shape, ascending.
 std::vector<double> critical_heights(const std::vector<UnionBall>& spheres) {
   std::vector<double> heights;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -125,7 +125,7 @@ double integrate(double from, double to, const Function& f) {
   for (int n = -51; n <= 51; ++n) {
     const double t = step * n, u = 0.5 * kPi * std::sinh(t);
     const double weight = 0.5 * kPi * std::cosh(t) / (std::cosh(u) * std::cosh(u));
-    // From the nearer end, so that no digits are lost there: 1 - tanh(u) = 2 / (1 + exp(2 u)).
+    // Measured from the nearer end, so that no digits are lost there: 1 - tanh(u) = 2 / (1 + exp(2 u)).
     const double gap = half * 2 / (1 + std::exp(2 * std::fabs(u)));
     sum += weight * f(t < 0 ? from + gap : to - gap);
   }

@@ -29,7 +29,7 @@ std::string describe(std::size_t ball, const Sphere& s, const std::string& what)
   return text + what;
 }
 
-/// One condition: keeps count, the worst margin and the first failure.
+/// One condition: records the count, the worst margin and the first failure.
 class Condition {
  public:
   Condition(std::string condition, std::string unit) {
@@ -38,7 +38,7 @@ class Condition {
     line_.worst = std::numeric_limits<double>::infinity();
   }
 
-  /// `margin` is what is left before the condition fails: negative (or not a number) is a failure.
+  /// `margin` is the distance to failure: a negative value (or nan) is a failure.
   void test(std::size_t ball, const Sphere& sphere, double margin) {
     ++line_.tested;
     const bool good = margin >= 0;
@@ -71,7 +71,7 @@ class Checker {
     finite_.test(i, s, is_finite(s) ? 0 : -1);
     inside_.test(i, s, is_inside(tree_, s.centre) ? 0 : -1);
     below_.test(i, s, distance - s.radius);
-    // Contract: rounded down by at most this.
+    // By the contract, rounded down by at most this.
     above_.test(i, s, s.radius - (distance - 2e-6 * tree_.longest_side()));
     grow(i, s, nearest);
     spokes(i, s, distance);
@@ -90,7 +90,7 @@ class Checker {
            std::isfinite(s.object_angle) && s.radius > 0;
   }
 
-  /// Lemma 2.3: pushed away from its contact by epsilon and grown by epsilon, the ball keeps touching that contact; if
+  /// Lemma 2.3: pushed away from its contact by epsilon and grown by epsilon, the ball still touches that contact; if
   /// the boundary comes closer than that, it is another part of it. The margin covers the rounding of both distances
   /// and of the pushed centre.
   void grow(std::size_t i, const Sphere& s, const Closest& nearest) {
@@ -102,18 +102,18 @@ class Checker {
   void spokes(std::size_t i, const Sphere& s, double distance) {
     const double off = std::max(std::abs(s.spoke_a.norm() - 1), std::abs(s.spoke_b.norm() - 1));
     unit_.test(i, s, kFloatUnit - off);
-    // The direction moves the tip by its own error times the distance; the contact that it was computed from may be a
-    // float one, three coordinates off by a few 2^-24 of the longest side.
+    // The direction moves the tip by its own error times the distance; the contact from which it was computed may be a
+    // float, with three coordinates off by a few 2^-24 of the longest side.
     const double rounding = kFloatUnit * distance + 4 * tree_.rounding();
     const double contact = 8 * 0x1p-24 * tree_.longest_side();
     tip_a_.test(i, s, rounding + contact - from_nearest(s.centre, s.centre + distance * s.spoke_a, distance));
-    // Lemma 2.4 holds for the distance; the radius is less by at most what above_ allows.
+    // Lemma 2.4 holds for the distance; the radius is less by at most the allowance of above_.
     const double short_by = std::max(0.0, distance - s.radius);
     const double tip_b = tree_.closest(s.centre + s.radius * s.spoke_b).distance;
     tip_b_.test(i, s, 2 * epsilon_ + rounding + short_by - tip_b);
   }
 
-  /// Distance from the tip to the nearest boundary point of the centre: to any of them if several tie.
+  /// The distance from the tip to the nearest boundary point of the centre, or to any of several at equal distance.
   double from_nearest(const Vector3d& centre, const Vector3d& tip, double distance) const {
     double least = std::numeric_limits<double>::infinity();
     for (int t : tree_.gather(centre, distance + 4 * tree_.rounding())) {
@@ -126,7 +126,7 @@ class Checker {
     const double angle = half_angle(s.spoke_a, s.spoke_b);
     angle_.test(i, s, kFloatAngle - std::abs(angle - s.object_angle));
     const double by_angle = std::min(angle, s.object_angle) - (object_angle_ - kFloatAngle);
-    // The threshold is asked of the distance; the written radius is rounded down.
+    // The threshold applies to the distance; the written radius is rounded down.
     const double by_radius = radius_ > 0 ? (distance - radius_) / radius_ : -1;
     salient_.test(i, s, std::max(by_angle, by_radius));
   }

@@ -24,7 +24,7 @@ std::string place(const char* what, std::size_t number, const Vector3d& at) {
   return text;
 }
 
-/// One condition: counts, the least margin and the first failure.
+/// One condition: records the count, the least margin and the first failure.
 class Row {
  public:
   Row(std::string condition, std::string unit) {
@@ -33,7 +33,7 @@ class Row {
     line_.worst = std::numeric_limits<double>::infinity();
   }
 
-  /// Negative margins, and what is no number, fail.
+  /// Negative margins, and nan, fail.
   void test(double margin, const char* what, std::size_t number, const Vector3d& at) {
     ++line_.tested;
     if (!(margin >= line_.worst)) line_.worst = margin;
@@ -57,7 +57,7 @@ class Pieces {
  public:
   explicit Pieces(const std::vector<UnionBall>& balls) : balls_(balls) {}
 
-  /// By how much the worst piece is inside its ball; negative: a piece is in none, `where` is in it.
+  /// The margin by which the worst part is inside its ball; negative: a part is in none, and `where` lies in it.
   double cover(const Corners& triangle, const std::vector<int>& near, double moved, Vector3d& where) {
     left_ = kMostPieces;
     moved_ = moved;
@@ -70,7 +70,7 @@ class Pieces {
 
  private:
   /// A ball holds a triangle if it holds its corners. Every cut may round a corner by half a unit in the last place of
-  /// each coordinate; a distance is wrong by some units of itself.
+  /// each coordinate; a distance is wrong by some units in its last place.
   double depth_in(const UnionBall& ball, const Corners& piece) const {
     double farthest = 0;
     for (const Vector3d& corner : piece) farthest = std::max(farthest, (corner - ball.centre).norm());
@@ -110,11 +110,11 @@ class Pieces {
   Vector3d where_;
 };
 
-/// Points that three spheres have in common.
+/// The points that three spheres have in common.
 class Corner {
  public:
   Corner(const UnionBall& a, const UnionBall& b, const UnionBall& c) : spheres_{&a, &b, &c} {
-    // Two planes of equal power, and the line in which they meet.
+    // Two planes of equal power, and their common line.
     const Vector3d n1 = b.centre - a.centre, n2 = c.centre - a.centre;
     const Vector3d along = n1.cross(n2);
     if (along.squaredNorm() == 0) return;
@@ -134,8 +134,8 @@ class Corner {
   bool exists() const { return exists_; }
   const std::array<Vector3d, 2>& points() const { return points_; }
 
-  /// How far the true point may be from a computed one: what is left of the equations, through the inverse of their
-  /// directions; but no farther than where the spheres, as they are, only touch.
+  /// A bound of the distance of the true point from a computed one: the residual of the equations, through the inverse
+  /// of their directions; at most that to the point where the spheres only touch.
   double error(const Vector3d& at) const {
     Eigen::Matrix3d directions;
     double left = 0, greatest = 0;
@@ -185,7 +185,7 @@ class CoverCheck {
   void corners() {
     for (std::size_t a = 0; a < balls_.size(); ++a) {
       if (is_hidden(a)) continue;
-      // Later balls that meet it; earlier ones too may hold its points.
+      // Later balls that meet it; earlier ones may hold its points too.
       std::vector<std::size_t> later, all;
       for (std::size_t b = 0; b < balls_.size(); ++b) {
         if (b == a || !meet(a, b)) continue;
@@ -229,7 +229,7 @@ class CoverCheck {
     }
   }
 
-  /// Does a ball hold all of this one's sphere, and more?
+  /// True if a ball holds all of this one's sphere, and more.
   bool is_hidden(std::size_t a) const {
     return std::any_of(balls_.begin(), balls_.end(), [&](const UnionBall& other) {
       const double room = 1e-9 * (other.radius + balls_[a].radius);

@@ -11,10 +11,10 @@ using Eigen::Vector3d;
 
 // Dots of unit vectors and cosines are off by less than 1e-15.
 constexpr double kCapSlack = 1e-12;
-// A carrier is compared with this many of the nearest: those that beat others are among them.
+// A carrier is compared with this many of the nearest, which include those that beat others.
 constexpr std::size_t kMostFaceRivals = 4;
 
-/// Keeps what the points of one box can touch, and how.
+/// Collects the carriers that points of one box can touch, with their spokes.
 class Collector {
  public:
   Collector(const Tree& tree, const SpokeCones& cones, const Box& box, const Closest& nearest)
@@ -31,7 +31,7 @@ class Collector {
     add(face, tree_.closest_on(t, box_.centre).point);
   }
 
-  /// Lemma I. A face is touched from a side on which there is some of the box.
+  /// Lemma I. A face is touched from a side only if part of the box lies on it.
   void add_untrusted(int t) {
     if (!cones_.has_sides(t)) {
       add_triangle(t, false);
@@ -84,7 +84,7 @@ class Collector {
     add(vertex, v);
   }
 
-  /// Nearest first, without those that another one beats all over the box.
+  /// Returns the carriers nearest first, without those that another one beats all over the box.
   std::vector<Carrier> take() {
     const auto nearer = [](const Carrier& a, const Carrier& b) { return a.distance < b.distance; };
     std::stable_sort(carriers_.begin(), carriers_.end(), nearer);
@@ -142,7 +142,7 @@ class Collector {
     carriers_.push_back(carrier);
   }
 
-  /// Lemma C: spokes are also within asin(radius / D) of g. False if no spoke is left, else the smaller cap of the two.
+  /// Lemma C: spokes are also within asin(radius / D) of g. False if no spoke remains, else the smaller cap of the two.
   bool turn_towards(Carrier& carrier) const {
     const double sine = radius_ / carrier.distance, cosine = std::sqrt(1 - sine * sine);
     if (!carrier.spokes.holds_all()) {
@@ -183,8 +183,8 @@ std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, cons
   return collector.take();
 }
 
-// Let m = centre + x have feet on a and b. Their distances from m are both D(m), and at least D - g . x (convexity): so
-// is the mean of these bounds. D(m) is at most the distance to the nearest point of c, at most
+// Let m = centre + x have feet on a and b. Their distances from m are both D(m), and at least D - g . x (convexity),
+// and so is the mean of these bounds. D(m) is at most the distance to the nearest point of c, at most
 // D_c - g_c . x + |x|^2 / (2 D_c) (as in Lemma A). Three computed distances: 3 rounding().
 bool is_beaten(const Carrier& a, const Carrier& b, double share, const Carrier& c, const Box& box, double slack) {
   if (c.distance <= 0) return false;

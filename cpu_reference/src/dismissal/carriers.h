@@ -17,10 +17,10 @@ namespace medial_vk::reference {
 struct Carrier {
   std::array<Eigen::Vector3d, 3> corners;
   int corner_count;
-  /// Normals that span the spokes with weights >= 0; none where that is not known or not used.
+  /// Normals that span the spokes with weights >= 0; none if unknown or not used.
   std::array<Eigen::Vector3d, 2> normals;
   int normal_count;
-  double normal_cosine;  // of the greatest angle between one of them and an axis near all
+  double normal_cosine;  // of the greatest angle between one of them and an axis near all of them
   Cap spokes;
   const Arc* arc = nullptr;                            // that holds the spokes to an edge of an untrusted triangle
   std::array<int, 3> vertices = {-1, -1, -1};          // of the mesh: the corners of a face or an edge
@@ -29,13 +29,13 @@ struct Carrier {
   Eigen::Vector3d direction;                           // to the nearest point; 0 at distance 0
 };
 
-/// The carriers of a box whose contacts are these, nearest first. `nearest` is the boundary point nearest to its
-/// centre. Every foot of every medial point of the box inside the solid lies on one of them, with a spoke that it
-/// allows.
+/// The carriers of a box with these contacts, nearest first. `nearest` is the boundary point nearest to its centre.
+/// Every foot of every medial point of the box inside the solid lies on one of them, with a spoke that it allows.
 std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, const Box& box, const Closest& nearest,
                                  std::span<const Contact> contacts);
 
-/// Lemma F: is everything on the share-weighted mean of a (share 0) and b (share 1) farther than c, all over the box?
+/// Lemma F: true if everything on the share-weighted mean of a (share 0) and b (share 1) is farther than c, all over
+/// the box.
 bool is_beaten(const Carrier& a, const Carrier& b, double share, const Carrier& c, const Box& box, double slack);
 
 }  // namespace medial_vk::reference

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Of the unit vectors and spokes of two carriers: normals and what is made of them are right to 1e-9, and faces hold
-// the spokes to their flat edges.
+// The error of unit vectors and spokes of two carriers: normals and derived directions are right to 1e-9, and faces
+// hold the spokes to their flat edges.
 constexpr double kDirectionSlack = 2 * (kFaceAngle + 2 * kNormalSlack);
 
 /// A face, or an edge with the spokes to it, as seen from a vertex that it leaves.
@@ -58,8 +58,8 @@ class CornerCircle {
 
   void demand(const Vector3d& v, double r) { arcs_.push_back({{v.dot(first_), v.dot(second_)}, r}); }
 
-  /// Does any y meet all conditions? If so, either none of them has an end, or an end of one is in all others. Ends are
-  /// computed: they are wrong by 1e-15 over the sine of half the arc, but no more than the root of that.
+  /// True if some y meets all conditions. Then either none of them has an end, or an end of one is in all others.
+  /// Computed ends are wrong by 1e-15 over the sine of half the arc, but by no more than the root of that.
   bool has_point() const {
     bool free = true;
     for (const Condition& c : arcs_) {
@@ -93,7 +93,7 @@ class CornerCircle {
 bool faces_can_meet(const Leaving& a, const Leaving& b) {
   const Vector3d across = a.toward - b.toward;
   const double size = across.norm();
-  if (size < 1e-3) return true;  // no spokes that differ by 2 theta, for any theta that matters
+  if (size < 1e-3) return true;  // no spokes that differ by 2 theta, for any theta of interest
   const double slack = kDirectionSlack * (1 + 1 / size);
   CornerCircle x(across / size);
   x.demand(a.toward + b.toward, -2 * slack);

@@ -1,5 +1,5 @@
-// Carriers that leave one vertex: however small a box there is, it looks the same, and only directions can tell whether
-// both may hold a foot of one medial point (docs/theory.md, Lemma J).
+// Carriers that leave one vertex: a box of any smaller size looks the same, so only directions can decide whether both
+// may hold a foot of one medial point (docs/theory.md, Lemma J).
 #pragma once
 
 #include "dismissal/carriers.h"

@@ -39,7 +39,8 @@ void ContactList::measure(int triangle, const Vector3d& centre, double reach) {
 // Lemma A. Let x = m - centre, |x| <= reach. Distance to a convex set is convex with gradient -g_t, so
 // dist(m, t) >= D_t - g_t . x. On the other hand dist(m, P0) = sqrt(D0^2 - 2 D0 g0 . x + |x|^2), which is at most
 // D0 - g0 . x + |x|^2 / (2 D0) and at most D0 + |x|. If t is nearest to m, then D_t - D0 is at most
-// reach |g_t - g0| + reach^2 / (2 D0), and at most 2 reach. Four roundings of a distance are on the keeping side.
+// reach |g_t - g0| + reach^2 / (2 D0), and at most 2 reach. The test allows four roundings of a distance in favour of
+// keeping.
 bool ContactList::can_touch(const Contact& contact, double reach) const {
   const double behind = contact.distance - nearest_.distance - 4 * tree_->rounding();
   if (behind > 2 * reach) return false;
@@ -48,7 +49,7 @@ bool ContactList::can_touch(const Contact& contact, double reach) const {
   return behind <= reach * (spread + 1e-12) + reach * reach / (2 * nearest_.distance);
 }
 
-// Two computed distances: 2 rounding() each way; eight of them are on the keeping side.
+// Two computed distances: 2 rounding() each way; the test allows eight of them in favour of keeping.
 BoxReach::BoxReach(const Tree& tree, const Box& box, int nearest_triangle) {
   for (int k = 0; k < 8; ++k) {
     corners_[k] = box.corner(k);
@@ -113,8 +114,8 @@ Closest ContactList::closest(const Vector3d& p) const {
 
 namespace {
 
-/// A contact's two ways to fit into a cone: `dot(normal, axis) > normal_cosine` or the same by direction. A cosine of 2
-/// says that the way is closed.
+/// The two ways in which a contact fits into a cone: `dot(normal, axis) > normal_cosine`, or the same by direction. A
+/// cosine of 2 excludes a way.
 struct Fit {
   Vector3d normal, direction;
   double normal_cosine = 2, direction_cosine = 2;
@@ -139,7 +140,7 @@ std::vector<Fit> fits(const Tree& tree, std::span<const Contact> contacts, doubl
   return all;
 }
 
-/// Moves the axis towards the contact that fits worst, a little less each time (Badoiu and Clarkson 2003).
+/// Moves the axis towards the contact with the worst fit, by decreasing steps (Badoiu and Clarkson 2003).
 bool cone_exists(const std::vector<Fit>& all, Vector3d axis) {
   constexpr int kSteps = 12;
   for (int step = 0; step < kSteps; ++step) {

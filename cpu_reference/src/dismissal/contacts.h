@@ -1,4 +1,4 @@
-// Contact lists: which triangles the points of a ball or a box can be nearest to (docs/theory.md, Lemma A), inherited
+// Contact lists: the triangles that can be nearest to points of a ball or a box (docs/theory.md, Lemma A), inherited
 // from the ball of a larger cell, and the proof by one cone that no salient medial point lies there (Lemmas B and C).
 #pragma once
 
@@ -19,9 +19,10 @@ struct Contact {
   bool trusted;
 };
 
-/// Lemma A for a box: what a point of the box can touch. Let t be a convex set at distance D from the centre c, in
-/// direction g, and t0 the triangle nearest to c. dist(c + x, t) >= D - g . x, and dist(c + x, t0) is convex in x. If t
-/// is touched from some x of the box, dist(c + x, t0) - D + g . x is at least 0 there, so it is at one of the corners.
+/// Lemma A for a box: the sets that a point of the box can touch. Let t be a convex set at distance D from the centre
+/// c, in direction g, and t0 the triangle nearest to c. dist(c + x, t) >= D - g . x, and dist(c + x, t0) is convex in
+/// x. If t is touched from some x of the box, dist(c + x, t0) - D + g . x is at least 0 there, so it is at one of the
+/// corners.
 class BoxReach {
  public:
   BoxReach(const Tree& tree, const Box& box, int nearest_triangle);
@@ -32,12 +33,12 @@ class BoxReach {
   std::array<double, 8> distances_;         // of t0 from the corners
 };
 
-/// The triangles that some point of the ball (centre, reach) can have a nearest boundary point on.
+/// The triangles that can hold a nearest boundary point of some point of the ball (centre, reach).
 class ContactList {
  public:
   /// From the tree: for top-level cells.
   ContactList(const Tree& tree, const Mesh& mesh, const Eigen::Vector3d& centre, double reach);
-  /// From the list of a ball or box that holds all points asked about: the tree is needed no more.
+  /// From the list of a ball or box that holds all query points: the tree is no longer needed.
   ContactList(const ContactList& parent, const Eigen::Vector3d& centre, double reach);
 
   const Eigen::Vector3d& centre() const { return centre_; }
@@ -65,7 +66,7 @@ class ContactList {
 };
 
 /// True if one cone of this half-angle proves that no medial point with this object angle or more lies inside the solid
-/// where these are the contacts: in a ball of this radius, or a box within it.
+/// within a ball of this radius, or a box in it, with these contacts.
 bool spokes_are_close(const Tree& tree, std::span<const Contact> contacts, double reach, double angle);
 
 }  // namespace medial_vk::reference

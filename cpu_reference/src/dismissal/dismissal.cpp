@@ -11,11 +11,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kPairsToAimAt = 64;
-constexpr double kFaceShare = 1.0 / 64;      // of the voxel side: what "near a face" means
-constexpr double kBoundaryRadius = 1.0 / 8;  // of the voxel side: what "at the boundary" means
-constexpr double kNearAngle = 0.05;          // radians: what "near the threshold" means
+constexpr double kFaceShare = 1.0 / 64;      // of the voxel side: the definition of "near a face"
+constexpr double kBoundaryRadius = 1.0 / 8;  // of the voxel side: the definition of "at the boundary"
+constexpr double kNearAngle = 0.05;          // radians: the definition of "near the threshold"
 
-/// What of a cell is not near a face of its voxel; empty if any half is not positive.
+/// The part of a cell that is not near a face of its voxel; empty if any half is not positive.
 Box away_from_faces(const Box& cell, const Box& voxel) {
   const Vector3d half = (1 - 2 * kFaceShare) * voxel.half;
   const Vector3d lower = (cell.centre - cell.half).cwiseMax(voxel.centre - half);
@@ -63,7 +63,7 @@ double BoxTest::width_of(const CarrierPair& pair) const {
 UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Thresholds& thresholds, BoxTest& test,
                       const ContactList& list, const Box& voxel) {
   const Box inner = away_from_faces(test.box(), voxel);
-  // A hair, for cells that end where faces begin to be near.
+  // A small tolerance, for cells that end where faces begin to be near.
   if (inner.half.minCoeff() <= 1e-9 * voxel.half.minCoeff()) return UndecidedKind::kNearFace;
   const ContactList inner_list(list, inner.centre, inner.reach());
   BoxTest inner_test(tree, cones, inner, inner_list);

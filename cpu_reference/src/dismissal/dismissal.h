@@ -1,5 +1,5 @@
-// What can be proved about a box: that it holds no salient medial point, or else of what kind and how wide a set of
-// them can be that hides there (docs/theory.md, "What undecided means").
+// Proofs about a box: that it holds no salient medial point, or else the kind and the greatest width of those that can
+// hide in it (docs/theory.md, "What undecided means").
 #pragma once
 
 #include <vector>
@@ -20,12 +20,12 @@ class BoxTest {
   BoxTest(const BoxTest&) = delete;  // pairs point to its carriers
   BoxTest& operator=(const BoxTest&) = delete;
 
-  /// Is it proved that no medial point of this object angle or more lies in the box, inside the solid?
+  /// True if it is proved that no medial point of this object angle or more lies in the box, inside the solid.
   bool dismisses(double angle);
-  /// The pairs that dismisses() did not exclude: the first of them, for lines to aim at; none before it was asked.
+  /// The pairs that dismisses() did not exclude: the first of them, as targets of lines; empty before that call.
   const std::vector<CarrierPair>& pairs() const { return search_.pairs; }
 
-  /// No two feet of a medial point of this object angle or more in the box are farther apart (equation 3.1).
+  /// A bound of the distance of two feet of a medial point of this object angle or more in the box (equation 3.1).
   double width(double angle);
 
   const Box& box() const { return box_; }
@@ -46,8 +46,8 @@ class BoxTest {
   PairSearch search_;
 };
 
-/// What a salient medial point must be like that hides in a leaf cell of a finest voxel with these corners. `test` is
-/// the cell's, `list` its contacts; `angle` is the threshold that the cell was tested with.
+/// The kind of a salient medial point that may hide in a leaf cell of a finest voxel with these corners. `test` is that
+/// of the cell, `list` its contacts; `angle` is the threshold with which the cell was tested.
 UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Thresholds& thresholds, BoxTest& test,
                       const ContactList& list, const Box& voxel);
 

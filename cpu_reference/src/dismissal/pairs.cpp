@@ -15,7 +15,7 @@ constexpr double kCosineSlack = 1e-12;       // dots of unit vectors and cosines
 constexpr std::size_t kMostCarriers = 2000;  // the search is quadratic
 constexpr std::size_t kMostRivals = 16;      // nearest carriers that are tried for Lemma F
 
-/// Does either carrier lie in the untrusted triangle that lists the other? No two feet are in one triangle.
+/// True if either carrier lies in the untrusted triangle that lists the other. No two feet are in one triangle.
 bool are_of_one_triangle(const Carrier& a, const Carrier& b) {
   const auto holds = [](const std::array<int, 3>& corners, const Carrier& c) {
     const auto is_corner = [&](int v) {
@@ -42,7 +42,8 @@ class PairTest {
   }
 
  private:
-  /// Are two spokes of these caps ever 2 * angle apart? Not if the axes are nearer than 2 * angle less both angles.
+  /// True if two spokes of these caps can be 2 * angle apart: not if the axes are nearer than 2 * angle less both
+  /// angles.
   bool spokes_can_part(const Cap& a, const Cap& b) const {
     const double left = 2 * angle_ - a.angle - b.angle;
     return left <= 0 || a.axis.dot(b.axis) <= std::cos(left) + kCosineSlack;
@@ -50,7 +51,7 @@ class PairTest {
 
   bool can_face(const Carrier& a, const Carrier& b) const;
 
-  /// Lemma J, where a triangle that lists one of them is not trusted.
+  /// Lemma J, if a triangle that lists one of them is not trusted.
   bool can_be_at_corner(const Carrier& a, const Carrier& b) const {
     const bool asked = a.triangle_corners[0] >= 0 || b.triangle_corners[0] >= 0;
     return !asked || can_meet_at_corner(a, b, angle_);
@@ -72,7 +73,7 @@ class PairTest {
   double angle_, sine_, size_, slack_;
 };
 
-/// Unit vectors from the corners of one carrier to those of another (corners in common left out), and their mean.
+/// Unit vectors from the corners of one carrier to those of another (without common corners), and their mean.
 struct Chords {
   Chords(const Carrier& from, const Carrier& to) {
     for (int i = 0; i < from.corner_count; ++i) {
@@ -91,7 +92,7 @@ struct Chords {
   Vector3d mean;
 };
 
-/// The greatest -s . d of all s of an arc. The part of d across the edge, turned about, is `turn` away from the middle.
+/// The greatest -s . d of all s of an arc. The part of d across the edge, reversed, is `turn` away from the middle.
 double depth_along(const Arc& arc, const Vector3d& d) {
   const Vector3d across = d - d.dot(arc.along) * arc.along;
   const double size = across.norm();
@@ -100,7 +101,8 @@ double depth_along(const Arc& arc, const Vector3d& d) {
   return size * std::cos(std::max(0.0, turn - arc.angle));
 }
 
-/// Is anything of b behind a, as seen along -s for a spoke s at a: the greatest -s . d of chords d is above the slack.
+/// True if a part of b is behind a, as seen along -s for a spoke s at a: the greatest -s . d of chords d is above the
+/// slack.
 template <typename Depth>
 bool is_behind(const Depth& depth, const Carrier& a, const Carrier& b, double slack) {
   for (int i = 0; i < a.corner_count; ++i) {

@@ -17,15 +17,15 @@ using Eigen::Vector3d;
 // A cross product of two exact edges is wrong by less than 4 * 2^-53 of the product of their lengths. Above this sine
 // of the angle between them its direction is right to 4 * 2^-53 / 1e-6 < 5e-10.
 constexpr double kLeastCornerSine = 1e-6;
-// Above the error of (n x m) . e for two normals and a unit edge (2 * 5e-10, and rounding): a turn that is certain.
+// Above the error of (n x m) . e for two normals and a unit edge (2 * 5e-10, and rounding): a certain turn.
 constexpr double kTurnSlack = 1e-8;
 // Unit edges from rounded differences are right to 1e-15, and a ray across two of them to 1e-15 / kLeastRaySine.
 constexpr double kLeastRaySine = 1e-6;
 constexpr double kRaySlack = 1e-8;
-// Where normals are farther than this from the axis, slopes of the graph over it are not used.
+// If normals are farther than this from the axis, slopes of the graph over it are not used.
 constexpr double kLeastGraphCosine = 0.1;
 
-/// The triangles around a vertex, as Lemma D asks about them; in any order.
+/// The triangles around a vertex, with the data of Lemma D; in any order.
 struct Fan {
   std::vector<Vector3d> normals;
   std::vector<Vector3d> edges;     // unit, leaving the vertex; the one of a triangle has it on the left
@@ -36,12 +36,12 @@ struct Fan {
 /// The slope of the plane with normal n, as a graph over the plane across the axis.
 Vector3d slope(const Vector3d& n, const Vector3d& axis) { return axis - n / n.dot(axis); }
 
-// Near a trusted vertex the boundary is the graph of f over the plane across an axis near all normals, the solid below
-// it (Lemma B). A ball that touches the vertex from below has its tangent plane, the graph of l, below f. In polar
-// coordinates f - l = r h(t), h >= 0, where h'' + h vanishes except at the edges: there h' jumps by the jump of slope,
-// negative if the edge is convex. Over the whole circle the integral of h'' is 0, so the jumps sum up to that of h,
-// which is not negative. At convex vertices the sum is negative, and so it is at many others.
-// Normals within 5e-10 put slopes off by 2 * 5e-10 / kLeastGraphCosine^2 = 1e-7 per edge: ten times that is allowed.
+// Near a trusted vertex the boundary is the graph of f over the plane across an axis near all normals, with the solid
+// below it (Lemma B). A ball that touches the vertex from below has its tangent plane, the graph of l, below f. In
+// polar coordinates f - l = r h(t), h >= 0, where h'' + h vanishes except at the edges: there h' jumps by the jump of
+// slope, negative if the edge is convex. Over the whole circle the integral of h'' is 0, so the jumps sum up to that of
+// h, which is not negative. At convex vertices, and at many others, the sum is negative. Normals within 5e-10 put
+// slopes off by 2 * 5e-10 / kLeastGraphCosine^2 = 1e-7 per edge: ten times that is allowed.
 bool cannot_be_touched(const Fan& fan, const Cap& cap) {
   if (cap.cosine < kLeastGraphCosine) return false;
   double sum = 0;
@@ -52,7 +52,7 @@ bool cannot_be_touched(const Fan& fan, const Cap& cap) {
   return sum < 0;
 }
 
-/// The extreme rays of the cone s . e >= 0 for all edges e; nothing if edges are too nearly parallel to tell.
+/// The extreme rays of the cone s . e >= 0 for all edges e; nothing if edges are too nearly parallel to decide.
 std::vector<Vector3d> rays_across(const std::vector<Vector3d>& edges) {
   std::vector<Vector3d> rays;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -71,8 +71,8 @@ std::vector<Vector3d> rays_across(const std::vector<Vector3d>& edges) {
 }
 
 // Lemma D: spokes at a vertex are within every cap that holds the normals, and do not point away from any edge. The
-// cone of such directions is spanned by its extreme rays: in a cap around those, and empty on the axis' side if they
-// all look the other way.
+// cone of such directions is spanned by its extreme rays: it lies in a cap around those, and is empty on the axis' side
+// if all of them point to the other side.
 std::optional<Cap> vertex_spokes(const Fan& fan) {
   Cap spokes = cap_around(fan.normals);
   if (spokes.holds_all()) return spokes;
@@ -86,18 +86,19 @@ std::optional<Cap> vertex_spokes(const Fan& fan) {
   return spokes;
 }
 
-// Lemma I on an edge, seen along it: of the half circle of directions that do not point away from the first triangle,
-// what does not point away from the others. Directions d across the edge are right to 1e-9 (kLeastCornerSine).
+// Lemma I on an edge, seen along it: the half circle of directions that do not point away from the first triangle,
+// restricted to those that do not point away from the others. Directions d across the edge are right to 1e-9
+// (kLeastCornerSine).
 std::optional<Arc> arc_across(const Vector3d& along, std::span<const Vector3d> towards) {
   constexpr double kRightAngle = std::numbers::pi / 2;
   const Vector3d u = towards.front(), v = along.cross(u);
   double from = -kRightAngle, to = kRightAngle;  // angles from u
   for (const Vector3d& d : towards) {
-    const double at = std::atan2(d.dot(v), d.dot(u));  // within pi of 0, and so is what is left: no turn to add
+    const double at = std::atan2(d.dot(v), d.dot(u));  // within pi of 0, as is the remainder: no turn to add
     from = std::max(from, at - kRightAngle);
     to = std::min(to, at + kRightAngle);
   }
-  // Two triangles in a plane are left with their normals, which count as spokes to their faces.
+  // Two triangles in a plane keep their normals, which count as spokes to their faces.
   const double half = (to - from) / 2, middle = (to + from) / 2;
   if (half <= kFlatAngle / 2) return std::nullopt;
   return Arc{along, std::cos(middle) * u + std::sin(middle) * v, std::min(half + kNormalSlack, kRightAngle)};
@@ -105,7 +106,7 @@ std::optional<Arc> arc_across(const Vector3d& along, std::span<const Vector3d> t
 
 // Lemma I at a vertex: the cone s . e >= 0 for all edges e. Nothing if it is empty; all directions if no cap holds it.
 std::optional<Cap> cone_across(const std::vector<Vector3d>& edges) {
-  constexpr std::size_t kMostEdges = 40;  // the rays take the cube of that
+  constexpr std::size_t kMostEdges = 40;  // the time for the rays grows with the cube of it
   if (edges.size() > kMostEdges) return Cap::all();
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -127,8 +128,8 @@ Cap Cap::around(const Vector3d& axis, double angle) {
 
 Cap Cap::all() { return {Vector3d::UnitZ(), std::numbers::pi, -1, 0}; }
 
-// Moves the axis towards the direction farthest from it, a little less each time (Badoiu and Clarkson 2003), and keeps
-// the best: the mean, if there are two.
+// Moves the axis towards the direction farthest from it, by decreasing steps (Badoiu and Clarkson 2003), and keeps the
+// best; for two directions, the mean.
 Cap cap_around(std::span<const Vector3d> directions) {
   constexpr int kSteps = 30;
   Vector3d axis = Vector3d::Zero(), best = Vector3d::Zero();

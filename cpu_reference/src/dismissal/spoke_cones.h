@@ -1,4 +1,4 @@
-// Which way spokes can point at the faces, edges and vertices of a mesh (docs/theory.md, Lemmas D and I).
+// The directions of spokes at the faces, edges and vertices of a mesh (docs/theory.md, Lemmas D and I).
 #pragma once
 
 #include <Eigen/Core>
@@ -44,7 +44,7 @@ class SpokeCones {
  public:
   SpokeCones(const Mesh& mesh, const Tree& tree);
 
-  /// The mesh's flags, less triangles whose normal is lost in rounding and triangles at open edges.
+  /// The flags of the mesh, without triangles whose normal is lost in rounding and triangles at open edges.
   const std::vector<std::uint8_t>& trusted() const { return trusted_; }
 
   /// Spokes from inside to the interior of edge k (from corner k to the next) and to corner k of a triangle. Null if
@@ -53,13 +53,13 @@ class SpokeCones {
   const Cap* edge(int triangle, int k) const { return cap(edges_[triangle][k]); }
   const Cap* vertex(int triangle, int k) const { return cap(vertices_[triangle][k]); }
 
-  /// Of an untrusted triangle: is its normal known all the same? If not, it is a carrier as a whole.
+  /// For an untrusted triangle: true if its normal is known nevertheless. If not, it is a carrier as a whole.
   bool has_sides(int triangle) const { return has_sides_[triangle] != 0; }
 
   /// The vertices of a triangle.
   const std::array<int, 3>& corners(int triangle) const { return corners_[triangle]; }
 
-  /// Where an untrusted triangle holds an edge or a corner: spokes to it, from whichever side. Null as above; and if a
+  /// The spokes to an edge or a corner that an untrusted triangle holds, from either side. Null as above, and if a
   /// triangle without a known normal holds it.
   const Arc* arc(int triangle, int k) const {
     return arcs_of_[triangle][k] < 0 ? nullptr : &arcs_[arcs_of_[triangle][k]];

@@ -1,4 +1,4 @@
-// Boxes with sides along the axes: cells, parts of them, and what is left of them away from the faces of a voxel.
+// Boxes with sides along the axes: cells, parts of them, and their remainder away from the faces of a voxel.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,7 @@ struct Box {
   double support(const Eigen::Vector3d& g) const { return half.dot(g.cwiseAbs()); }
 };
 
-/// A cube, larger by a hair than this side says: what is proved of it holds for its parts too, whose centres are
-/// rounded.
+/// A cube, slightly larger than this side: properties proved for it hold for its parts too, whose centres are rounded.
 inline Box cube(const Eigen::Vector3d& centre, double side) {
   return {centre, Eigen::Vector3d::Constant(0.5 * side * (1 + 1e-9))};
 }

@@ -12,7 +12,7 @@ using Eigen::Vector3i;
 Grid::Grid(const Tree& tree, int resolution) : origin(tree.lower()), levels(4) {
   voxel_size = tree.longest_side() / resolution;
   for (int a = 0; a < 3; ++a) {
-    // The extent of the longest side is `resolution` voxels up to rounding: do not add a layer for that.
+    // The extent of the longest side is `resolution` voxels up to rounding, which must not add a layer.
     const double voxels = (tree.upper()[a] - tree.lower()[a]) / voxel_size;
     size[a] = std::max(1, static_cast<int>(std::ceil(voxels - 1e-9)));
   }

@@ -22,10 +22,10 @@ struct Grid {
   double cell_size(int level) const { return voxel_size * (1 << (levels - 1 - level)); }
   Eigen::Vector3d lower_corner(const Eigen::Vector3i& cell, int level) const;
   Eigen::Vector3d centre(const Eigen::Vector3i& cell, int level) const;
-  /// floor((p - origin) / voxel_size), as readers of the output compute it.
+  /// floor((p - origin) / voxel_size), the rule for readers of the output.
   Eigen::Vector3i voxel_of(const Eigen::Vector3d& p) const;
   bool holds(const Eigen::Vector3i& voxel) const;
-  /// Whether a cell has any voxel of the grid in it: cells on the rim stick out.
+  /// True if a cell contains a voxel of the grid: cells at the border of the grid extend beyond it.
   bool reaches(const Eigen::Vector3i& cell, int level) const;
   /// Number of top-level cells along each axis.
   Eigen::Vector3i top_cells() const;
@@ -37,7 +37,7 @@ Eigen::Vector3i child_of(const Eigen::Vector3i& cell, int k);
 /// Half the diagonal of a cube with this side.
 double circumradius(double side);
 
-/// Lengths and angles that both modes use, from the parameters' fractions.
+/// Lengths and angles for both modes, computed from the fractions in the parameters.
 struct Thresholds {
   double epsilon;       // length
   double object_angle;  // theta
@@ -46,7 +46,7 @@ struct Thresholds {
 
   Thresholds(const Parameters& parameters, const Grid& grid, double longest_side);
 
-  /// The object angle that a point at this distance from the boundary needs to be salient.
+  /// The object angle required of a point at this distance from the boundary to be salient.
   double angle_at(double distance) const { return radius > 0 && distance >= radius ? deep_angle : object_angle; }
 };
 

@@ -86,7 +86,7 @@ TrianglePoint Tree::closest_on(int triangle, const Vector3d& p) const {
 Closest Tree::closest(const Vector3d& p) const {
   TrianglePoint best = {p, std::numeric_limits<double>::infinity(), Feature::kFace};
   int triangle = -1;
-  // A computed point may leave its box by rounding; boxes are dropped only beyond that, so that ties are all seen.
+  // A computed point may leave its box by rounding; boxes are dropped only beyond that, so that all ties are found.
   double limit = best.squared_distance;
   std::array<std::pair<double, int>, kStackSize> stack;
   int size = 0;

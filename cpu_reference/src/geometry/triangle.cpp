@@ -53,7 +53,7 @@ TrianglePoint closest_point_on_triangle(const Vector3d& p, const Vector3d& a, co
     if (!needle) return best;
   }
   // A point nearest to the inside of an edge lies beyond that edge; one nearest to a corner lies beyond an edge of it.
-  const double slack = 1e-6;  // generous against rounding of the weights: costs an edge test now and then
+  const double slack = 1e-6;  // generous against rounding of the weights; rarely costs an edge test
   if (needle || wc <= slack) try_edge(p, a, b, best);
   if (needle || wa <= slack) try_edge(p, b, c, best);
   if (needle || wb <= slack) try_edge(p, c, a, best);

@@ -96,7 +96,7 @@ double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
   return winding_number(tree, p);
 }
 
-// A closed mesh has integers only, so there the first tolerance decides.
+// A closed mesh has only integers, so the first tolerance decides.
 bool is_inside(const Tree& tree, const Vector3d& p) {
   for (double tolerance : {0.2, 0.02, 0.002}) {
     const double estimate = winding_number(tree, p, tolerance);

@@ -17,7 +17,7 @@ constexpr int kFluxSamples = 50;
 
 class Certified {
  public:
-  /// The mesh must trust what `cones` trusts.
+  /// The trusted triangles of the mesh must be those of `cones`.
   Certified(const Mesh& mesh, const Tree& tree, const SpokeCones& cones, const Grid& grid, const Thresholds& thresholds,
             const Parameters& parameters, Result& result)
       : mesh_(mesh),
@@ -32,12 +32,12 @@ class Certified {
   void run_top(const Vector3i& cell) {
     const Vector3d centre = grid_.centre(cell, 0);
     ++result_.queries;
-    // One level only: the finest voxels are top-level cells and take their list from a cell as large as themselves.
+    // With one level only, the finest voxels are top-level cells and take their list from a cell of their own size.
     visit(cell, 0, ContactList(tree_, mesh_, centre, list_reach(0)), Side::kMixed);
   }
 
  private:
-  /// Every point asked about below a cell: its own, pushed ones (epsilon), and the flux samples of its voxels, at one
+  /// Bounds all query points below a cell: its own, pushed ones (epsilon), and the flux samples of its voxels, at one
   /// voxel side l from voxel centres that are at most circumradius - l sqrt(3)/2 from the cell's.
   double list_reach(int level) const {
     const double voxel = grid_.voxel_size;
@@ -45,7 +45,7 @@ class Certified {
     return circumradius(grid_.cell_size(level)) + extra * (1 + 1e-6);
   }
 
-  /// `list` is the cell's own, except for finest voxels: there it is the parent's.
+  /// `list` is the cell's own, except for finest voxels, which use that of the parent.
   void visit(const Vector3i& cell, int level, const ContactList& list, Side where) {
     if (level == grid_.levels - 1) {
       visit_voxel(cell, list, where);
@@ -91,7 +91,7 @@ class Certified {
     }
   }
 
-  /// As outward_flux(), from the parent's list.
+  /// As outward_flux(), with the list of the parent.
   double flux(const Vector3i& voxel, const ContactList& parent) {
     const Vector3d centre = grid_.centre(voxel, grid_.levels - 1);
     const auto closest = [&](const Vector3d& p) {

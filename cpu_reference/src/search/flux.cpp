@@ -56,9 +56,9 @@ Flux outward_flux(const ClosestFunction& closest, const Vector3d& centre, double
   return flux;
 }
 
-// B(m) != B(p) is asked of the computed points. On the segment B(p) stays the same point up to rounding, so a
+// B(m) != B(p) is tested for the computed points. On the segment B(p) stays the same point up to rounding, so a
 // difference above 1e-9 of the box is a different contact. The case "m is equidistant from two points" needs no branch:
-// the tree picks one of them and the interval still shrinks around m.
+// the tree returns one of them and the interval still shrinks around m.
 Retraction retract(const Tree& tree, const Vector3d& p, const Vector3d& q, double epsilon) {
   const double same = 1e-9 * tree.longest_side();
   return retract([&](const Vector3d& x) { return tree.closest(x); }, p, q, epsilon, same);

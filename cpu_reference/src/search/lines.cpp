@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostPairLines = 8;
-constexpr std::size_t kTieContacts = 64;  // contacts that the tie is computed from
+constexpr std::size_t kTieContacts = 64;  // contacts from which the tie is computed
 constexpr int kTieSteps = 3;
 
 struct PairLine {
@@ -25,7 +25,7 @@ bool line_of_pair(const Box& box, const CarrierPair& pair, PairLine& out) {
   const Carrier &a = *pair.a, &b = *pair.b;
   const Vector3d across = b.direction - a.direction;
   const double turn = across.norm(), gap = b.distance - a.distance, most = box.support(across);
-  if (turn < 0.1 || std::abs(gap) > 1.2 * most) return false;  // directions too close to aim by, or far outside
+  if (turn < 0.1 || std::abs(gap) > 1.2 * most) return false;  // directions too close for a line, or far outside
   Vector3d base = gap / (turn * turn) * across;
   if ((base.cwiseAbs().array() > box.half.array()).any()) {
     const double share = std::clamp(gap / most, -1.0, 1.0);
@@ -58,7 +58,7 @@ void add_pair_lines(const Box& box, std::span<const CarrierPair> pairs, std::vec
 
 // From the centre to the point equally far from all contacts that are about as near as the nearest, in the sense of
 // least squares: D_j - g_j . x = t for all j, by Gauss-Newton. Curves of the medial surface, such as the axis of a
-// round tube, are thinner than any set of lines between two contacts. Where the directions leave a degree of freedom,
+// round tube, are thinner than any set of lines between two contacts. If the directions leave a degree of freedom,
 // along a sheet or a curve, the small multiple of the identity keeps the step out of it.
 Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, std::span<const Contact> contacts) {
   const double radius = box.reach();
@@ -89,8 +89,8 @@ Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, 
   return x;
 }
 
-// Across the sheet between the two contacts whose directions differ most of those that tie at a point within epsilon,
-// or as good as most: of the directions, the one farthest from the first's, and the one farthest from that.
+// The direction across the sheet between the two contacts whose directions differ (nearly) most among those that tie at
+// a point within epsilon: the one farthest from the first direction, and the one farthest from that.
 Vector3d widest_turn(const Tree& tree, const Vector3d& point, double epsilon, std::span<const Contact> contacts) {
   const std::size_t stride = 1 + contacts.size() / kTieContacts;
   std::vector<Vector3d> spokes;
@@ -112,8 +112,8 @@ Vector3d widest_turn(const Tree& tree, const Vector3d& point, double epsilon, st
 
 }  // namespace
 
-// Last the lines through the tie: along g_0, and across the sheet there; and the one along g_0 through the centre,
-// where it holds the deep samples of Section 3.2.
+// The last lines pass through the tie, along g_0 and across the sheet there; and through the centre along g_0, where
+// the deep samples of Section 3.2 lie.
 std::vector<Line> aimed_lines(const Tree& tree, const Box& box, double epsilon, const Closest& nearest,
                               std::span<const Contact> contacts, std::span<const CarrierPair> pairs) {
   std::vector<Line> lines;

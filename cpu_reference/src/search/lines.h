@@ -1,4 +1,4 @@
-// Aimed lines: where in a cell the medial surface may be, and across it (docs/theory.md, "Aimed lines").
+// Aimed lines: lines across the possible positions of the medial surface in a cell (docs/theory.md, "Aimed lines").
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ struct Line {
   Eigen::Vector3d direction;  // unit
 };
 
-/// The lines that are tried in a box, best first. `contacts` are the box's, `pairs` its salient pairs; contacts tie if
-/// their distances differ by less than `epsilon`.
+/// The lines to be tried in a box, best first. `contacts` are those of the box, `pairs` its salient pairs; contacts tie
+/// if their distances differ by less than `epsilon`.
 std::vector<Line> aimed_lines(const Tree& tree, const Box& box, double epsilon, const Closest& nearest,
                               std::span<const Contact> contacts, std::span<const CarrierPair> pairs);
 

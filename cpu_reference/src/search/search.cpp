@@ -10,17 +10,17 @@ using Eigen::Vector3i;
 
 namespace {
 
-// Lines stay this share of a voxel inside it, so that rounding does not carry their ends across a face.
+// Lines stay inside a voxel by this share of its side, so that rounding does not move their ends across a face.
 constexpr double kHair = 1e-9;
-// Levels below the voxel from which points beside a sheet are asked: where cells are not much larger than epsilon.
+// Levels below the voxel from which points beside a sheet are tested: there cells are not much larger than epsilon.
 constexpr int kDirectDepth = 2;
-// Levels below the voxel at which cells that the boundary meets are given up where normals are not trusted: what hides
-// in them has a radius below sqrt(3) / 2^5 of the voxel's side.
+// Levels below the voxel at which cells that meet the boundary are abandoned if normals are not trusted: a point that
+// hides in them has a radius below sqrt(3) / 2^5 of the voxel side.
 constexpr int kLevelsAlongBoundary = 5;
 
 }  // namespace
 
-// Both this distance and the one a reader computes are off by at most rounding(): two of them keep radius <= distance.
+// This distance and that of a reader are both off by at most rounding(): twice that keeps radius <= distance.
 double safe_radius(const Tree& tree, double distance) { return std::max(0.0, distance - 2 * tree.rounding()); }
 
 VoxelSearch::VoxelSearch(const Tree& tree, const SpokeCones& cones, const Sides& sides, const Grid& grid,
@@ -47,7 +47,7 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
   LevelCount& count = result_.levels[grid_.levels - 1 + depth];
   ++count.visited;
   const Box box = cube(cell.centre, cell.side);
-  // Epsilon more, so that the pushed balls of the growth test find their nearest point in the list too.
+  // Larger by epsilon, so that the list also holds the nearest points of the pushed balls of the growth test.
   const ContactList list(parent, cell.centre, box.reach() + thresholds_.epsilon);
   ++result_.queries;
   const Closest& nearest = list.nearest_to_centre();
@@ -64,8 +64,8 @@ Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& pare
     ++count.found;
     return Outcome::kFound;
   }
-  // A cell touched by the boundary where normals mean nothing may hold medial points of either side: do not fall into
-  // it.
+  // A cell that meets the boundary where normals are unreliable may hold medial points of either side, so it is
+  // subdivided only to kLevelsAlongBoundary.
   const auto distrusted = [](const Contact& contact) { return !contact.trusted; };
   const bool hopeless =
       nearest.distance <= box.reach() && std::any_of(test.contacts().begin(), test.contacts().end(), distrusted);
@@ -104,7 +104,7 @@ bool VoxelSearch::aim(const Cell& cell, const BoxTest& test, const ContactList& 
   return false;
 }
 
-// Points beside a sheet (docs/theory.md): the centres of the parts of the cell, as they are.
+// Points beside a sheet (docs/theory.md): the centres of the parts of the cell, without narrowing.
 bool VoxelSearch::stand_beside(const Cell& cell, const ContactList& list, Side where, Sphere& sphere) {
   for (int k = 0; k < 8; ++k) {
     const Vector3d offset((k & 1) - 0.5, ((k >> 1) & 1) - 0.5, (k >> 2) - 0.5);
@@ -115,8 +115,8 @@ bool VoxelSearch::stand_beside(const Cell& cell, const ContactList& list, Side w
   return false;
 }
 
-/// Of the contacts that keep the growth test from failing, the one in the direction that differs most. Only a foot
-/// inside a face is sure to be the end of a spoke, so that the angle is that of a sheet.
+/// Of the contacts that satisfy the growth test, the one whose direction differs most. Only a foot in the interior of a
+/// face is certainly the end of a spoke, so that the angle is that of a sheet.
 std::optional<VoxelSearch::End> VoxelSearch::second_contact(const End& here, const ContactList& list) const {
   const Vector3d pushed = here.point - thresholds_.epsilon * here.gradient;
   const double limit = here.nearest.distance + thresholds_.epsilon - 16 * tree_.rounding();
@@ -159,9 +159,9 @@ VoxelSearch::End VoxelSearch::look(const Vector3d& p, const ContactList& list) {
   return {p, nearest, direction_to(p, nearest)};
 }
 
-// Bisects towards the larger turn of the gradient until the ends are within h of each other. The gradient flips where
-// the segment crosses the boundary, too, and there the distances at the ends of a half add up to no more than its
-// length: such a half is taken only if the other one does not turn enough.
+// Bisects towards the larger turn of the gradient until the ends are within h of each other. The gradient also flips
+// where the segment crosses the boundary, where the distances at the ends of a half add up to at most its length: such
+// a half is taken only if the other one does not turn enough.
 //
 // How small h must be for the growth test to hold: let the gradients at p and q turn by 2 phi, |p - q| <= h, let Q be
 // nearest to q, and push p to c = p - epsilon g_p. Then c - Q = (p - q) - (epsilon g_p + D_q g_q), and
@@ -192,8 +192,8 @@ bool VoxelSearch::try_segment(const Segment& segment, const ContactList& list, d
   return accept(p, q, list, where, sphere) || accept(q, p, list, where, sphere);
 }
 
-// An end is taken if it is salient, in the voxel, passes the growth test of Lemma 2.3 and lies inside: cheap tests
-// first.
+// An end is accepted if it is salient, in the voxel, passes the growth test of Lemma 2.3 and lies inside; cheap tests
+// come first.
 bool VoxelSearch::accept(const End& here, const End& there, const ContactList& list, Side where, Sphere& sphere) {
   const double angle = half_angle(here.gradient, there.gradient);
   const double distance = here.nearest.distance, radius = safe_radius(tree_, distance);

@@ -17,7 +17,7 @@ namespace medial_vk::reference {
 
 enum class Outcome { kFound, kEmpty, kUndecided };
 
-/// A cube in which to search: the voxel itself or a part of it.
+/// A cube to be searched: the voxel itself or a part of it.
 struct Cell {
   Eigen::Vector3d centre;
   double side;
@@ -32,7 +32,7 @@ class VoxelSearch {
   /// Fills `sphere` (all but its flux) if a point is found. `parent` is the list of the cell above the voxel.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
 
-  /// Of the last run, if its outcome is kUndecided.
+  /// The result of the last run, if its outcome is kUndecided.
   const Undecided& undecided() const { return undecided_; }
 
  private:
@@ -64,11 +64,11 @@ class VoxelSearch {
   int extra_levels_;
   Result& result_;
   Eigen::Vector3i voxel_;
-  Eigen::Vector3d lower_, upper_;  // of the voxel, a hair inside
+  Eigen::Vector3d lower_, upper_;  // of the voxel, slightly inside
   Undecided undecided_{};
 };
 
-/// The radius that is written for a computed distance: rounded down, so that the ball cannot protrude.
+/// The written radius for a computed distance: rounded down, so that the ball cannot protrude.
 double safe_radius(const Tree& tree, double distance);
 
 /// Lemma 2.3: the ball at p, pushed away from its contact by epsilon and grown by epsilon, meets the boundary

@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostEdges = 16384;  // that are looked at one by one
+constexpr std::size_t kMostEdges = 16384;  // limit of a sum over single edges
 
-/// One number per place: vertices at the same coordinates are the same.
+/// One number per position: vertices at the same coordinates are the same.
 std::vector<int> places(const Mesh& mesh) {
   const auto key = [&](int v) {
     const Vector3d& p = mesh.vertices[v];
@@ -30,7 +30,7 @@ std::vector<int> places(const Mesh& mesh) {
   return place;
 }
 
-/// Edges whose triangles' directions do not cancel, each as often as they fail to.
+/// Edges whose triangles' directions do not cancel, with the number of uncancelled directions.
 std::map<std::pair<int, int>, int> open_edges(const Mesh& mesh) {
   const std::vector<int> place = places(mesh);
   std::map<std::pair<int, int>, int> net;
@@ -59,10 +59,10 @@ Sides::Sides(const Mesh& mesh, const Tree& tree) : mesh_(mesh), tree_(tree) {
   if (rim_.size() > kMostEdges) rim_tree_ = std::make_unique<Tree>(rim);
 }
 
-// Where there is no boundary point the winding number is smooth, and its gradient is that of the solid angle of a
-// surface spanning the open edges: by the law of Biot and Savart at most the integral of 1 / 4 pi d^2 along the rim, d
-// the distance to it. Of an edge that is longer than pi times its distance no more than that counts (docs/theory.md,
-// "Outside"). A closed mesh has no rim, and the winding number is constant.
+// Away from the boundary the winding number is smooth, and its gradient is that of the solid angle of a surface
+// spanning the open edges: by the law of Biot and Savart at most the integral of 1 / 4 pi d^2 along these edges, d the
+// distance to them. Of an edge that is longer than pi times its distance no more than that counts (docs/theory.md,
+// "Outside"). A closed mesh has no open edges, and the winding number is constant.
 double Sides::slope_within(const Vector3d& p, double way) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
   if (rim_tree_) {
@@ -118,7 +118,7 @@ Side Sides::of_ball(const Vector3d& centre, double radius, const Closest& neares
 
 // A trusted triangle has the inside behind it and the outside in front, and the segment from p to the nearest point
 // meets the boundary there only. At an edge or a corner that argument needs all the neighbours, and on an open mesh the
-// winding number changes along the segment: ask it.
+// winding number changes along the segment; in these cases it is computed.
 bool Sides::inside(const Vector3d& p, const Closest& nearest) const {
   if (rim_.empty() && !mesh_.trusted.empty() && mesh_.trusted[nearest.triangle] && nearest.feature == Feature::kFace) {
     return (p - nearest.point).dot(tree_.normal(nearest.triangle)) < 0;

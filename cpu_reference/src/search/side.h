@@ -1,4 +1,4 @@
-// Which side of the boundary: of points, and of whole cells.
+// The side of the boundary, for points and for whole cells.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,11 +19,11 @@ class Sides {
   /// Side of every point of the ball, if it holds no boundary point and its side can be proved; else kMixed.
   Side of_ball(const Eigen::Vector3d& centre, double radius, const Closest& nearest) const;
 
-  /// Winding number at least 1/2. Remembers answers: not for several threads at once.
+  /// True if the winding number is at least 1/2. Caches results, so it is not safe for concurrent calls.
   bool inside(const Eigen::Vector3d& p, const Closest& nearest) const;
 
  private:
-  /// What was found at a point: the winding number there lies in [low, high]; within `reach` of it there is no
+  /// A cached evaluation: the winding number at the point lies in [low, high]; within `reach` of it there is no
   /// boundary, and the winding number changes no faster than `slope`.
   struct Known {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -32,7 +32,7 @@ class Sides {
   };
   struct Edge {
     Eigen::Vector3d from, to;
-    int times;  // that it is run along more often one way than the other
+    int times;  // directions along it that do not cancel
   };
 
   Known ask(const Eigen::Vector3d& p, double empty, double tolerance) const;
@@ -41,10 +41,10 @@ class Sides {
 
   const Mesh& mesh_;
   const Tree& tree_;
-  mutable std::array<Known, 128> memory_;  // of the last answers: cells are visited in an order that keeps close
+  mutable std::array<Known, 128> memory_;  // of the last evaluations; cells are visited in a spatially coherent order
   mutable std::size_t next_ = 0;
   std::vector<Edge> rim_;           // open edges
-  std::unique_ptr<Tree> rim_tree_;  // of these, as triangles without area, if they are many
+  std::unique_ptr<Tree> rim_tree_;  // of these, as triangles without area, if there are many
   double rim_length_ = 0;
 };
 

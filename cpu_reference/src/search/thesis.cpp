@@ -1,13 +1,13 @@
 // The published method, Sections 2.3.2 and 2.4, with the corrected sign of 2.4.2.
 //
-// Which test discards where, the source leaves open. Here: a cell of a coarse level whose sphere lies inside the solid
-// is zoomed into if its flux is positive (2.3.2, step 3); the salience threshold AOF > (3/8) sin(theta) is derived for
-// a voxel's own face and asked at the finest level only, as is its alternative, greatest distance > r - 2 l. A cell
-// whose sphere meets the boundary is subdivided without a test, and searched by Algorithm 2 at the finest level if
-// narrow features are wanted (2.4.3). Cells wholly outside are dropped, which changes nothing in the output.
+// The source leaves open at which level each test discards. Here a cell of a coarse level whose sphere lies inside the
+// solid is subdivided if its flux is positive (2.3.2, step 3); the salience threshold AOF > (3/8) sin(theta) is derived
+// for a face of a voxel and applied at the finest level only, as is its alternative, greatest distance > r - 2 l. A
+// cell whose sphere meets the boundary is subdivided without a test, and searched by Algorithm 2 at the finest level if
+// narrow features are enabled (2.4.3). Cells wholly outside are dropped, which changes nothing in the output.
 //
-// Algorithm 2 accepts what the source accepts and, beyond it, demands the growth test of Lemma 2.3, because every
-// output ball has to pass the certificate: RETRACT keeps to it except on lines that run through the boundary.
+// Algorithm 2 requires the growth test of Lemma 2.3 in addition to the conditions of the source, because every output
+// ball has to pass the certificate: RETRACT satisfies it except on lines that pass through the boundary.
 #include <cmath>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// What both pipelines are told for a frame (128 bytes at most).
+// The inputs of both pipelines for a frame (128 bytes at most).
 layout(push_constant) uniform Push {
   mat4 to_clip;     // from the units of the mesh
   vec4 eye;         // in the same units

@@ -16,7 +16,7 @@ vec3 colour_of(float angle) {
 void main() {
   vec3 ray = normalize(world - eye.xyz), from = eye.xyz - ball.xyz;
   float b = dot(from, ray);
-  vec3 across = from - b * ray;  // from the centre to the ray, which keeps the digits of small spheres
+  vec3 across = from - b * ray;  // from the centre to the ray, a form that keeps the digits of small spheres
   float root = ball.w * ball.w - dot(across, across);
   if (root < 0.0) discard;
   vec3 hit = eye.xyz + (-b - sqrt(root)) * ray;

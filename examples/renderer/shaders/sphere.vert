@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// One instance for every sphere, straight from the buffer that the job fills: a quad that covers the sphere on the screen.
+// One instance per sphere, directly from the buffer that the job fills: a quad that covers the sphere on the screen.
 #include "camera.glsl"
 struct Sphere {  // RecordedSphere of medial_vk/extraction_job.h
   vec4 centre;   // w: radius
@@ -16,7 +16,7 @@ layout(location = 2) flat out float object_angle;
 void main() {
   Sphere s = spheres[gl_InstanceIndex];
   ball = vec4(placement.xyz + placement.w * s.centre.xyz, placement.w * s.centre.w);
-  // As they are on the right, where they fill the solid; small on the left, where one sees that they lie on a sheet.
+  // True size on the right, where the spheres fill the solid; small on the left, where they show their sheet.
   ball.w = mix(min(ball.w, 0.009), ball.w, smoothstep(-0.1, 0.5, ball.x));
   object_angle = s.spoke_a.w;
   vec3 to_eye = eye.xyz - ball.xyz;

@@ -13,7 +13,7 @@ void DeviceOpening::start(const std::string& wanted, unsigned threads) {
   options.device = wanted;
   options.threads = threads;
   started_ = std::chrono::steady_clock::now();
-  // Without a thread to be had: when the context is taken.
+  // If no thread is available, it runs when the context is taken.
   opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
 }
 

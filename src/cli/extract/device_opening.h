@@ -1,4 +1,4 @@
-// The Vulkan device is opened while something else is done.
+// Opens the Vulkan device while other work runs.
 #pragma once
 
 #include <chrono>
@@ -15,14 +15,14 @@ namespace medial_vk::cli {
 
 class DeviceOpening {
  public:
-  /// Begins, on a thread of its own. `wanted` is what --device named, or empty: the best.
+  /// Starts on its own thread. `wanted` is the argument of --device, or empty for the best device.
   void start(const std::string& wanted, unsigned threads);
-  /// How many threads work on a mesh should use that is done meanwhile. While a driver is loaded, glibc holds a lock
-  /// that every new thread needs, until all libraries are relocated (25 ms for LLVM): work that takes less is done
-  /// sooner by the thread that is there.
+  /// The number of threads for work on a mesh that runs meanwhile. While a driver is loaded, glibc holds a lock that
+  /// every new thread needs, until all libraries are relocated (25 ms for LLVM): shorter work finishes sooner on the
+  /// existing thread.
   unsigned threads_beside(std::size_t triangles, unsigned wanted) const;
-  /// Waits for it: the context, what it is, and a line "device" with the time that was spent here. Without start(),
-  /// nothing. Errors: those of Context::create(), with what to do about them.
+  /// Waits until the device is open. The results are the context, its description, and a line "device" with the time
+  /// that this call waited. Without start(), it does nothing. Errors: those of Context::create(), with a remedy.
   Status take(std::optional<Context>& context, std::optional<DeviceDescription>& description,
               std::vector<StageTime>& times);
 

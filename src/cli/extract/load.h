@@ -1,4 +1,4 @@
-// The mesh as the options want it: read, cleaned, perturbed.
+// Loads the mesh as the options require: read, cleaned, perturbed.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace medial_vk::cli {
 
-/// Read and cleaned; seconds of "read" and "prepare" are appended to `times`. Errors: kInvalidMesh, kInterrupted.
+/// Reads and cleans the mesh; appends the seconds of "read" and "prepare" to `times`. Errors: kInvalidMesh,
+/// kInterrupted.
 Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& opening, unsigned threads,
                                std::vector<StageTime>& times);
 
-/// Perturbed, too, if asked for. Seconds of "read", "prepare" and, if asked for, "perturb" are appended to `times`.
-/// Errors: kInvalidMesh, kInterrupted.
+/// Also perturbs the mesh if the options require it. Appends the seconds of "read", "prepare" and, if requested,
+/// "perturb" to `times`. Errors: kInvalidMesh, kInterrupted.
 Result<PreparedMesh> load_mesh(const Options& options, const DeviceOpening& opening, std::vector<StageTime>& times);
 
 }  // namespace medial_vk::cli

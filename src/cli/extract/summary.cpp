@@ -73,7 +73,7 @@ std::string describe_removal(const SheetRemoval& removal) {
                      grouped(removal.kept.size() + removal.sheets.size()), 100 * left);
 }
 
-/// Both sides of the comparison, so that it is seen at once whether the topology was kept.
+/// Both sides of the comparison, which shows whether the topology was kept.
 std::string describe_medial_mesh(const RunRecord& record) {
   std::string text = fmt::format("{}, Euler characteristic {}", describe(record.medial_mesh->betti),
                                  record.medial_mesh->euler_characteristic);
@@ -81,7 +81,7 @@ std::string describe_medial_mesh(const RunRecord& record) {
   return text;
 }
 
-/// Total first, then the stages that matter: those of at least a hundredth of it.
+/// Total first, then the significant stages: those of at least a hundredth of it.
 std::string describe_times(const std::vector<StageTime>& times) {
   const double total = std::accumulate(times.begin(), times.end(), 0.0,
                                        [](double sum, const StageTime& time) { return sum + time.seconds; });

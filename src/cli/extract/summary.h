@@ -1,4 +1,4 @@
-// What a run tells its user, on standard error.
+// Messages of a run to its user, on standard error.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace medial_vk::cli {
 
-/// One line before the work starts: what was read, what will run where.
+/// One line before the work starts: the input, the method and the device.
 std::string opening(const RunRecord& record);
 /// A few aligned lines at the end; `files` have been written.
 std::string summary(const RunRecord& record, std::span<const OutputFile> files);
-/// For -v: levels, seconds by the device's own clock, and the parameters that are not in the summary.
+/// For -v: levels, seconds by the clock of the device, and the parameters that are not in the summary.
 std::string details(const RunRecord& record);
 
 }  // namespace medial_vk::cli

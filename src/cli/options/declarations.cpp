@@ -6,7 +6,7 @@
 namespace medial_vk::cli {
 namespace {
 
-/// Insertions, deletions and replacements that turn one word into the other, or `limit` if they are not fewer.
+/// The number of insertions, deletions and replacements that turn one word into the other, at most `limit`.
 std::size_t edit_distance(const std::string& a, const std::string& b, std::size_t limit) {
   if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
   std::vector<std::size_t> row(b.size() + 1);
@@ -20,7 +20,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b, std::size_
       row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
       least = std::min(least, row[j + 1]);
     }
-    if (least >= limit) return limit;  // rows never get smaller
+    if (least >= limit) return limit;  // the least value never decreases from row to row
   }
   return std::min(row.back(), limit);
 }
@@ -45,7 +45,7 @@ std::string suggestion(const CLI::App& app, const std::string& unknown) {
 
 Status check_extras(const CLI::App& app, const char* one_only) {
   std::vector<std::string> extras = app.remaining();
-  std::erase(extras, "--");  // CLI11 counts the mark itself.
+  std::erase(extras, "--");  // CLI11 counts the mark as an extra.
   for (const std::string& extra : extras) {
     if (extra.size() > 1 && extra[0] == '-') {
       return usage_error(fmt::format("unknown option {}{}", extra, suggestion(app, extra)));
@@ -58,11 +58,11 @@ Status check_extras(const CLI::App& app, const char* one_only) {
 }  // namespace
 
 Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const char* one_only) {
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 expects them in reverse order.
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::Error& error) {
-    // A misspelt option is the likelier cause of whatever else is wrong.
+    // A misspelt option is the likelier cause of any other error.
     if (Status extras = check_extras(app, one_only); !extras) return extras;
     return usage_error(error.what());
   }

@@ -19,8 +19,8 @@ namespace medial_vk::cli {
 
 inline Error usage_error(std::string message) { return {ErrorCode::kUsage, std::move(message)}; }
 
-/// Declares options on a CLI11 application. Values arrive as text and are parsed here: CLI11 would take "1e3" or
-/// "12abc" for some numbers, and its messages do not name the range.
+/// Declares options on a CLI11 application. Values arrive as text and are parsed here, because CLI11 would accept "1e3"
+/// or "12abc" for some numbers, and its messages do not name the range.
 class Declarations {
  public:
   explicit Declarations(CLI::App& app) : app_(app) {}
@@ -79,18 +79,18 @@ class Declarations {
   CLI::App& app_;
 };
 
-/// An application that reads one command line after the other.
+/// An application that parses several command lines in sequence.
 class ReusableApp : public CLI::App {
  public:
-  /// CLI11 forgets the line before by itself, but not if that one ended with an error, and never the order of its
-  /// options, a list that grows from line to line.
+  /// CLI11 resets itself between lines, but not after a line that ended with an error, and never resets the order of
+  /// the options, a list that grows from line to line.
   void forget() {
     clear();
     parse_order_.clear();
   }
 };
 
-/// Parses `arguments` into what was declared on `app`, which must allow extras: they are reported here, with a
+/// Parses `arguments` into the options declared on `app`, which must allow extras: they are reported here, with a
 /// suggestion. `one_only` follows the name of a second input ("one mesh at a time"). Errors: kUsage.
 Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const char* one_only);
 

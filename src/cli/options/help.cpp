@@ -1,11 +1,11 @@
-// The text of --help: written by hand, to be read from top to bottom by somebody who is new here.
+// The text of --help: written by hand, to be read from top to bottom by new users.
 #include <string>
 
 #include "cli/options/options.h"
 
 namespace medial_vk::cli {
 
-// long: one text.
+// long: a single text.
 std::string help_text() {
   return R"(medial-vk finds the medial spheres of a solid: balls inside a triangle mesh
 that touch its surface in two places, at most one per voxel.

@@ -169,14 +169,14 @@ Status check_combinations(const Options& options) {
 
 }  // namespace
 
-/// The application writes to `options`, so the two stay together and in place.
+/// The application writes to `options`, so both stay together and do not move.
 struct OptionParser::Declared {
   ReusableApp app;
   Options options;
 };
 
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
-  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported here, with a suggestion.
   declare(declared_->app, declared_->options);
 }

@@ -27,14 +27,14 @@ struct Options {
   bool ascii = false;
   bool mesh_spheres = false;
   bool gpu_instancing = false;
-  std::optional<std::uint32_t> sphere_detail;  ///< None: the usual one, or less for large files.
+  std::optional<std::uint32_t> sphere_detail;  ///< None: the default, or less for large files.
 
   ExtractionOptions parameters;
   double perturb = 0;  ///< Fraction of the longest side; 0: off.
   std::uint64_t seed = 1;
   bool simplify = false;
   SheetOptions sheets;
-  double keep_volume = 0;  ///< Share of the volume that the sheets that are kept must have; 0: all are kept.
+  double keep_volume = 0;  ///< Share of the volume that the kept sheets must have; 0: all are kept.
   bool keep_topology = false;
 
   Backend backend = Backend::kVulkan;
@@ -42,13 +42,13 @@ struct Options {
   unsigned threads = 0;  ///< 0: all.
 
   std::string report;        ///< Empty: none; "-": standard output.
-  std::string picture;       ///< The same.
-  std::string html;          ///< The same.
-  std::string medial_mesh;   ///< The same.
-  std::string sheet_curve;   ///< The same.
-  std::string ball_volumes;  ///< The same.
-  PictureOptions look;       ///< Of the picture; `up` of its view is that of the page, too.
-  ViewChoice view;           ///< As given; `look` has what follows from it.
+  std::string picture;       ///< As `report`.
+  std::string html;          ///< As `report`.
+  std::string medial_mesh;   ///< As `report`.
+  std::string sheet_curve;   ///< As `report`.
+  std::string ball_volumes;  ///< As `report`.
+  PictureOptions look;       ///< Of the picture; the page shares `up` of its view.
+  ViewChoice view;           ///< As given; `look` holds the resulting view.
   bool check = false;
 
   bool quiet = false;
@@ -60,8 +60,7 @@ struct Options {
 /// `arguments` without the program's name. Errors: kUsage with a message that names the option.
 Result<Options> parse_options(const std::vector<std::string>& arguments);
 
-/// The same for many command lines: declaring the options takes most of the time of one. No line leaves a trace in the
-/// next.
+/// Parses many command lines: the declaration of the options takes most of the time of one. No line affects the next.
 class OptionParser {
  public:
   OptionParser();
@@ -76,7 +75,7 @@ class OptionParser {
   std::unique_ptr<Declared> declared_;
 };
 
-/// What --help prints.
+/// The output of --help.
 std::string help_text();
 
 }  // namespace medial_vk::cli

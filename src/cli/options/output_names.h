@@ -1,4 +1,4 @@
-// Rules for the names of output files, the same for every command.
+// Rules for the names of output files, shared by all commands.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace medial_vk::cli {
 
-/// Is `path` empty or standard output, or does it end in `wanted`, whatever its case?
+/// True if `path` is empty or standard output, or ends in `wanted` in any case.
 bool may_end_in(const std::string& path, const char* wanted);
 
 /// An option that names a file to write; empty: not given; "-": standard output.
@@ -17,7 +17,7 @@ struct NamedOutput {
   const std::string* file;
 };
 
-/// No file may be named twice, nor may standard output, nor may a result replace the `input` it was made from. Error:
+/// No file and no standard output may be named twice, and no result may replace the `input` it was made from. Error:
 /// kUsage, naming the options.
 Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::string& input);
 

@@ -17,7 +17,7 @@ bool parse_all(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// The power of 1024 of "g", "GB", "GiB" and the like; -1 if it is none.
+/// The power of 1024 of "g", "GB", "GiB" and the like; -1 for any other text.
 int power_of_suffix(std::string suffix) {
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (suffix.empty()) return 2;  // A bare number is in MiB.
@@ -32,7 +32,7 @@ int power_of_suffix(std::string suffix) {
 Result<double> parse_real(const std::string& text, const RealRange& range, const char* unit) {
   double value = 0;
   if (!parse_all(text, value)) return number_error(fmt::format("'{}' is not a number", text));
-  // Written so that "nan" fails as well.
+  // Written so that "nan" fails too.
   const bool inside = range.ends_included ? value >= range.least && value <= range.greatest
                                           : value > range.least && value < range.greatest;
   if (inside) return value;
@@ -46,7 +46,7 @@ Result<std::uint64_t> parse_whole(const std::string& text, std::uint64_t least, 
   std::int64_t negative = 0;
   const bool whole = parse_all(text, value);
   if (whole && value >= least && value <= greatest) return value;
-  // Digits that are too many, or a minus sign in front of them: a whole number, but out of range.
+  // Too many digits, or a minus sign in front of them: a whole number, but out of range.
   const bool only_digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   if (!whole && !only_digits && !parse_all(text, negative)) {
     return number_error(fmt::format("'{}' is not a whole number", text));

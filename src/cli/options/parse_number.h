@@ -8,18 +8,18 @@
 
 namespace medial_vk::cli {
 
-/// An allowed range with what it counts, for messages: "between 1 and 4096 voxels".
+/// An allowed range with its unit, for messages: "between 1 and 4096 voxels".
 struct RealRange {
   double least = 0;
   double greatest = 0;
   bool ends_included = true;
 };
 
-/// Errors of all: kUsage with the text and the range.
+/// Errors of all functions: kUsage with the text and the range.
 Result<double> parse_real(const std::string& text, const RealRange& range, const char* unit);
 Result<std::uint64_t> parse_whole(const std::string& text, std::uint64_t least, std::uint64_t greatest,
                                   const char* unit);
-/// MiB, or with one of the suffixes K, M, G, T (powers of 1024; "MiB" and "MB" are taken for M). Result in bytes.
+/// MiB, or with one of the suffixes K, M, G, T (powers of 1024; "MiB" and "MB" count as M). The result is in bytes.
 Result<std::uint64_t> parse_memory(const std::string& text);
 
 }  // namespace medial_vk::cli

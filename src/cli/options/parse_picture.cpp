@@ -40,7 +40,7 @@ Result<ViewChoice> parse_view(const std::string& text) {
     begin = comma + 1;
   }
   const double square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
-  // Below this the direction itself would be lost in rounding.
+  // A shorter direction would be lost in rounding.
   if (square < 1e-12) return unknown_view(text);
   return ViewChoice{direction, false};
 }

@@ -1,4 +1,4 @@
-// What --view, --up and --size take.
+// The arguments of --view, --up and --size.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace medial_vk::cli {
 /// The direction from the shape to the viewer.
 struct ViewChoice {
   std::array<double, 3> direction = PictureView().towards;
-  bool is_side = true;  ///< x to the right of the front, y up; which axes of the mesh those are depends on --up.
+  bool is_side = true;  ///< x to the right of the front, y up; --up determines the corresponding axes of the mesh.
 
   bool operator==(const ViewChoice&) const = default;
 };
@@ -21,7 +21,7 @@ struct ViewChoice {
 /// A side (front, back, left, right, top, bottom), iso, or "x,y,z" in the axes of the mesh. Error: kUsage.
 Result<ViewChoice> parse_view(const std::string& text);
 
-/// Both together; whichever came first.
+/// Combines both options, in whichever order they were given.
 PictureView view_of(const ViewChoice& choice, UpAxis up);
 
 /// "x", "-z" and so on. Error: kUsage.

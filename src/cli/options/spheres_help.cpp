@@ -5,7 +5,7 @@
 
 namespace medial_vk::cli {
 
-// long: one text.
+// long: a single text.
 std::string spheres_help_text() {
   return R"(medial-vk spheres puts N balls in the place of a solid, or of every link of a
 robot: for collision checks, distances, shadows. Tight, and with a promise.

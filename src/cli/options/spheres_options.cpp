@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostSpheres = 1'000'000;
 
-/// What is not one option, one field.
+/// Arguments that do not correspond to a single field.
 struct Given {
   std::optional<SphereFormat> format;
   bool collision = false;
@@ -179,7 +179,7 @@ std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
           {"--histogram", &options.histogram}};
 }
 
-/// The application writes to the others, so they stay together and in place.
+/// The application writes to the other members, so all stay together and do not move.
 struct SpheresOptionParser::Declared {
   ReusableApp app;
   SpheresOptions options;
@@ -187,7 +187,7 @@ struct SpheresOptionParser::Declared {
 };
 
 SpheresOptionParser::SpheresOptionParser() : declared_(std::make_unique<Declared>()) {
-  declared_->app.set_help_flag();  // Help is text of our own.
+  declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported with a suggestion.
   declare(declared_->app, declared_->options, declared_->given);
 }

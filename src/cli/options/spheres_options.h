@@ -24,16 +24,16 @@ struct SpheresOptions {
   std::string output;     ///< Never empty after parsing; "-": standard output.
   SphereFormat format = SphereFormat::kCsv;
 
-  SphereOptions request;           ///< `threads` is that of the run.
+  SphereOptions request;           ///< `threads` is the number for the whole run.
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
 
-  bool visual = false;                ///< Of a robot: its visual geometry instead of that for collisions.
+  bool visual = false;                ///< For a robot: its visual geometry instead of its collision geometry.
   std::vector<std::string> packages;  ///< "name=folder".
 
   std::string report;     ///< Empty: none; "-": standard output.
-  std::string picture;    ///< The same.
-  std::string histogram;  ///< The same.
+  std::string picture;    ///< As `report`.
+  std::string histogram;  ///< As `report`.
   PictureView view;
 
   Backend backend = Backend::kVulkan;
@@ -48,7 +48,7 @@ struct SpheresOptions {
 /// `arguments` without the program's name and without "spheres". Errors: kUsage with a message that names the option.
 Result<SpheresOptions> parse_spheres_options(const std::vector<std::string>& arguments);
 
-/// The same for many command lines, as OptionParser.
+/// Parses many command lines, as OptionParser does.
 class SpheresOptionParser {
  public:
   SpheresOptionParser();
@@ -63,10 +63,10 @@ class SpheresOptionParser {
   std::unique_ptr<Declared> declared_;
 };
 
-/// Every file that is to be written, with its option.
+/// Every file to be written, with its option.
 std::vector<NamedOutput> outputs_of(const SpheresOptions& options);
 
-/// What `medial-vk spheres --help` prints.
+/// The output of `medial-vk spheres --help`.
 std::string spheres_help_text();
 
 }  // namespace medial_vk::cli

@@ -32,7 +32,7 @@
 namespace medial_vk::cli {
 namespace {
 
-/// One run: the straight line from the mesh or robot to the files, and what its steps share.
+/// One run: the sequence of steps from the mesh or robot to the files, and their shared data.
 class SpheresRun {
  public:
   explicit SpheresRun(const SpheresOptions& options) : options_(options), progress_(!options.quiet) {
@@ -64,7 +64,7 @@ class SpheresRun {
   }
 
  private:
-  /// Better now than after an hour of work.
+  /// An early test, which saves hours of work.
   Status check_outputs() const {
     for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.histogram}) {
       if (path->empty()) continue;
@@ -170,7 +170,7 @@ class SpheresRun {
     progress_.clear();
   }
 
-  /// In memory: until they are written a signal may end the program.
+  /// Files are made in memory: until they are written a signal may end the program.
   Status make_files() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();

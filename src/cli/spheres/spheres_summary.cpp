@@ -15,7 +15,7 @@ namespace {
 
 std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
-/// A name from a file for a terminal: no control characters.
+/// A name from a file in a form for the terminal: without control characters.
 std::string printable(std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
@@ -46,13 +46,13 @@ std::string promise(SphereContract contract) {
   return "balanced: as near on both sides as the spheres get";
 }
 
-/// What is proved of every set, whose proofs fit_parts() has demanded.
+/// The proved property of every set; fit_parts() has required the proofs.
 std::string certificate_text(SphereContract contract, const FitsRecord& record) {
   std::uint64_t spheres = 0, triangles = 0;
   bool closed = true;
   double farthest = 0;
   for (const PartFit& fit : record.fits) {
-    spheres += fit.levels.back().size();  // one that fills a ball needs no proof
+    spheres += fit.levels.back().size();  // a sphere that fills a ball needs no proof
     if (!fit.measures) continue;
     triangles += fit.measures->cover.triangles;
     closed &= fit.measures->cover.closed;
@@ -84,11 +84,11 @@ std::string gap_text(const FitsRecord& record) {
   return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
 }
 
-/// The volume between spheres and solids, over that of the solids; nothing if unknown.
+/// The volume between spheres and solids, over that of the solids; none if unknown.
 std::optional<std::string> difference_text(SphereContract contract, const FitsRecord& record) {
   double solid = 0, difference = 0, variance = 0;
   for (const PartFit& fit : record.fits) {
-    if (!fit.measures) continue;  // a ball, exactly
+    if (!fit.measures) continue;  // a ball, which is exact
     const VolumeError& volume = fit.measures->volume;
     solid += volume.solid;
     difference += volume.uncovered + volume.outside;

@@ -1,4 +1,4 @@
-// What `medial-vk spheres` says at the terminal.
+// Terminal messages of `medial-vk spheres`.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@
 
 namespace medial_vk::cli {
 
-/// Of all parts, one line for each condition; `first_failure` names the link.
+/// The checks of all parts, joined to one line per condition; `first_failure` names the link.
 CheckReport joint_check(const FitsRecord& record);
 
-/// One line before the work: what was read, where it runs.
+/// One line before the work: the input and the device.
 std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record);
 /// A few lines at the end; `files` have been written.
 std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record, std::span<const OutputFile> files);
-/// For -v: a line for each part.
+/// For -v: one line per part.
 std::string spheres_details(const SpheresOptions& options, const FitsRecord& record);
 
 }  // namespace medial_vk::cli

@@ -14,20 +14,21 @@ namespace {
 std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
-/// What a handler may call: write() and _exit().
+/// Calls only functions allowed in a handler: write() and _exit().
 [[noreturn]] void end_at_once() {
   constexpr std::string_view kMessage = "\nmedial-vk: interrupted; nothing was written\n";
-  // On a terminal below the line on which the shell has shown ^C.
+  // On a terminal, below the line on which the shell has shown ^C.
   const std::string_view message = kMessage.substr(on_terminal ? 0 : 1);
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   ::_exit(static_cast<int>(ErrorCode::kInterrupted));
 }
 
 extern "C" void request_stop(int) {
-  // In this order, and in the other one where work begins: one of the two sees the other, on whatever thread.
+  // In this order here, and in the opposite order where work begins, so that on any thread one of the two sees the
+  // other.
   stop_requested = true;
   if (may_end_at_once) end_at_once();
-  // From now on either signal kills. signal() is safe in a handler.
+  // From here either signal kills. signal() is safe in a handler.
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
@@ -39,14 +40,14 @@ void install_interrupt_handlers() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // Reads and writes under way go on; the flag is seen between them.
+  action.sa_flags = SA_RESTART;  // Reads and writes in progress continue; the flag is tested between them.
   for (const int signal : {SIGINT, SIGTERM}) {
-    // A shell that starts a job in the background, and nohup, ignore signals on purpose: leave it so.
+    // A shell that starts a job in the background, and nohup, ignore signals on purpose: this stays so.
     struct sigaction before = {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a failed write, exit code 6.
+  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a failed write, with exit code 6.
 }
 
 bool interrupted() { return stop_requested; }

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM: the first asks the work to stop, the second ends the program at once.
+// Ctrl-C and SIGTERM: the first signal requests a stop of the work, the second ends the program at once.
 #pragma once
 
 namespace medial_vk::cli {
@@ -6,9 +6,9 @@ namespace medial_vk::cli {
 void install_interrupt_handlers();
 bool interrupted();
 
-/// While one lives, the first signal ends the program at once, too, with a message and exit code 130. For work that has
-/// nothing to undo and cannot be stopped half-way, such as waiting for input that does not come. A signal that came
-/// before is not seen again: ask interrupted() once it lives.
+/// While an object exists, the first signal also ends the program at once, with a message and exit code 130. It is for
+/// work that has nothing to undo and cannot be stopped half-way, such as waiting for input that does not come. An
+/// earlier signal is not seen again: call interrupted() after construction.
 class EndAtOnce {
  public:
   EndAtOnce();

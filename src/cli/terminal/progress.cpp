@@ -17,7 +17,7 @@ std::string progress_line(const std::string& stage, double done, double elapsed)
   const int filled = static_cast<int>(std::lround(done * kWidth));
   std::string line = fmt::format("{:<10} [{:<{}}] {:3.0f} %", stage, std::string(static_cast<std::size_t>(filled), '='),
                                  kWidth, std::floor(done * 100));
-  // The first moments say little about the rest.
+  // The first moments are no basis for an estimate.
   if (elapsed > 1.0 && done > 0.01 && done < 1.0) {
     line += fmt::format(", {} left", duration(elapsed * (1.0 - done) / done));
   }

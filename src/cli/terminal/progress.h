@@ -1,4 +1,4 @@
-// One line on a terminal that says how far the work is.
+// A progress line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -6,8 +6,8 @@
 
 namespace medial_vk::cli {
 
-/// "extract    [============            ]  50 %, 12 s left". `done` is 0 to 1; `elapsed` in seconds since the stage
-/// began; the remaining time is left out until it can be told.
+/// "extract    [============            ]  50 %, 12 s left". `done` is 0 to 1; `elapsed` is in seconds since the stage
+/// began; the remaining time is left out until it can be estimated.
 std::string progress_line(const std::string& stage, double done, double elapsed);
 
 class Progress {

@@ -11,7 +11,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// Bytes that start a character of UTF-8: names of devices may hold more than ASCII.
+/// The number of bytes that start a character of UTF-8: names of devices may hold more than ASCII.
 std::size_t printed_width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));

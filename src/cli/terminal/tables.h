@@ -1,4 +1,4 @@
-// Tables for people: columns as wide as their longest cell.
+// Tables for readers: columns as wide as their longest cell.
 #pragma once
 
 #include <string>
@@ -13,16 +13,16 @@ namespace medial_vk::cli {
 
 struct Column {
   std::string title;
-  bool to_the_right = false;  ///< For numbers.
+  bool to_the_right = false;  ///< Right-aligned, for numbers.
 };
 
-/// One line per row, no blanks at the ends of lines.
+/// One line per row, without trailing blanks.
 std::string format_table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
 std::string device_table(const std::vector<DeviceDescription>& devices);
-/// The conditions, then the first failure of each that failed.
+/// The conditions, then the first failure of each failed condition.
 std::string check_table(const CheckReport& check);
-/// What --check comes to: ok, or kCheckFailed.
+/// The result of --check: ok, or kCheckFailed.
 Status verdict(const CheckReport& check);
 std::string level_table(const ExtractionCounters& counters);
 

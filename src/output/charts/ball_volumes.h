@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// `point,sheet,volume,area,significance`: a row for each sphere.
+/// Columns `point,sheet,volume,area,significance`, one row per sphere.
 std::string encode_ball_volumes(const Significance& significance, const std::vector<MedialSphere>& spheres);
 
 }  // namespace medial_vk

@@ -42,7 +42,7 @@ Json certificate_json(const SphereMeasures& measures) {
             {"vertices_inside", cover.inside}}}};
 }
 
-/// A length, and what part of the diagonal it is.
+/// A length, and its share of the diagonal.
 std::string length_text(double x, double diagonal) {
   return fmt::format("{:.6g} ({:.3f} % of the diagonal)", x, 100 * x / diagonal);
 }
@@ -63,7 +63,7 @@ class Table {
   std::string text_;
 };
 
-// Of the drawing, in its units.
+// Dimensions of the drawing, in its units.
 constexpr double kWidth = 640, kPanel = 200, kLeft = 64, kRight = 16, kTop = 28, kBottom = 44;
 
 class HistogramDrawing {

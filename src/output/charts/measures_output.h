@@ -8,13 +8,13 @@
 
 namespace medial_vk {
 
-/// For the report: everything but the pictures' bins has its own key; see docs/report.md.
+/// For the report: one key per measure, except for the bins of the diagrams; see docs/report.md.
 nlohmann::ordered_json measures_json(const SphereMeasures& measures);
-/// For people: one line each, lengths also in percent of the diagonal.
+/// For readers: one line per measure, lengths also in percent of the diagonal.
 std::string measures_text(const SphereMeasures& measures);
-/// Both histograms above each other (Figure 8-2).
+/// Both histograms, one above the other (Figure 8-2).
 std::string encode_histograms_svg(const SphereMeasures& measures);
-/// The same as a table: `surface,lower,upper,share`.
+/// Both histograms as a table: `surface,lower,upper,share`.
 std::string encode_histograms_csv(const SphereMeasures& measures);
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// Lines, text and bars as SVG: what the program's diagrams are made of.
+// Lines, text and bars as SVG, the elements of the program's diagrams.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace medial_vk {
 /// A step of 1, 2 or 5 times a power of ten that divides `range` into at most eight parts.
 double tick_step(double range);
 
-/// In the units of the drawing, y downwards; `kind` is a class of the style.
+/// Coordinates are in the units of the drawing, y downwards; `kind` is a class of the style.
 class SvgDrawing {
  public:
   SvgDrawing(double width, double height) : width_(width), height_(height) {}
@@ -19,10 +19,10 @@ class SvgDrawing {
   void text(double x, double y, const char* anchor, const std::string& words);
   void curve(const std::vector<std::pair<double, double>>& points, const char* kind);
   void bar(double x, double y, double width, double height, const char* kind);
-  /// A stroke of a curve's kind, to go before its name.
+  /// A stroke in the style of a curve, placed before its name.
   void key(double x, double y, const char* kind);
 
-  /// The whole file. `style` are rules for the kinds used; text, "grid" and "axis" have theirs already.
+  /// The whole file. `style` holds rules for the kinds used; text, "grid" and "axis" have predefined ones.
   std::string finish(const std::string& style) const;
 
  private:

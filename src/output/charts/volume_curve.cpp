@@ -18,7 +18,7 @@ struct CurvePoint {
   double volume;
 };
 
-/// From all sheets down to those that stay.
+/// From all sheets down to the kept ones.
 std::vector<CurvePoint> points_of(const SheetRemoval& removal) {
   const std::size_t all = removal.sheets.size() + removal.kept.size();
   std::vector<CurvePoint> points = {{all, 1}};
@@ -34,7 +34,7 @@ void append_rows(std::string& text, const char* order, const SheetRemoval& remov
   }
 }
 
-// Of the drawing, in its units.
+// Dimensions of the drawing, in its units.
 constexpr double kCurveWidth = 640, kHeight = 400, kCurveLeft = 64, kCurveRight = 16, kCurveTop = 40, kCurveBottom = 52;
 
 class Drawing {

@@ -7,16 +7,16 @@
 
 namespace medial_vk {
 
-/// Both orders.
+/// The curves of both orders.
 struct VolumeCurves {
   SheetRemoval by_significance;
   SheetRemoval keeping_topology;
 };
 
-/// One line per number of sheets, most first: `order,sheets,volume,removed`: "significance" or "topology"; how many are
-/// there; their share of the volume; the sheet that goes next, or nothing.
+/// One line per number of sheets, largest first: `order,sheets,volume,removed`: "significance" or "topology"; the
+/// number of sheets; their share of the volume; the next sheet to be removed, or nothing.
 std::string encode_curve_csv(const VolumeCurves& curves);
-/// The same as a drawing.
+/// The curves as a drawing.
 std::string encode_curve_svg(const VolumeCurves& curves);
 
 }  // namespace medial_vk

@@ -31,7 +31,7 @@ Vector3f viridis(float t) {
 }
 
 std::span<const Vector3f> sheet_colours() {
-  // Okabe and Ito's, told apart by everybody, and paler or darker ones after them: those of the page.
+  // The colours of Okabe and Ito, which all readers can distinguish, then paler or darker ones; the page uses the same.
   static const std::array<Vector3f, 13> kColours = {
       bytes(140, 148, 158), bytes(230, 159, 0),   bytes(86, 180, 233), bytes(0, 158, 115),   bytes(213, 94, 0),
       bytes(204, 121, 167), bytes(240, 228, 66),  bytes(0, 114, 178),  bytes(168, 216, 160), bytes(150, 90, 40),

@@ -36,7 +36,7 @@ std::string follow_links(const std::string& path) {
   return error ? path : real.string();
 }
 
-/// The permissions of a file that is replaced stay; a new one gets the usual ones, which mkstemp does not give.
+/// A replaced file keeps its permissions; a new one gets the default ones, which mkstemp does not give.
 mode_t permissions_for(const std::string& target) {
   struct stat existing = {};
   if (stat(target.c_str(), &existing) == 0) return existing.st_mode & 07777;
@@ -45,11 +45,11 @@ mode_t permissions_for(const std::string& target) {
   return 0666 & ~mask;
 }
 
-/// For mkostemp. A name of its own, not the target's with a suffix: that could grow past the longest name a folder
-/// takes.
+/// A template for mkostemp, independent of the target's name, which with a suffix could exceed the longest name of a
+/// folder.
 std::string temporary_name(const std::string& target) { return folder_of(target) + "/.medial-vk.XXXXXX"; }
 
-/// The same with letters in place of its six X, others each time.
+/// The same name with letters instead of its six X, different each time.
 std::string random_name(const std::string& target) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
   std::string name = temporary_name(target);
@@ -70,7 +70,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// As the process acts, not as the user who started it: that is who creates files.
+/// For the effective user of the process, who creates files, not the user who started it.
 bool may(const std::string& path, int mode) { return ::faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0; }
 
 Status write_standard_output(std::string_view bytes) {
@@ -92,7 +92,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool may_be_unnam
   }
   const std::string folder = folder_of(file.target_);
   if (may_be_unnamed) file.descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
-  // It gets its name through /proc, which a jail may lack.
+  // The file is named through /proc, which a jail may lack.
   if (file.descriptor_ >= 0 && !may(self_path(file.descriptor_), F_OK)) ::close(std::exchange(file.descriptor_, -1));
   file.unnamed_ = file.descriptor_ >= 0;
   if (!file.unnamed_) {
@@ -138,15 +138,15 @@ Status AtomicFile::write(std::string_view bytes) {
 }
 
 Status AtomicFile::finish() {
-  // fsync has no meaning for pipes and devices, and some file systems do not know it; neither is an error.
+  // fsync is undefined for pipes and devices, and some file systems do not support it; neither is an error.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) return cannot_write("", errno);
-  if (unnamed_) return {};  // it would be gone
+  if (unnamed_) return {};  // closing would delete it
   if (::close(std::exchange(descriptor_, -1)) != 0) return cannot_write("", errno);
   return {};
 }
 
-// A link cannot replace a file: where there is one, a name for the moment between the link and the rename. Whoever is
-// killed in that moment leaves it behind, a whole file.
+// A link cannot replace a file: if one exists, the new file has a temporary name between the link and the rename. A
+// process killed in that moment leaves it behind, as a complete file.
 Status AtomicFile::name_it() {
   const std::string self = self_path(descriptor_);
   const auto link_to = [&](const std::string& name) {

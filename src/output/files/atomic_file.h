@@ -1,6 +1,6 @@
-// Output files appear whole or not at all: a file in the same folder without a name (O_TMPFILE; under a temporary name
-// where there is no such thing), then a link or a rename. A process that is killed leaves nothing
-// behind (but for the moment between a link and the rename that replaces a file).
+// Output files appear completely or not at all: they are written to an unnamed file in the same folder (O_TMPFILE;
+// under a temporary name where that is not supported), followed by a link or a rename. A killed process leaves nothing
+// behind (except between a link and the rename that replaces a file).
 #pragma once
 
 #include <span>
@@ -11,22 +11,22 @@
 
 namespace medial_vk {
 
-/// A file being written without its name. Until publish() nothing is seen under that, and what was there before stays;
-/// the destructor removes the file. A symbolic link is followed. A target that exists and is no regular file
-/// (/dev/null, a pipe) is written in place, as renaming over it would destroy it.
+/// A file that is written without its name. Until publish() nothing appears under that name, and a previous file stays;
+/// the destructor removes the unpublished file. A symbolic link is followed. A target that exists and is no regular
+/// file (/dev/null, a pipe) is written directly, because a rename would destroy it.
 class AtomicFile {
  public:
-  /// `may_be_unnamed` false: as where there is no O_TMPFILE. Errors (all calls): kCannotWrite with the path and the
-  /// system's reason.
+  /// With `may_be_unnamed` false, as where O_TMPFILE is not supported. Errors (all calls): kCannotWrite with the path
+  /// and the reason of the system.
   static Result<AtomicFile> create(const std::string& path, bool may_be_unnamed = true);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
   Status write(std::string_view bytes);
-  /// Flushes to the disk, so that a full disk is noticed before there is a name. No write() after it.
+  /// Flushes to the disk, so that a full disk is detected before the file has a name. No write() may follow.
   Status finish();
-  /// Gives the file its name, replacing what was there. Call after finish().
+  /// Gives the file its name and replaces a previous file. Call after finish().
   Status publish();
 
  private:
@@ -35,9 +35,9 @@ class AtomicFile {
   Error cannot_write(const char* what, int system_error) const;
   void discard();
 
-  std::string path_;       // As the caller named it: for messages.
-  std::string target_;     // With symbolic links resolved: what is renamed to.
-  std::string temporary_;  // Empty: written in place, without a name, or published.
+  std::string path_;       // As the caller named it, for messages.
+  std::string target_;     // With symbolic links resolved: the target of the rename.
+  std::string temporary_;  // Empty if written directly, without a name, or published.
   bool unnamed_ = false;
   int descriptor_ = -1;
 };
@@ -50,8 +50,8 @@ struct OutputFile {
 /// Writes all files or none: every byte is on disk before the first rename. Errors: kCannotWrite.
 Status write_files(std::span<const OutputFile> files);
 
-/// A test before hours of work: is there a folder to write `path` to, and is `path` no folder? Creates nothing.
-/// Errors: kCannotWrite.
+/// A test before hours of work: the folder of `path` exists, and `path` is no folder. Creates nothing. Errors:
+/// kCannotWrite.
 Status check_writable(const std::string& path);
 
 }  // namespace medial_vk

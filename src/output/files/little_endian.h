@@ -1,4 +1,4 @@
-// Numbers as bytes of a file, least significant byte first, whatever the order of the machine.
+// Numbers as bytes of a file, least significant byte first, for any byte order of the machine.
 #pragma once
 
 #include <algorithm>

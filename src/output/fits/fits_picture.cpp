@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-/// All meshes together, for the camera and for what is seen between the spheres.
+/// Joins all meshes, for the camera and for the gaps between the spheres.
 void append_mesh(const Part& part, const Pose& link, Mesh& all) {
   const auto first = static_cast<std::uint32_t>(all.vertices.size());
   for (const Point& p : part.mesh.mesh.vertices) all.vertices.push_back(link * (part.pose * p));
@@ -16,7 +16,7 @@ void append_mesh(const Part& part, const Pose& link, Mesh& all) {
     all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   if (!part.ball) return;
-  // No mesh, but the camera must see it: an octahedron within the ball.
+  // There is no mesh, but the camera must include the ball: an octahedron inside it.
   const double r = part.ball->radius;
   const auto at = static_cast<std::uint32_t>(all.vertices.size());
   for (const double sign : {-1.0, 1.0}) {

@@ -12,11 +12,11 @@
 
 namespace medial_vk {
 
-/// For each part the pose of its link, all joints at zero.
+/// The pose of the link of each part, with all joints at zero.
 std::vector<Pose> part_poses(const Robot& robot, std::span<const Part> parts);
 
-/// The bytes of a PNG: the union of the spheres of the last level, coloured by radius, and `poses` are those of the
-/// parts' links. Without a device the CPU draws. Error: kOutOfMemory.
+/// The bytes of a PNG: the union of the spheres of the last level, coloured by radius; `poses` are those of the links
+/// of the parts. Without a device the CPU draws. Error: kOutOfMemory.
 Result<std::string> encode_fits_picture(const FitsRecord& record, std::span<const Pose> poses, const PictureView& view,
                                         const DeviceDescription* device);
 

@@ -1,4 +1,4 @@
-// All that is known of one finished run of `medial-vk spheres`: what is printed and reported.
+// The data of one finished run of `medial-vk spheres`, for the summary and the report.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace medial_vk {
 
 struct FitsRecord {
-  // What was asked for.
+  // The request.
   std::string input;
   std::string output;
   std::string output_format;
@@ -26,20 +26,21 @@ struct FitsRecord {
   Backend backend = Backend::kVulkan;
 
   std::string robot;                               ///< Name of the robot or mesh.
-  std::vector<Part> parts;                         ///< What was fitted to ...
-  std::vector<PartFit> fits;                       ///< ... and what came of it, in the same order.
-  std::vector<std::optional<CheckReport>> checks;  ///< Of --check, in the same order; else empty.
+  std::vector<Part> parts;                         ///< The fitted parts ...
+  std::vector<PartFit> fits;                       ///< ... and their fits, in the same order.
+  std::vector<std::optional<CheckReport>> checks;  ///< The results of --check, in the same order; else empty.
   std::optional<DeviceDescription> device;
   std::vector<StageTime> times;  ///< Seconds, in the order of the run.
 };
 
-/// Words of the options and of the report.
+/// The names used by the options and in the report.
 const char* name_of(SphereContract contract);
 const char* name_of(SphereMethod method);
 
-/// Of the last level of all parts.
+/// The number of spheres of the last level of all parts.
 std::size_t count_spheres(const FitsRecord& record);
-/// Share of the volume that balls inside leave uncovered; nothing if a mesh encloses no volume, or for other contracts.
+/// The share of the volume that balls inside leave uncovered; none if a mesh encloses no volume, or for other
+/// contracts.
 std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract);
 std::optional<double> uncovered_share(const FitsRecord& record);
 

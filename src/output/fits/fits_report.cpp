@@ -8,9 +8,9 @@
 namespace medial_vk {
 namespace {
 
-using Json = nlohmann::ordered_json;  // Keys stay in the order in which a reader wants them.
+using Json = nlohmann::ordered_json;  // Keys keep their order, which is chosen for readers.
 
-/// Number of the layout: raised when a key changes its meaning.
+/// The number of the layout, raised when a key changes its meaning.
 constexpr int kSpheresReportFormat = 1;
 
 template <class T>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRounding = 0x1p-50;
 
-/// Binary.
+/// The size in the binary format.
 std::uint64_t bytes_per_ball(std::uint32_t detail) {
   constexpr std::uint64_t kVertex = 3 * sizeof(double) + 2 * sizeof(float) + sizeof(std::int32_t) + 3;
   constexpr std::uint64_t kTriangle = 1 + 3 * sizeof(std::uint32_t);
@@ -34,7 +34,7 @@ std::string ply_header(const MedialHeader& header, std::uint64_t balls, std::uin
       balls * icosphere_triangles(detail));
 }
 
-/// What all vertices of a ball share.
+/// The values that all vertices of a ball share.
 struct Look {
   float radius = 0;
   float object_angle = 0;
@@ -99,7 +99,8 @@ Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, 
 // A coordinate is c + r v with |v| <= 1 + 3u in length, u the unit of rounding. In each coordinate the product is wrong
 // by at most u r and the sum by at most u (m + r), m the largest |c|; in length that is sqrt(3) u (m + 2 r), and 3 u r
 // for |v|: less than 8 u (m + r). Doubles: u = 2^-53, so 2^-50 (m + r). Floats, rounded once from doubles: only the
-// last rounding counts, sqrt(3) u (m + r) with u = 2^-24, less than 2^-23 (m + r) by more than all that doubles do.
+// last rounding counts, sqrt(3) u (m + r) with u = 2^-24, less than 2^-23 (m + r) by more than all errors of the
+// doubles.
 double inscribed_radius(const Point& centre, double radius, double rounding) {
   const double largest = std::max({std::abs(centre[0]), std::abs(centre[1]), std::abs(centre[2])});
   return std::max(0.0, radius - rounding * (largest + radius));

@@ -10,20 +10,20 @@
 
 namespace medial_vk {
 
-/// Files of balls are never larger, nor does the tool read larger ones.
+/// The size limit of files of balls, for the program as writer and as reader.
 inline constexpr std::uint64_t kLargestBallFile = 4096ull << 20;
 
-/// The detail that was asked for; else the largest up to kUsualSphereDetail with which `balls` of `bytes(detail)` each
-/// stay below kLargestBallFile. Error kCannotWrite if they do not, with what to do about it.
+/// The requested detail; otherwise the largest up to kUsualSphereDetail with which `balls` of `bytes(detail)` each stay
+/// below kLargestBallFile. Error kCannotWrite, with a remedy, if none does.
 Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, std::uint64_t balls,
                                            std::uint64_t (*bytes)(std::uint32_t detail));
 
-/// The radius with which vertices of a ball are computed, so that none is outside of the ball once its coordinates are
-/// rounded: `rounding` is 2^-50 for doubles, 2^-23 for floats (see the derivation beside the code).
+/// The radius with which vertices of a ball are computed, such that none is outside the ball after its coordinates are
+/// rounded: `rounding` is 2^-50 for doubles, 2^-23 for floats (derivation at the definition).
 double inscribed_radius(const Point& centre, double radius, double rounding);
 
-/// A PLY with the vertices of ball after ball in the order of `spheres`, each with the radius, object angle, sheet and
-/// colour of its ball, and the triangles; the comments of the medial PLY, and the detail. Error: kCannotWrite.
+/// A PLY with the vertices of all balls in the order of `spheres`, each with the radius, object angle, sheet and colour
+/// of its ball, and the triangles; the comments are those of the medial PLY, and the detail. Error: kCannotWrite.
 Result<std::string> encode_ball_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii,
                                          std::optional<std::uint32_t> wanted_detail);
 

@@ -29,7 +29,7 @@ GltfJson asset(const MedialHeader& header) {
             {"radius_threshold", header.radius_threshold}}}};
 }
 
-/// Neither metal nor mirror: the colour is to be read.
+/// Neither metallic nor reflective, so that the colour can be read.
 GltfJson material(const std::string& name, const Vector& colour) {
   return {
       {"name", name},
@@ -37,7 +37,7 @@ GltfJson material(const std::string& name, const Vector& colour) {
        {{"baseColorFactor", {colour[0], colour[1], colour[2], 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}};
 }
 
-/// The first node, with all others as its children: 1 to `children`.
+/// The first node, the parent of all others: 1 to `children`.
 std::string root_node(const Point& middle, std::size_t children) {
   std::string out =
       fmt::format("[{{\"name\":\"medial spheres\",\"translation\":[{},{},{}]", middle[0], middle[1], middle[2]);
@@ -86,7 +86,7 @@ class GlbEncoder {
  private:
   using Indices = std::vector<std::uint32_t>;
 
-  /// A mesh and a material for every colour that occurs, all with the same triangles; the spheres of each.
+  /// A mesh and a material for every colour that occurs, all with the same triangles; returns the spheres of each.
   std::vector<Indices> add_unit_balls(std::uint32_t detail) {
     std::vector<Indices> occurring;
     if (spheres_.empty()) return occurring;
@@ -104,7 +104,7 @@ class GlbEncoder {
     return occurring;
   }
 
-  /// A normal of the sphere is its point.
+  /// The normal at a point of the unit sphere is the point itself.
   GltfJson add_unit_vertices(const Icosphere& unit) {
     std::vector<Vector> vertices;
     for (const Point& v : unit.vertices) vertices.push_back({shortened(v[0]), shortened(v[1]), shortened(v[2])});
@@ -115,7 +115,7 @@ class GlbEncoder {
             {"indices", glb_.add_indices(corners, GltfComponent::kUnsignedShort)}};
   }
 
-  /// With the digits of doubles: programs that read nodes as doubles and those that read floats get the same numbers.
+  /// Values have the digits of doubles, so that programs that read nodes as doubles and as floats get the same numbers.
   void append_node(std::string& out, std::size_t i, std::uint32_t mesh) const {
     const MedialSphere& sphere = spheres_[i];
     const GlbBall ball = glb_ball(sphere, middle_);

@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-/// Number of the layout: raised when a key changes its meaning.
+/// The number of the layout, raised when a key changes its meaning.
 constexpr int kPointsFormat = 1;
 
 template <class T>
@@ -26,8 +26,8 @@ std::string header_text(const MedialHeader& header) {
 
 }  // namespace
 
-// By hand: a tree of all points takes several times the memory of the file, and a library gives floats the digits of
-// doubles.
+// Written by hand: a tree of all points takes several times the memory of the file, and a library prints floats with
+// the digits of doubles.
 std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres,
                         std::span<const std::uint8_t> marks) {
   std::string out = "{\n" + header_text(header) + "\"points\": [";

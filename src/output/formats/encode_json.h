@@ -1,4 +1,4 @@
-// Medial points as JSON, for whatever reads nothing else.
+// Medial points as JSON, for general readers.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace medial_vk {
 
-/// An object with the header and an array "points", a line each; layout in docs/formats.md. Numbers have the fewest
-/// digits that read back exactly, floats as floats. `marks`: PointMark by sphere.
+/// An object with the header and an array "points", one line per point; docs/formats.md describes the layout. Numbers
+/// have the fewest digits that read back exactly, floats as floats. `marks`: PointMark by sphere.
 std::string encode_json(const MedialHeader& header, std::span<const MedialSphere> spheres,
                         std::span<const std::uint8_t> marks);
 

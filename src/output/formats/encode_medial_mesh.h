@@ -9,14 +9,14 @@
 
 namespace medial_vk {
 
-/// Points with radius, sheet and marks; triangles; edges with their marks. The sheet of a triangle is left to its
-/// corners: some readers of binary PLY (meshio 5) take faces for lists only.
+/// Points with radius, sheet and marks; triangles; edges with their marks. The sheet of a triangle follows from its
+/// corners: some readers of binary PLY (meshio 5) accept only lists in faces.
 std::string encode_medial_mesh_ply(const MedialHeader& header, std::span<const MedialSphere> spheres,
                                    const Sheets& sheets, const MedialMesh& mesh, bool ascii);
-/// Numbers have the fewest digits that read back exactly. Sheets and marks have no place in it.
+/// Numbers have the fewest digits that read back exactly. The format has no sheets and no marks.
 std::string encode_medial_mesh_ma(std::span<const MedialSphere> spheres, const MedialMesh& mesh);
 
-/// By the extension of `path`; PLY for standard output.
+/// Chooses the format by the extension of `path`; PLY for standard output.
 std::string encode_medial_mesh(const std::string& path, const MedialHeader& header,
                                std::span<const MedialSphere> spheres, const Sheets& sheets, const MedialMesh& mesh,
                                bool ascii);

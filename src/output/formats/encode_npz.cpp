@@ -21,7 +21,7 @@ constexpr const char* kDescription<std::int32_t> = "<i4";
 template <>
 constexpr const char* kDescription<std::uint32_t> = "<u4";
 
-/// Format version 1.0 of NumPy's NEP 1: a dictionary in Python's notation, padded so that the numbers are aligned.
+/// Format version 1.0 of NumPy's NEP 1: a dictionary in the notation of Python, padded so that the numbers are aligned.
 std::string npy_header(const std::string& description, const std::string& shape) {
   constexpr std::size_t kAlignment = 64;
   constexpr std::size_t kPrefix = 10;
@@ -49,14 +49,14 @@ class Arrays {
     add(name, std::move(bytes));
   }
 
-  /// ASCII only, which NumPy keeps as four bytes a letter.
+  /// ASCII only, which NumPy stores as four bytes per letter.
   void text(const char* name, const std::string& value) {
     std::string bytes = npy_header(fmt::format("<U{}", value.size()), "()");
     for (const char letter : value) append_little_endian(bytes, static_cast<std::uint32_t>(letter));
     add(name, std::move(bytes));
   }
 
-  /// A number of every point.
+  /// One number per point.
   template <class T>
   void column(const char* name, T MedialSphere::*member) {
     std::string bytes = npy_header(kDescription<T>, fmt::format("({},)", spheres_.size()));
@@ -65,7 +65,7 @@ class Arrays {
     add(name, std::move(bytes));
   }
 
-  /// Three numbers of every point.
+  /// Three numbers per point.
   template <class T>
   void column(const char* name, std::array<T, 3> MedialSphere::*member) {
     std::string bytes = npy_header(kDescription<T>, fmt::format("({}, 3)", spheres_.size()));
@@ -76,7 +76,7 @@ class Arrays {
     add(name, std::move(bytes));
   }
 
-  /// A truth value of every point: has it the mark?
+  /// A truth value per point: whether it has the mark.
   void flags(const char* name, std::span<const std::uint8_t> marks, PointMark mark) {
     std::string bytes = npy_header("|b1", fmt::format("({},)", marks.size()));
     for (const std::uint8_t marked : marks) bytes += marked & mark ? '\1' : '\0';

@@ -10,8 +10,8 @@
 
 namespace medial_vk {
 
-/// The arrays are listed in docs/formats.md. Stored, not compressed: the bytes of a compressed archive would depend on
-/// the zlib that is installed. `marks`: PointMark by sphere. Error: kOutOfMemory.
+/// docs/formats.md lists the arrays. They are stored, not compressed: the bytes of a compressed archive would depend on
+/// the installed zlib. `marks`: PointMark by sphere. Error: kOutOfMemory.
 Result<std::string> encode_npz(const MedialHeader& header, std::span<const MedialSphere> spheres,
                                std::span<const std::uint8_t> marks);
 

@@ -1,4 +1,4 @@
-// Medial points in the format that was asked for.
+// Medial points in the requested format.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct PointsEncoding {
   std::optional<std::uint32_t> sphere_detail;
 };
 
-/// Options that a format does not know are without effect. `marks`: PointMark by sphere, for NPZ and JSON. Errors:
+/// Options that a format does not support have no effect. `marks`: PointMark by sphere, for NPZ and JSON. Errors:
 /// kCannotWrite for files that would be too large, kOutOfMemory.
 Result<std::string> encode_points(const PointsEncoding& encoding, const MedialHeader& header,
                                   std::span<const MedialSphere> spheres, std::span<const std::uint8_t> marks);

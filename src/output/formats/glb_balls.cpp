@@ -25,8 +25,9 @@ Point middle_of_centres(std::span<const MedialSphere> spheres) {
   return middle;
 }
 
-// The radius gives way by what the centre moves: the distance of the rounded centre from the exact one, and what that
-// is wrong by itself, the difference of doubles (2^-53 of the largest) and some operations (2^-50 of the result).
+// The radius is reduced by the motion of the centre: the distance of the rounded centre from the exact one, and the
+// error of that distance, from the difference of doubles (2^-53 of the largest) and some operations (2^-50 of the
+// result).
 GlbBall glb_ball(const MedialSphere& sphere, const Point& middle) {
   GlbBall ball;
   double moved = 0;

@@ -10,13 +10,13 @@
 
 namespace medial_vk {
 
-/// As a float towards 0.
+/// Rounds to a float towards 0.
 float shortened(double x);
 
-/// The middle of the box around all centres, rounded to floats; the origin if there is none.
+/// The middle of the box around all centres, rounded to floats; the origin if there are none.
 Point middle_of_centres(std::span<const MedialSphere> spheres);
 
-/// A ball about `centre` + the middle, inside of the ball it was made from.
+/// A ball around `centre` + the middle, inside the ball it was made from.
 struct GlbBall {
   std::array<float, 3> centre;
   float radius = 0;
@@ -24,10 +24,10 @@ struct GlbBall {
 
 GlbBall glb_ball(const MedialSphere& sphere, const Point& middle);
 
-/// Colours are steps of the scale, so that few materials do.
+/// Colours are quantised to these steps, so that few materials suffice.
 inline constexpr std::uint32_t kColourSteps = 32;
 
-/// Which step the ball of each object angle has: the indices of the spheres by step, ascending.
+/// The indices of the spheres by colour step, ascending; the object angle determines the step.
 std::array<std::vector<std::uint32_t>, kColourSteps> spheres_by_colour(std::span<const MedialSphere> spheres,
                                                                        double least_angle);
 

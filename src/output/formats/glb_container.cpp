@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-/// Chunks, and what accessors name, begin at multiples of it.
+/// Chunks and the data of accessors begin at multiples of this.
 constexpr std::size_t kAlignment = 4;
 
 void pad(std::string& bytes, char filler) {
@@ -85,7 +85,7 @@ std::size_t GlbContainer::add_colours(std::span<const std::array<std::uint16_t, 
 }
 
 Result<std::string> GlbContainer::finish(const std::string& nodes) {
-  if (!buffer_.empty()) {  // glTF knows no empty arrays
+  if (!buffer_.empty()) {  // glTF has no empty arrays
     document["accessors"] = accessors_;
     document["bufferViews"] = views_;
     document["buffers"] = {{{"byteLength", buffer_.size()}}};

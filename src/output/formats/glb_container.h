@@ -19,18 +19,19 @@ enum class GltfTarget : std::uint32_t { kNone = 0, kVertices = 34962, kIndices =
 
 class GlbContainer {
  public:
-  /// Everything but "accessors", "bufferViews" and "buffers", which are made here, and "nodes", which are given as text
-  /// at the end: as a tree, those of all balls would take several times the memory of the file.
+  /// The whole document except "accessors", "bufferViews" and "buffers", which this class generates, and "nodes", which
+  /// are given as text at the end: as a tree, those of all balls would take several times the memory of the file.
   GltfJson document;
 
-  /// Three floats each. `bounds`: the least and the greatest coordinates are named too, as positions need it. Returns
-  /// the index of the accessor; so do the others.
+  /// Three floats each. With `bounds` the least and the greatest coordinates are recorded too, as positions require.
+  /// This function and the next two return the index of the accessor.
   std::size_t add_vectors(std::span<const std::array<float, 3>> vectors, GltfTarget target, bool bounds);
   std::size_t add_indices(std::span<const std::uint32_t> indices, GltfComponent component);
-  /// Fractions of 65535.
+  /// Components are fractions of 65535.
   std::size_t add_colours(std::span<const std::array<std::uint16_t, 4>> colours);
 
-  /// The file. `nodes`: the text of a JSON array. Error kCannotWrite: it would be larger than its format can say.
+  /// The file. `nodes`: the text of a JSON array. Error kCannotWrite: the file would exceed the size limit of its
+  /// format.
   Result<std::string> finish(const std::string& nodes);
 
  private:

@@ -41,7 +41,7 @@ Icosphere make_icosahedron() {
   return sphere;
 }
 
-/// The vertex in the middle of an edge, made when it is asked for the first time.
+/// The vertex in the middle of an edge, created at the first request.
 std::uint32_t middle_of(Icosphere& sphere, std::map<Edge, std::uint32_t>& middles, std::uint32_t a, std::uint32_t b) {
   const auto [place, is_new] =
       middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(sphere.vertices.size()));

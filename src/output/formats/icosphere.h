@@ -1,4 +1,4 @@
-// A unit sphere of triangles: an icosahedron whose triangles are cut into four again and again.
+// A unit sphere of triangles: a repeatedly subdivided icosahedron.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace medial_vk {
 
-/// All vertices are on the unit sphere about the origin, so the solid is inside of it; triangles are counter-clockwise
+/// All vertices are on the unit sphere around the origin, so the solid is inside it; triangles are counter-clockwise
 /// from outside.
 struct Icosphere {
   std::vector<Point> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// How often triangles are cut: 10 * 4^detail + 2 vertices and 20 * 4^detail triangles.
+/// The counts after `detail` subdivisions: 10 * 4^detail + 2 vertices and 20 * 4^detail triangles.
 constexpr std::uint64_t icosphere_vertices(std::uint32_t detail) { return 10 * (1ull << 2 * detail) + 2; }
 constexpr std::uint64_t icosphere_triangles(std::uint32_t detail) { return 20 * (1ull << 2 * detail); }
 

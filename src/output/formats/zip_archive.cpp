@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-/// The first day that a zip can name, in its own encoding (the year since 1980, the month and the day).
+/// The first date that a zip can represent, in its encoding (the year since 1980, the month and the day).
 constexpr zip_uint16_t kFirstDay = 1 << 5 | 1;
 
 struct FreeSource {
@@ -18,7 +18,7 @@ struct DiscardArchive {
   void operator()(zip_t* archive) const { zip_discard(archive); }
 };
 
-// Nothing but memory can run short here.
+// Memory is the only cause of failure.
 Error failed(const char* message) {
   return {ErrorCode::kOutOfMemory, fmt::format("cannot make the zip archive of the points: {}", message)};
 }
@@ -59,7 +59,7 @@ Result<std::string> make_zip(std::span<const ZipMember> members) {
   if (!destination) return failed(zip_error_strerror(&error));
   std::unique_ptr<zip_t, DiscardArchive> archive(zip_open_from_source(destination.get(), ZIP_TRUNCATE, &error));
   if (!archive) return failed(zip_error_strerror(&error));
-  zip_source_keep(destination.get());  // the archive takes one reference with it
+  zip_source_keep(destination.get());  // the archive takes over one reference
   for (const ZipMember& member : members) {
     if (Status status = add(archive.get(), member); !status) return status.error();
   }

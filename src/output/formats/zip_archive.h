@@ -13,8 +13,8 @@ struct ZipMember {
   std::string bytes;
 };
 
-/// Stored without compression, with 1 January 1980 as the date of every member: the same members give the same bytes.
-/// Error: kOutOfMemory.
+/// Members are stored without compression, dated 1 January 1980: the same members give the same bytes. Error:
+/// kOutOfMemory.
 Result<std::string> make_zip(std::span<const ZipMember> members);
 
 }  // namespace medial_vk

@@ -11,7 +11,7 @@
 
 namespace medial_vk {
 
-/// What the header of a medial PLY says, all lengths in the units of the input mesh.
+/// The contents of the header of a medial PLY, all lengths in the units of the input mesh.
 struct MedialHeader {
   std::string version;
   Point grid_origin = {0, 0, 0};
@@ -31,23 +31,23 @@ struct MedialFile {
 
 enum class MedialFormat { kPly, kCsv, kNpz, kJson, kGlb };
 
-/// By extension, whatever its case. Error kUsage naming the known ones.
+/// Determines the format by extension, in any case. Error kUsage, naming the known ones.
 Result<MedialFormat> medial_format_of(const std::string& path);
 
-/// Balls as triangles: how often those of an icosahedron are cut into four (output/formats/icosphere.h).
+/// Balls as triangles: the number of subdivisions of the icosahedron (output/formats/icosphere.h).
 inline constexpr std::uint32_t kUsualSphereDetail = 2;
 inline constexpr std::uint32_t kGreatestSphereDetail = 5;
 
-/// The lines of the header that say what `header` says: "comment medial-vk VERSION" and so on.
+/// The lines of the file header for `header`: "comment medial-vk VERSION" and so on.
 std::string ply_comments(const MedialHeader& header);
 
 /// `ascii`: doubles have 17 significant digits and floats 9; both read back exactly.
 std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii);
-/// One header line and one line per point; the grid is not in it.
+/// One header line and one line per point; the grid is not included.
 std::string encode_csv(std::span<const MedialSphere> spheres);
 
-/// Reads what encode_ply() wrote, binary or text; the voxels are computed as the contract says. `name` is for messages.
-/// Errors: kInvalidMesh for anything that is no medial PLY.
+/// Reads the output of encode_ply(), binary or text; the voxels are computed as the contract specifies. `name` is for
+/// messages. Errors: kInvalidMesh for anything that is not a medial PLY.
 Result<MedialFile> decode_ply(std::string_view bytes, const std::string& name);
 
 }  // namespace medial_vk

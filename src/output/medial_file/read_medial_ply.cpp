@@ -1,4 +1,5 @@
-// The reader of the medial PLY: for --check, which tests the numbers as written, and for later products.
+// The reader of the medial PLY: for --check, which tests the numbers as written, and for programs that read medial
+// files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,7 +80,7 @@ struct Layout {
 /// Every comment of the contract, as a set of bits.
 constexpr unsigned kAllComments = 63;
 
-/// `seen`: the bit of the comment is added.
+/// Adds the bit of the comment to `seen`.
 bool read_comment(Cursor words, MedialHeader& header, unsigned& seen) {
   const std::string_view key = words.word();
   if (key == "medial-vk") {
@@ -103,10 +104,10 @@ bool read_comment(Cursor words, MedialHeader& header, unsigned& seen) {
     }
     bit *= 2;
   }
-  return true;  // Somebody else's comment.
+  return true;  // A comment of another program.
 }
 
-/// Reads up to and including end_header. False if anything is not as encode_ply() writes it.
+/// Reads up to and including end_header. False if anything differs from the output of encode_ply().
 bool read_header(Cursor& cursor, MedialHeader& header, Layout& layout) {
   if (cursor.line() != "ply") return false;
   const std::optional<std::string_view> format = cursor.line();
@@ -143,7 +144,7 @@ bool read_sphere(Cursor& cursor, bool ascii, MedialSphere& sphere) {
          number(sphere.object_angle) && number(sphere.flux) && number(sphere.sheet);
 }
 
-/// Contract: floor((p - grid_origin) / voxel_size). False outside of any grid.
+/// Contract: floor((p - grid_origin) / voxel_size). False outside any grid.
 bool place_in_voxel(const MedialHeader& header, MedialSphere& sphere) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double voxel = std::floor((sphere.centre[axis] - header.grid_origin[axis]) / header.voxel_size);

@@ -1,4 +1,4 @@
-// The page as the build has put it together: src/page/ and the library it draws with, in one file without data.
+// The page that the build has bundled: src/page/ and its drawing library, in one file without data.
 #pragma once
 
 #include <string_view>

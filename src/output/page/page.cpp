@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// An array of numbers as the page reads it: little-endian bytes in base64, in an element of its own.
+/// An array of numbers for the page: little-endian bytes in base64, in an element of its own.
 class Block {
  public:
   Block(std::string_view name, std::size_t bytes) : name_(name) { bytes_.reserve(bytes); }
@@ -43,8 +43,8 @@ class Block {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// What the page draws lies around 0 and is of size 1, in single precision, wherever the mesh is and however large:
-/// what is far from 0 loses no digits. `origin` and `scale` lead back.
+/// The geometry of the page lies around 0 and has size 1, in single precision, for any position and size of the mesh: a
+/// mesh far from 0 loses no digits. `origin` and `scale` give the inverse map.
 struct Placement {
   Point origin = {0, 0, 0};
   double scale = 1;
@@ -75,7 +75,7 @@ void write_mesh(std::string& page, const Mesh& mesh, const Placement& placement)
   triangles.write(page);
 }
 
-/// A direction in sixteen bits a part: off by less than a pixel on any screen, and half the size of floats.
+/// A direction in sixteen bits per coordinate: off by less than a pixel on any screen, and half the size of floats.
 void add_direction(Block& block, const std::array<float, 3>& direction) {
   for (const float x : direction) {
     block.add(static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767.0f)));
@@ -100,7 +100,7 @@ void write_spheres(std::string& page, std::span<const MedialSphere> spheres, con
   for (const Block* block : {&centres, &radii, &spokes, &angles, &fluxes, &sheets, &voxels}) block->write(page);
 }
 
-/// JSON inside an element: no "<", so that no text in it (a file name) can end the element.
+/// JSON inside an element: without "<", so that no text in it (a file name) can end the element.
 void write_json(std::string& page, std::string_view name, std::string_view json) {
   page.append("<script type=\"application/json\" id=\"").append(name).append("\">");
   for (const char c : json) {
@@ -154,7 +154,7 @@ std::string escape_text(std::string_view text) {
 
 std::string title_of(const RunRecord& record) {
   const std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
-  // As JSON once and back: what is not UTF-8 is replaced, as everywhere in the report.
+  // Printed as JSON and parsed: text that is not UTF-8 is replaced, as everywhere in the report.
   const Json text = Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
   return escape_text(text.get<std::string>());
 }
@@ -177,7 +177,7 @@ std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres,
   const Placement placement = place(record);
 
   std::string out;
-  // 46 bytes a point and 12 a vertex and a triangle, four characters for three bytes.
+  // 46 bytes per point and 12 per vertex and triangle, four characters for three bytes.
   out.reserve(page.size() + 65536 + spheres.size() * 62 + (mesh.vertices.size() + mesh.triangles.size()) * 16);
   out.append(page.substr(0, title)).append(title_of(record)).append(page.substr(after_title, data - after_title));
   write_json(out, "report", report_without_times(record));

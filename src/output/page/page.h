@@ -1,4 +1,4 @@
-// A page that shows a run in a browser: one HTML file with everything in it, which works from disk and asks no network.
+// A page that shows a run in a browser: one self-contained HTML file, which works from disk and makes no requests.
 #pragma once
 
 #include <span>
@@ -12,11 +12,13 @@
 
 namespace medial_vk {
 
-/// Ok if this program can write pages; else kUsage and what its build was missing. Costs nothing: ask before the work.
+/// Ok if this program can write pages; else kUsage with the component that its build lacked. Costs nothing: call it
+/// before the work.
 Status check_page_available();
 
-/// The mesh, the spheres and the report of a run as one file (docs/viewer.md). The report's times are left out: the
-/// same run gives the same bytes. `up`: at first, the page can change it. Call only if check_page_available() is ok.
+/// The mesh, the spheres and the report of a run as one file (docs/viewer.md). The report's times are left out, so that
+/// the same run gives the same bytes. `up` is the initial axis; the page can change it. Call only if
+/// check_page_available() is ok.
 std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
                         UpAxis up = UpAxis::kY);
 

@@ -20,7 +20,7 @@ Picture blank(const PictureOptions& options) {
   return out;
 }
 
-/// Error: kNoDevice, which says why it cannot draw.
+/// Error: kNoDevice, with the reason why it cannot draw.
 Result<DrawnPicture> draw_on_device(const picture::Scene& scene, const PictureOptions& options,
                                     const DeviceDescription& device) {
   Result<picture::DevicePainter> painter = picture::DevicePainter::open(device);

@@ -1,4 +1,4 @@
-// A picture of a mesh and its medial points: a first look without any viewer.
+// A picture of a mesh and its medial points, for a first view without other programs.
 #pragma once
 
 #include <span>
@@ -12,19 +12,20 @@
 
 namespace medial_vk {
 
-/// A picture with who drew it: "NVIDIA H100, 16 samples per pixel", "the CPU: NVIDIA H100 has no graphics queue".
+/// A picture and a description of its painter: "NVIDIA H100, 16 samples per pixel", "the CPU: NVIDIA H100 has no
+/// graphics queue".
 struct DrawnPicture {
   Picture picture;
   std::string drawn_by;
 };
 
-/// The mesh, the points and a legend, as the options say; `voxel_size` sets the size of the discs. On the Vulkan device
-/// that `device` describes; without one, or if that cannot draw, on the CPU. No randomness: the same input gives the
-/// same pixels on the same device.
+/// The mesh, the points and a legend, according to the options; `voxel_size` determines the size of the discs. The
+/// Vulkan device described by `device` draws; without one, or if it cannot draw, the CPU does. There is no randomness:
+/// the same input gives the same pixels on the same device.
 DrawnPicture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                           const PictureOptions& options, const DeviceDescription* device);
 
-/// The same on the CPU, one thread.
+/// Draws on the CPU, on one thread.
 Picture draw_picture(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                      const PictureOptions& options = {});
 

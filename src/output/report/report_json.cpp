@@ -13,9 +13,9 @@
 namespace medial_vk {
 namespace {
 
-using Json = nlohmann::ordered_json;  // Keys stay in the order in which a reader wants them.
+using Json = nlohmann::ordered_json;  // Keys keep their order, which is chosen for readers.
 
-/// Number of the layout: raised when a key changes its meaning.
+/// The number of the layout, raised when a key changes its meaning.
 constexpr int kReportFormat = 1;
 
 Json parameters_json(const RunRecord& record) {
@@ -93,7 +93,7 @@ Json levels_json(const std::vector<ExtractionCounters::Level>& levels) {
   return json;
 }
 
-// What a medial point costs, by all levels together.
+// The cost of a medial point, over all levels.
 Json per_point_json(const ExtractionCounters& counters) {
   if (counters.found == 0) return nullptr;
   double triangle_tests = 0, cluster_tests = 0, node_tests = 0, lines = 0;
@@ -128,7 +128,7 @@ Json device_json(const std::optional<DeviceDescription>& device) {
           {"memory_bytes", device->memory_bytes}};
 }
 
-/// By sheet: 1 for the most significant. Of equals, the one with the smaller number comes first.
+/// Ranks by sheet: 1 for the most significant. Ties go to the smaller number.
 std::vector<std::size_t> ranks_of(const std::vector<Sheet>& sheets) {
   std::vector<std::size_t> order(sheets.size()), ranks(sheets.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -229,7 +229,7 @@ Json check_json(const std::optional<CheckReport>& check) {
   return {{"passed", check->passed()}, {"conditions", lines}};
 }
 
-/// How many undecided voxels of each kind, and the largest width that may hide in one.
+/// The number of undecided voxels of each kind, and the largest width that one may hide.
 Json undecided_json(const std::vector<UndecidedVoxel>& undecided) {
   std::array<std::uint64_t, kUndecidedKinds> counts{};
   float width = 0;

@@ -7,7 +7,7 @@
 
 namespace medial_vk {
 
-/// Indented by two, ending in a newline. Text that is not UTF-8 (a file name) is replaced, not an error.
+/// Indented by two, with a final newline. Text that is not UTF-8 (a file name) is replaced and causes no error.
 std::string report_json(const RunRecord& record);
 
 }  // namespace medial_vk

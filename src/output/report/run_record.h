@@ -1,4 +1,4 @@
-// All that is known of one finished run: what the summary prints and the report holds.
+// The data of one finished run, for the summary and the report.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct Range {
   double greatest = 0;
 };
 
-/// Of the radii; nothing if there are no spheres.
+/// The range of the radii; none without spheres.
 std::optional<Range> range_of_radii(std::span<const MedialSphere> spheres);
-/// Of the object angles in radians; nothing if there are no spheres.
+/// The range of the object angles, in radians; none without spheres.
 std::optional<Range> range_of_object_angles(std::span<const MedialSphere> spheres);
 
 /// The union of the balls, before sheets were removed.
@@ -55,20 +55,20 @@ struct RunRecord {
 
   SheetOptions sheet_parameters;
   Sheets sheets;
-  std::optional<UnionRecord> ball_union;         ///< Nothing: no output tells of volumes.
+  std::optional<UnionRecord> ball_union;         ///< None: no output depends on volumes.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
   std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
-  double orders_end_at = 0;                      ///< Share of the volume at which both were stopped.
+  double orders_end_at = 0;                      ///< Share of the volume at which both orders end.
   std::optional<SheetRemoval> removal;           ///< Of --keep-volume: the first part of one of them.
   double keep_volume = 0;
   bool keep_topology = false;
   std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
 
-  std::vector<StageTime> host_times;    ///< In the order of the run, by the clock on the wall.
-  std::vector<StageTime> device_times;  ///< By timestamps of the device, part of the host's "extract".
+  std::vector<StageTime> host_times;    ///< In the order of the run, by wall-clock time.
+  std::vector<StageTime> device_times;  ///< By timestamps of the device; part of the host's "extract".
   std::optional<DeviceDescription> device;
-  std::string picture_drawn_by;      ///< Empty: there is no picture.
+  std::string picture_drawn_by;      ///< Empty: no picture was drawn.
   std::optional<CheckReport> check;  ///< Of --check.
 };
 

@@ -1,4 +1,4 @@
-// CSV and JSON: our own, and foam's.
+// CSV and JSON: the project's own, and that of foam.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace medial_vk {
 namespace {
 
-/// Number of the layout: raised when a key changes its meaning.
+/// The number of the layout, raised when a key changes its meaning.
 constexpr int kSpheresFormat = 1;
 
 std::string csv_word(const std::string& word) {
@@ -29,7 +29,7 @@ void append_sphere(std::string& out, const char* centre, const Ball& ball) {
                  float_text(ball.radius));
 }
 
-/// A list, a line for each sphere.
+/// A list with one line per sphere.
 std::string sphere_list(const std::vector<const Ball*>& balls, const char* centre, int indent) {
   std::string out = "[";
   for (const Ball* ball : balls) {
@@ -45,7 +45,7 @@ std::vector<const Ball*> balls_of(const PartSpheres& part, std::size_t level) {
   return balls;
 }
 
-/// `"spheres": [...]` of a mesh, or `"links": {...}` of a robot, whose parts of a link are one list.
+/// `"spheres": [...]` of a mesh, or `"links": {...}` of a robot, in which all parts of a link form one list.
 std::string set_json(const SphereFile& file, std::size_t level, int indent) {
   if (!file.is_robot) return "\"spheres\": " + sphere_list(balls_of(file.parts.front(), level), "centre", indent);
   std::string out = "\"links\": {";
@@ -68,7 +68,7 @@ std::size_t spheres_in(const SphereFile& file, std::size_t level) {
   return count;
 }
 
-/// One entry of foam: how far balls of the level stick out, and the balls.
+/// One entry of foam: the distance by which balls of the level protrude, and the balls.
 std::string foam_level(const PartSpheres& part, std::size_t level, int indent) {
   const std::vector<const Ball*> balls = balls_of(part, level);
   const ReachOut& reach = part.reach[level];
@@ -98,7 +98,8 @@ ReachOut joined(const ReachOut& a, std::size_t count_a, const ReachOut& b, std::
   return {(x * a.mean + y * b.mean) / std::max(x + y, 1.0), std::min(a.best, b.best), std::max(a.worst, b.worst)};
 }
 
-/// foam asks for a set by part, branching and depth. A set of N is the children of a root with N of them: "N", "1".
+/// foam addresses a set by part, branching and depth. A set of N balls is the children of a root with N of them: "N",
+/// "1".
 std::string foam_database(const SphereFile& file) {
   std::string out = "{";
   std::vector<std::string> seen;
@@ -106,7 +107,7 @@ std::string foam_database(const SphereFile& file) {
     const std::string key = file.parts[i].link + "::" + file.parts[i].name;
     if (std::ranges::find(seen, key) != seen.end()) continue;
     seen.push_back(key);
-    // A mesh that is there twice in a link has one name, and all spheres are in the frame of the link.
+    // A mesh that occurs twice in a link has one name, and all spheres are in the frame of the link.
     PartSpheres all = file.parts[i];
     for (std::size_t j = i + 1; j < file.parts.size(); ++j) {
       if (file.parts[j].link + "::" + file.parts[j].name != key) continue;

@@ -1,4 +1,4 @@
-// A robot whose collision geometry is spheres: the URDF that was read, with each link's <collision> replaced.
+// A robot whose collision geometry is spheres: the URDF of the input, with the <collision> of each link replaced.
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -14,7 +14,7 @@ void remove_collisions(XMLElement& link) {
   while (XMLElement* collision = link.FirstChildElement("collision")) link.DeleteChild(collision);
 }
 
-/// One element per sphere, geometry first, as foam writes them.
+/// One element per sphere, geometry first, in the order of foam.
 void add_sphere(XMLElement& link, const Ball& ball) {
   XMLElement* collision = link.InsertNewChildElement("collision");
   XMLElement* sphere = collision->InsertNewChildElement("geometry")->InsertNewChildElement("sphere");
@@ -32,7 +32,7 @@ XMLElement* find_link(XMLElement& robot, const std::string& name) {
   return nullptr;
 }
 
-/// A mesh by itself is a robot of one link.
+/// A single mesh becomes a robot of one link.
 void make_robot(const SphereFile& file, XMLDocument& document) {
   document.InsertEndChild(document.NewDeclaration());
   XMLElement* robot = document.NewElement("robot");

@@ -1,4 +1,4 @@
-// YAML by hand: cuRobo and XRDF.
+// YAML, written by hand: cuRobo and XRDF.
 #include <fmt/format.h>
 
 #include <string>
@@ -42,8 +42,8 @@ std::string title(const SphereFile& file) {
 
 }  // namespace
 
-// Of use in both ways that cuRobo knows: as the file that `collision_spheres: FILE` of a robot's configuration names,
-// which has the list under the key of that name, and as the part of such a configuration, by an alias.
+// The file works in both forms that cuRobo supports: as the file named by `collision_spheres: FILE` of a robot's
+// configuration, which has the list under the key of that name, and as the part of such a configuration, by an alias.
 std::string encode_spheres_curobo(const SphereFile& file) {
   return title(file) + "collision_spheres: &collision_spheres\n" + links_yaml(file, 2) +
          "robot_cfg:\n  kinematics:\n    format_version: 2.0\n    collision_link_names: " + link_names(file) +

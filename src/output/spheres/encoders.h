@@ -1,4 +1,4 @@
-// One function per format of sphere sets; for encode_spheres() only.
+// One function per format of sphere sets, for encode_spheres() only.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ std::string encode_spheres_xrdf(const SphereFile& file);
 /// Error: kInternal.
 Result<std::string> encode_spheres_urdf(const SphereFile& file);
 
-/// Text as JSON has it, in quotes; what is no UTF-8 is replaced.
+/// Text as a JSON string, in quotes; bytes that are not UTF-8 are replaced.
 std::string json_text(const std::string& text);
 
 }  // namespace medial_vk

@@ -12,7 +12,7 @@ namespace {
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_plain(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
-/// What YAML 1.1 takes for truth or nothing, whatever its case.
+/// The words that YAML 1.1 reads as a truth value or as null, in any case.
 bool has_meaning(std::string_view word) {
   constexpr std::array<std::string_view, 9> kWords = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"};
   return std::ranges::any_of(kWords, [&](std::string_view known) {

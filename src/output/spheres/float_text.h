@@ -1,4 +1,4 @@
-// Numbers for readers that tell floats from whole numbers and from words by their dot.
+// Numbers for readers that distinguish floats from integers and from words by their dot.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace medial_vk {
 
-/// The fewest digits that read back as the same double, always with a dot: "1.0", "1.0e-05", which YAML readers take
-/// for a float ("1e-05" is a word to many). `x` is finite.
+/// The fewest digits that read back as the same double, always with a dot: "1.0", "1.0e-05", which YAML readers parse
+/// as a float (many parse "1e-05" as a word). `x` is finite.
 std::string float_text(double x);
 
-/// A word as YAML has it: as it is where no reader can take it for anything else, or in double quotes.
+/// A word in YAML: plain where no reader can interpret it differently, else in double quotes.
 std::string yaml_word(std::string_view word);
 
 }  // namespace medial_vk

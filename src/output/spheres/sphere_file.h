@@ -1,4 +1,4 @@
-// Sphere sets as files for robots' planners, simulators and everybody else (docs/formats.md, "Spheres").
+// Sphere sets as files for planners of robots, simulators and other programs (docs/formats.md, "Spheres").
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@ namespace medial_vk {
 
 enum class SphereFormat {
   kCsv,     ///< A line per sphere.
-  kJson,    ///< Our own, with everything.
-  kFoam,    ///< What CoMMALab's foam reads: a list of levels, or its database for a robot.
+  kJson,    ///< The project's own format, with all data.
+  kFoam,    ///< The input of CoMMALab's foam: a list of levels, or its database for a robot.
   kCurobo,  ///< YAML for NVIDIA's cuRobo.
   kXrdf,    ///< YAML for Isaac and cuMotion.
-  kUrdf,    ///< The robot with spheres for collision geometry.
+  kUrdf,    ///< The robot with spheres as collision geometry.
 };
 
 /// Spheres of one geometry, in the frame of its link.
 struct PartSpheres {
   std::string link;
   std::string name;                       ///< File of the mesh, or primitiveI.
-  std::vector<std::vector<Ball>> levels;  ///< The smallest first; all parts have as many, at least one.
+  std::vector<std::vector<Ball>> levels;  ///< The smallest first; the same number in all parts, at least one.
   std::vector<ReachOut> reach;            ///< Per level.
 };
 
@@ -32,11 +32,11 @@ struct SphereFile {
   std::string version;   ///< Of the program.
   std::string contract;  ///< "inside", "cover" or "balanced".
   std::string method;
-  bool is_robot = false;           ///< Else there is one part, and its link is the name of the mesh.
+  bool is_robot = false;           ///< Otherwise there is one part, and its link is the name of the mesh.
   std::string robot;               ///< Name of the robot or mesh.
-  std::vector<PartSpheres> parts;  ///< Parts of a link stand together.
-  bool with_levels = false;        ///< All levels are wanted, where the format has them; else the last.
-  std::size_t branch = 1;          ///< Balls asked for per part or link: foam's name of the set.
+  std::vector<PartSpheres> parts;  ///< Parts of a link are consecutive.
+  bool with_levels = false;        ///< All levels are written where the format supports them; else the last.
+  std::size_t branch = 1;          ///< Balls requested per part or link, which is foam's name of the set.
   std::string urdf;                ///< kUrdf of a robot: the bytes that were read.
 };
 
@@ -48,8 +48,8 @@ const char* name_of(SphereFormat format);
 /// csv, json and foam.
 bool has_levels(SphereFormat format);
 
-/// Numbers have the fewest digits that read back as the same double, so what is certified stays certified. Errors:
-/// kInternal if the URDF that was read before is none now.
+/// Numbers have the fewest digits that read back as the same double, so that certified spheres remain certified.
+/// Errors: kInternal if the URDF, which was parsed before, cannot be parsed.
 Result<std::string> encode_spheres(SphereFormat format, const SphereFile& file);
 
 }  // namespace medial_vk

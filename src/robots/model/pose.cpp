@@ -43,7 +43,7 @@ Pose operator*(const Pose& a, const Pose& b) {
 // With u = 2^-53 and |p_i| <= c, |shift_i| <= t: sines and cosines are within 2u, an entry of the matrix, a sum of two
 // products of up to three of them, within 12u. A coordinate of the product errs by 3 * (12u + 4u) c, the sum by
 // u (2c + t) more; the vector by sqrt(3) times that: below 87u c + 2u t. Without a turn only the sum rounds, by u (c +
-// t) a coordinate. A shift of zero is exact.
+// t) per coordinate. A shift of zero is exact.
 double placement_rounding(const Pose& pose, double reach) {
   constexpr double u = 0x1p-53;
   const double t = std::max({std::fabs(pose.shift[0]), std::fabs(pose.shift[1]), std::fabs(pose.shift[2])});

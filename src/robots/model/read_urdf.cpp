@@ -19,16 +19,16 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The parser looks for each attribute among those before it. A URDF's elements have six at most.
+/// The parser compares each attribute with those before it. Elements of a URDF have six at most.
 constexpr std::size_t kMostAttributes = 1000;
 
-/// Where what begins at `from` has ended, or the end of the bytes.
+/// The end of the construct that begins at `from`, or the end of the bytes.
 std::size_t after(std::string_view bytes, std::string_view end, std::size_t from) {
   const std::size_t found = bytes.find(end, from);
   return found == std::string_view::npos ? bytes.size() : found + end.size();
 }
 
-/// Values in quotes in one tag; comments and the like are passed over as the parser does.
+/// True if a tag has more than kMostAttributes values in quotes; comments and the like are skipped as by the parser.
 bool has_too_many_attributes(std::string_view bytes) {
   for (std::size_t i = bytes.find('<'); i < bytes.size(); i = bytes.find('<', i)) {
     const std::string_view rest = bytes.substr(i);
@@ -52,7 +52,7 @@ bool has_too_many_attributes(std::string_view bytes) {
   return false;
 }
 
-/// One reading: the first fault ends it.
+/// Reads one URDF; the first fault ends it.
 class UrdfReader {
  public:
   explicit UrdfReader(const std::string& name) : name_(name) {}
@@ -167,7 +167,7 @@ class UrdfReader {
 
   Status check_positive(const XMLElement& element, const char* attribute, const Point& numbers, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      // Beyond these, squares and cubes leave the range of a double.
+      // Outside this range, squares and cubes leave the range of a double.
       if (numbers[i] >= 1e-50 && numbers[i] <= 1e50) continue;
       const char* why = numbers[i] > 0 ? "not between 1e-50 and 1e50" : "not above zero";
       return at(element, fmt::format("the {} of a <{}> is {}: {}", attribute, element.Name(), why, numbers[i]));
@@ -185,7 +185,7 @@ class UrdfReader {
     return {};
   }
 
-  /// Leaves `numbers` as they are if the attribute is not there.
+  /// Leaves `numbers` unchanged if the attribute is missing.
   Status read_triple(const XMLElement& element, const char* attribute, Point& numbers) {
     const char* text = element.Attribute(attribute);
     return text == nullptr ? Status() : read_numbers(element, attribute, text, 3, numbers);
@@ -244,7 +244,7 @@ class UrdfReader {
       }
       parent[joint.child] = joint.parent;
     }
-    // Every link once: marks tell the walks apart.
+    // Visits every link once: marks distinguish the walks.
     std::vector<std::uint32_t> seen(robot_.links.size(), kNone);
     for (std::uint32_t link = 0; link < robot_.links.size(); ++link) {
       std::uint32_t at = link;

@@ -9,16 +9,16 @@
 
 namespace medial_vk {
 
-/// A text of numbers without meshes is never longer; some 10,000 links.
+/// A text of numbers without meshes is never longer; it holds some 10,000 links.
 inline constexpr std::size_t kMostUrdfBytes = 64u << 20;
 
-/// `name` is used in messages. What spheres do not need (inertia, materials, limits) is not looked at. Any bytes are
-/// answered with a robot or a message. Errors: kInvalidMesh with name and line, one sentence: no XML, no robot, a link
-/// without a name or with that of another, an unknown geometry, a size, scale or origin that is no finite number or not
-/// above zero, a joint to an unknown link, links in a circle.
+/// `name` is used in messages. Elements that spheres do not need (inertia, materials, limits) are not examined. Any
+/// bytes yield a robot or a message. Errors: kInvalidMesh with name and line, in one sentence: no XML, no robot, a link
+/// without a name or with that of another, an unknown geometry, a size, scale or origin that is not a finite number or
+/// not above zero, a joint to an unknown link, links in a circle.
 Result<Robot> read_urdf(std::string_view bytes, const std::string& name);
 
-/// The same from a file. Errors also: it cannot be read, it is larger than kMostUrdfBytes.
+/// Reads a file. Further errors: it cannot be read, or is larger than kMostUrdfBytes.
 Result<Robot> read_urdf_file(const std::string& path);
 
 /// The bytes of a file. Errors: kInvalidMesh.

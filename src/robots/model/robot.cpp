@@ -10,7 +10,7 @@ std::vector<Pose> link_poses(const Robot& robot) {
   std::vector<std::optional<Pose>> known(robot.links.size());
   std::vector<std::uint32_t> waiting;
   for (std::uint32_t link = 0; link < robot.links.size(); ++link) {
-    // Up to a link whose pose is known, then down again: no recursion, chains may be long.
+    // Up to a link whose pose is known, then down again, without recursion, as chains may be long.
     std::uint32_t at = link;
     while (!known[at] && above[at] != nullptr) {
       waiting.push_back(at);

@@ -1,4 +1,4 @@
-// A robot as its URDF describes it: links with geometry, joints between them.
+// A robot as described by its URDF: links with geometry, and joints between them.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace medial_vk {
 
 enum class GeometryKind { kMesh, kBox, kCylinder, kSphere, kCapsule };
 
-/// Lengths in metres. Cylinder and capsule lie along z, their middle at the origin.
+/// Lengths are in metres. Cylinder and capsule lie along z, with their middle at the origin.
 struct Geometry {
   GeometryKind kind = GeometryKind::kMesh;
   Pose origin;              ///< From the geometry's frame to that of its link.
-  std::string mesh;         ///< As written: a path or URI.
-  Point scale = {1, 1, 1};  ///< Of a mesh. Negative ones mirror it.
+  std::string mesh;         ///< As in the file: a path or URI.
+  Point scale = {1, 1, 1};  ///< Of a mesh. Negative values mirror it.
   Point size = {0, 0, 0};   ///< Box: sides. Others: radius, then length (of a capsule: without its caps).
-  int line = 0;             ///< Of the URDF.
+  int line = 0;             ///< The line in the URDF.
 };
 
 struct Link {

@@ -8,12 +8,12 @@
 namespace medial_vk::picture {
 namespace {
 
-/// Rows: to the right, up, towards the viewer.
+/// Rows: right, up, towards the viewer.
 Eigen::Matrix3f rotation_for(const PictureView& view) {
   const Eigen::Vector3d towards = Eigen::Vector3d(view.towards.data()).stableNormalized();
   const Eigen::Vector3d above(in_mesh_axes({0, 1, 0}, view.up).data());
   const Eigen::Vector3d front(in_mesh_axes({0, 0, 1}, view.up).data());
-  // From above or below, what is to the front of the shape points down in the picture, or up.
+  // In a view from above or below, the front of the shape points down in the picture, or up.
   constexpr double kAlongUp = 0.9999;
   const double height = towards.dot(above);
   const Eigen::Vector3d up = std::abs(height) < kAlongUp ? above : (height > 0 ? -front : front).eval();

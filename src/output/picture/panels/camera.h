@@ -1,4 +1,4 @@
-// Where a point of the shape lands in the picture.
+// Projection of points of the shape into the picture.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ struct Frame {
   float left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// A point as the rasteriser wants it: x and y in pixels, `nearness` = 1 / distance along the view. Nearness is linear
-/// across a flat triangle on the screen, the distance itself is not.
+/// A point for the rasteriser: x and y in pixels, `nearness` = 1 / distance along the view. Nearness is linear across a
+/// flat triangle on the screen, while distance is not.
 struct ScreenPoint {
   float x = 0, y = 0, nearness = 0;
 };
@@ -23,9 +23,9 @@ struct ScreenPoint {
 /// A perspective camera, fitted to points of the unit ball. View space: x to the right, y up, z towards the viewer.
 class Camera {
  public:
-  static constexpr float kDistance = 5.0f;  // Of the eye from the centre, in radii of the shape: a long lens.
+  static constexpr float kDistance = 5.0f;  // From the eye to the centre, in radii of the shape: a long lens.
 
-  /// Looks from there at the points and fills the frame with them. No points: looks at the origin.
+  /// Views the points from the direction of `view` and fills the frame with them. Without points, it views the origin.
   Camera(std::span<const Eigen::Vector3f> points, const PictureView& view, const Frame& frame);
 
   /// The same view in a picture without its first rows.

@@ -7,7 +7,7 @@
 #pragma GCC diagnostic ignored "-Wextra"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_WRITE_STATIC
-#ifndef __clang_analyzer__  // clang-tidy looks at our code, not at theirs
+#ifndef __clang_analyzer__  // clang-tidy examines the project's code, not the library's
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #endif
 #define STBI_WRITE_NO_STDIO

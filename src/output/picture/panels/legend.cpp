@@ -75,7 +75,7 @@ void draw_swatches(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32
   }
 }
 
-/// Of all swatches in a row.
+/// The width of all swatches in a row.
 std::uint32_t swatches_width(const Scene& scene, const Pen& pen) {
   std::uint32_t width = 0;
   for (const auto& [colour, text] : scene.legend.swatches) {

@@ -1,4 +1,4 @@
-// What a picture shows, from where, and how large it is: the part of it that the command line chooses.
+// The content, the view and the size of a picture: the part that the command line chooses.
 #pragma once
 
 #include <array>
@@ -9,17 +9,18 @@
 namespace medial_vk {
 
 enum class PictureShow {
-  kPoints,  ///< The mesh as glass, the medial points in it as discs.
+  kPoints,  ///< The mesh as glass, with the medial points in it as discs.
   kBalls,   ///< The union of the balls.
-  kBoth,    ///< The two, side by side.
+  kBoth,    ///< Both, side by side.
 };
 
 enum class PictureColour { kAngle, kRadius, kSheet };
 
-/// Sides of a picture, pixels. The greatest keeps the number of its bytes below 2^31, for the writer of PNG files.
+/// Sides of a picture, in pixels. The greatest keeps the number of its bytes below 2^31, a limit of the writer of PNG
+/// files.
 constexpr std::uint32_t kLeastPictureSide = 16, kGreatestPictureSide = 16384;
 
-/// Where a picture is seen from. If one looks along what is up, what is in front points down in the picture, or up.
+/// The view of a picture. In a view along the upward axis, the front points down in the picture, or up.
 struct PictureView {
   std::array<double, 3> towards = {0.544, 0.352, 0.762};  ///< From the shape to the viewer, in its axes; any length.
   UpAxis up = UpAxis::kY;
@@ -28,7 +29,7 @@ struct PictureView {
 };
 
 struct PictureOptions {
-  /// Width and height, pixels; 0: the usual, 1200 x 900 or, side by side, 1800 x 900.
+  /// Width and height, pixels; 0: the default, 1200 x 900 or, side by side, 1800 x 900.
   std::array<std::uint32_t, 2> size = {0, 0};
   PictureView view = {};
   PictureShow show = PictureShow::kPoints;

@@ -1,5 +1,4 @@
-// The light in a picture, on the CPU. shaders/compose.frag does the same: change both, and the tests will say whether
-// they still agree.
+// The lighting of a picture, on the CPU. shaders/compose.frag does the same: change both; the tests compare them.
 #include "output/picture/panels/panel.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +16,7 @@ using Eigen::Vector3f;
 
 const Vector3f kKeyLight = Vector3f(-0.45f, 0.65f, 0.62f).normalized();  // View space, towards the light.
 const Vector3f kHalfway = (kKeyLight + Vector3f::UnitZ()).normalized();
-// Light, not numbers of a file: all of this is linear.
+// Linear light, not encoded values of a file.
 const Vector3f kGlass(0.22f, 0.33f, 0.48f);
 const Vector3f kInk(0.04f, 0.055f, 0.08f);
 const Vector3f kHaze(0.85f, 0.88f, 0.91f);
@@ -25,7 +24,7 @@ const Vector3f kLow(0.80f, 0.84f, 0.885f);
 
 Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + share * (b - a); }
 
-/// White with a little grey at the bottom: the shape stands on something.
+/// White with some grey at the bottom, as a ground for the shape.
 Vector3f background(float height_share) { return mix(Vector3f::Ones(), kLow, height_share * height_share); }
 
 float diffuse(const Vector3f& normal) { return std::max(normal.dot(kKeyLight), 0.0f); }
@@ -33,7 +32,7 @@ float highlight(const Vector3f& normal, float sharpness) {
   return std::pow(std::max(normal.dot(kHalfway), 0.0f), sharpness);
 }
 
-/// Everything in a panel, at the resolution of the samples.
+/// All layers of a panel, at the resolution of the samples.
 struct Layers {
   Layers(std::uint32_t width, std::uint32_t height) : front(width, height), back(width, height), marks(width, height) {}
   SurfaceLayer front;
@@ -53,7 +52,7 @@ class Composer {
     Vector3f colour = background(height_share);
     if (layers_.back.nearness[pixel] > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
-    // A disc in front of the wall can only be a disc that sticks out by its own size: the wall stays in front of it.
+    // A disc in front of the wall protrudes only by its own size: the wall stays in front of it.
     if (layers_.front.nearness[pixel] > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
     return on_line(x, y) ? mix(colour, kInk, 0.60f) : colour;
   }
@@ -72,8 +71,8 @@ class Composer {
     return mix(below, kGlass * light, 0.12f + 0.30f * (1.0f - facing));
   }
 
-  /// A disc or a ball: lit by the sky, which what is near takes away, and by a lamp. Discs are darker at the rim so
-  /// that they can be told apart, and paler farther away.
+  /// A disc or a ball, lit by the sky, which nearby marks occlude, and by a lamp. Discs are darker at the rim, which
+  /// distinguishes them, and paler farther away.
   Vector3f mark(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
     const Vector3f& normal = layers_.marks.surface.normal[pixel];
     const Vector3f colour = palette_colour(layers_.marks.value[pixel]);
@@ -88,8 +87,8 @@ class Composer {
     return mix(lit, kHaze, 0.05f * std::clamp(depth, 0.0f, 1.0f));
   }
 
-  /// The part of the sky that neighbours leave: 1 on an open plain. Eight places around the sample are asked, others
-  /// for each sample of a pixel, on one spiral.
+  /// The part of the sky that neighbours leave visible: 1 on an open plain. Eight positions around the sample are
+  /// tested, different ones for each sample of a pixel, on one spiral.
   float openness(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
     constexpr int kAsked = 8;
     const SurfaceLayer& surface = layers_.marks.surface;
@@ -133,8 +132,8 @@ class Composer {
     return mix(glass, Vector3f::Ones(), 0.30f * highlight(outward, 48.0f));
   }
 
-  /// Does the near wall end or bend sharply within half a pixel to the right or below? Drawn as a thin line, this shows
-  /// the outline and the creases of the shape.
+  /// True if the near wall ends or bends sharply within half a pixel to the right or below. Drawn as a thin line, this
+  /// shows the outline and the creases of the shape.
   bool on_line(std::uint32_t x, std::uint32_t y) const {
     constexpr float kCrease = 0.80f;
     constexpr std::uint32_t kStep = kCpuSamples / 2;
@@ -160,7 +159,7 @@ struct Band {
   std::uint32_t top = 0, height = 0;
 };
 
-/// The balls that are seen in the band, and where in it.
+/// The balls that are visible in the band, with the part in which each is visible.
 std::vector<Mark> balls_in(const std::vector<Mark>& balls, const Band& band) {
   const auto top = static_cast<float>(band.top), height = static_cast<float>(band.height);
   std::vector<Mark> out;
@@ -184,7 +183,7 @@ void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, c
   }
 }
 
-/// With rows above and below, from which light is taken: kGreatestReach, and one for lines.
+/// Draws with rows above and below that may shade the band: kGreatestReach, and one for lines.
 void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
                const Band& band, Picture& picture) {
   constexpr std::uint32_t kBorder = static_cast<std::uint32_t>(kGreatestReach) + 1;

@@ -1,4 +1,4 @@
-// A part of a picture that shows one thing, and what both ways of drawing it have in common.
+// A part of a picture that shows one subject, and the common part of both ways to draw it.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace medial_vk::picture {
 struct Panel {
   std::uint32_t left = 0;  // In the picture, pixels; panels are as high as the picture.
   std::uint32_t width = 0;
-  bool balls = false;  // Else the mesh with the discs.
+  bool balls = false;  // Otherwise the mesh with the discs.
 };
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width);
 
-/// Pixels of the picture per pixel of the letters: text of a large picture is read as well as that of a small one.
+/// Pixels of the picture per pixel of the letters, so that text is as legible in a large picture as in a small one.
 inline std::uint32_t text_scale(const Picture& picture) {
   return std::max(1u, (std::min(picture.width, picture.height) + 225) / 450);
 }
 
-/// Margins around the shape, in samples; the legend is below it.
+/// Margins around the shape, in samples, above the legend.
 inline Frame frame_of(const Panel& panel, const Picture& picture, std::uint32_t samples) {
   const float w = static_cast<float>(panel.width * samples), h = static_cast<float>(picture.height * samples);
   const float legend =
@@ -33,26 +33,26 @@ inline Frame frame_of(const Panel& panel, const Picture& picture, std::uint32_t 
   return {0.06f * w, 0.06f * h, 0.94f * w, h - legend};
 }
 
-/// The greatest distance, in pixels, at which something takes light from a mark.
+/// The greatest distance, in pixels, at which a mark shades another.
 constexpr float kGreatestReach = 32;
-/// The same as a part of the shape's radius.
+/// The same distance as a part of the radius of the shape.
 constexpr float kReach = 0.12f;
-/// Discs are never smaller, pixels.
+/// The least radius of discs, in pixels.
 constexpr float kLeastDiscRadius = 0.8f;
 
-/// The balls that are seen, at most one for each pixel.
+/// The visible balls, at most one for each pixel.
 std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture);
 
 constexpr std::uint32_t kCpuSamples = 2;  // Per side.
-/// 450 MiB of layers. The usual picture is drawn at once.
+/// 450 MiB of layers. The default picture is drawn in one band.
 constexpr std::uint64_t kCpuSamplesAtOnce = 1u << 23;
 
-/// On the CPU, 2 x 2 samples per pixel, into the panel's part of the picture. In bands of rows of so many samples, and
-/// some rows more, so that memory does not grow with the picture.
+/// Draws on the CPU, with 2 x 2 samples per pixel, into the panel's part of the picture. Bands of rows of
+/// `samples_at_once` samples, with a few extra rows, keep memory independent of the size of the picture.
 void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
                 std::uint64_t samples_at_once = kCpuSamplesAtOnce);
 
-/// Into the lower right corner.
+/// Draws into the lower right corner.
 void draw_legend(const Scene& scene, Picture& picture);
 
 }  // namespace medial_vk::picture

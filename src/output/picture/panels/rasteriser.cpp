@@ -39,7 +39,7 @@ class ScreenTriangle {
     const auto [least, greatest] = std::minmax({p_[0].y, p_[1].y, p_[2].y});
     return pixels_between(least, greatest, height);
   }
-  /// Each weight is at least 0 exactly if the point is inside.
+  /// All weights are at least 0 exactly if the point is inside.
   Vector3f weights(float x, float y) const {
     const float b = ((x - p_[0].x) * (p_[2].y - p_[0].y) - (y - p_[0].y) * (p_[2].x - p_[0].x)) * inverse_area_;
     const float c = ((p_[1].x - p_[0].x) * (y - p_[0].y) - (p_[1].y - p_[0].y) * (x - p_[0].x)) * inverse_area_;
@@ -83,7 +83,7 @@ struct ScreenDisc {
 };
 
 ScreenDisc place_disc(const Mark& mark, const Camera& camera, float least_radius) {
-  constexpr float kLeastFlattening = 0.35f;  // A disc that is seen from its edge does not vanish.
+  constexpr float kLeastFlattening = 0.35f;  // A disc seen from its rim does not vanish.
   ScreenDisc disc;
   disc.centre = camera.project(mark.centre);
   disc.radius = std::max(mark.radius * camera.scale_at(disc.centre.nearness), least_radius);
@@ -92,7 +92,7 @@ ScreenDisc place_disc(const Mark& mark, const Camera& camera, float least_radius
   disc.flattening = std::max(disc.normal.z(), kLeastFlattening);
   const float tilt = std::hypot(disc.normal.x(), disc.normal.y());
   disc.tilt_x = tilt > 1e-6f ? disc.normal.x() / tilt : 1.0f;
-  disc.tilt_y = tilt > 1e-6f ? -disc.normal.y() / tilt : 0.0f;  // The screen's y points down.
+  disc.tilt_y = tilt > 1e-6f ? -disc.normal.y() / tilt : 0.0f;  // The y axis of the screen points down.
   return disc;
 }
 
@@ -117,16 +117,16 @@ void draw_disc(const ScreenDisc& disc, float value, float nearness_per_pixel, Ma
   }
 }
 
-/// Where the shadow of a ball begins and ends on a line at a distance of 1 from the eye: the tangents in a plane
-/// through the eye. `across` and `away` are of its centre in that plane, away > radius.
+/// The interval in which the shadow of a ball meets a line at a distance of 1 from the eye: the tangents in a plane
+/// through the eye. `across` and `away` are coordinates of its centre in that plane, away > radius.
 std::pair<float, float> shadow(float across, float away, float radius) {
   const float square = away * away - radius * radius;
   const float root = radius * std::sqrt(std::max(across * across + square, 0.0f));
   return {(across * away - root) / square, (across * away + root) / square};
 }
 
-/// Calls `put(x, y, nearness, normal)` for the pixels of a ball within `part`, unless `hides(x, y, nearness)` says that
-/// even the nearest point of the ball is hidden there.
+/// Calls `put(x, y, nearness, normal)` for the pixels of a ball within `part`, unless `hides(x, y, nearness)` reports
+/// that even the nearest point of the ball is hidden at that pixel.
 template <class Hides, class Put>
 void draw_ball(const Mark& ball, const Camera& camera, const Frame& part, const Hides& hides, const Put& put) {
   const Vector3f seen = camera.turn(ball.centre);
@@ -144,7 +144,7 @@ void draw_ball(const Mark& ball, const Camera& camera, const Frame& part, const 
   for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
     for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
       if (hides(x, y, greatest_nearness)) continue;
-      // The ray through the sample is t * d. With w from where it is as far away as the centre, to the centre, nothing
+      // The ray through the sample is t * d. With w from its point at the depth of the centre to the centre, nothing
       // large cancels: the distance of the ray from the centre is |d x w| / |d|.
       const Vector3f d((static_cast<float>(x) + 0.5f - camera.offset_x()) / pixels,
                        (static_cast<float>(y) + 0.5f - camera.offset_y()) / pixels, 1.0f);
@@ -209,7 +209,7 @@ void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples
 
 std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
                              std::uint32_t height) {
-  // The nearest first: what is behind them is passed over quickly.
+  // The nearest come first, so that hidden ones are skipped quickly.
   std::vector<std::size_t> order(balls.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::vector<float> front(balls.size());
@@ -237,7 +237,7 @@ std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, 
     if (nearest[pixel] == 0) continue;
     const std::size_t column = pixel % width, row = pixel / width;
     const auto x = static_cast<float>(column), y = static_cast<float>(row);
-    Frame& part = parts[owner[pixel]];  // and a pixel around it, where it may still hide half of a neighbour's
+    Frame& part = parts[owner[pixel]];  // with a margin of one pixel, where it may hide half of a neighbour's
     part = {std::min(part.left, std::max(x - 1, 0.0f)), std::min(part.top, std::max(y - 1, 0.0f)),
             std::max(part.right, std::min(x + 2, whole.right)), std::max(part.bottom, std::min(y + 2, whole.bottom))};
   }

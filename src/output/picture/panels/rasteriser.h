@@ -1,4 +1,4 @@
-// Triangles, discs and balls into layers of pixels with a depth each.
+// Rasterises triangles, discs and balls into layers of pixels with a depth each.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 
 namespace medial_vk::picture {
 
-/// A surface as it appears in every pixel. Normals are in view space.
+/// A surface sampled in every pixel. Normals are in view space.
 struct SurfaceLayer {
   SurfaceLayer(std::uint32_t w, std::uint32_t h)
       : width(w), height(h), nearness(std::size_t{w} * h, 0.0f), normal(std::size_t{w} * h, Eigen::Vector3f::Zero()) {}
 
   std::uint32_t width;
   std::uint32_t height;
-  std::vector<float> nearness;          // 0: nothing here.
+  std::vector<float> nearness;          // 0: the pixel is empty.
   std::vector<Eigen::Vector3f> normal;  // Unit vectors.
 };
 
-/// Marks: a surface with a place in the palette per pixel and the distance from the disc's centre.
+/// Marks: a surface with a position in the palette per pixel, and the distance from the centre of the disc.
 struct MarkLayer {
   MarkLayer(std::uint32_t w, std::uint32_t h) : surface(w, h), value(surface.nearness.size(), 0.0f), rim(value) {}
 
-  /// Unless something is nearer.
+  /// Writes the pixel unless something nearer is present.
   void put(std::uint32_t x, std::uint32_t y, float nearness, const Eigen::Vector3f& normal, float mark_value,
            float mark_rim);
 
@@ -40,13 +40,13 @@ enum class Keep { kNearest, kFarthest };
 
 void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer);
 
-/// Discs of at least `least_radius` pixels. Those seen from the edge are kept thick enough to be seen.
+/// Discs of at least `least_radius` pixels. Those seen from the rim are kept thick enough to be visible.
 void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer);
 
-/// Each within the part where it is seen; `samples` per pixel and side.
+/// Draws each ball within the part where it is visible; `samples` per pixel and side.
 void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer);
 
-/// Those of the balls that are the nearest in the middle of a pixel, the nearest first, and where they are.
+/// The balls that are nearest at the centre of a pixel, the nearest first, each with the part where it is visible.
 std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
                              std::uint32_t height);
 

@@ -18,8 +18,8 @@ using Eigen::Vector3f;
 
 constexpr double kDiscRadius = 0.75;  // In voxels: the discs of neighbouring voxels overlap into a sheet.
 
-/// From units of the mesh to those of the camera. Differences are taken in double: a small shape far from the origin
-/// keeps its digits.
+/// Maps from units of the mesh to those of the camera. Differences are taken in double, so that a small shape far from
+/// the origin keeps its digits.
 class Placement {
  public:
   explicit Placement(std::span<const Point> points) {
@@ -57,7 +57,7 @@ Vector3f sheet_normal(const MedialSphere& sphere) {
 
 struct Interval {
   double least = 0, greatest = 1;
-  /// 0 to 1; the middle if there is but one value.
+  /// 0 to 1; the middle if all values are equal.
   float share(double value) const {
     return greatest > least ? static_cast<float>(std::clamp((value - least) / (greatest - least), 0.0, 1.0)) : 0.5f;
   }
@@ -70,7 +70,7 @@ Interval radii_of(std::span<const MedialSphere> spheres) {
   return {least->radius, greatest->radius};
 }
 
-/// Where in the palette the colour of a sphere is.
+/// Assigns to a sphere the position of its colour in the palette.
 class Scale {
  public:
   Scale(std::span<const MedialSphere> spheres, const PictureOptions& options) : colour_(options.colour) {
@@ -102,7 +102,7 @@ class Scale {
   }
 
  private:
-  /// The first sheets with their numbers; what has none is grey.
+  /// The first sheets with their numbers; points without a sheet are grey.
   static std::vector<std::pair<std::size_t, std::string>> swatches(std::span<const MedialSphere> spheres) {
     constexpr std::size_t kMost = 8;
     std::set<std::int32_t> sheets;

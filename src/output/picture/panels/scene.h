@@ -1,5 +1,5 @@
-// What is drawn, in the units of the camera: the mesh around the origin in a ball of radius 1. Both ways of drawing
-// start from it.
+// The objects of a picture, in the units of the camera: the mesh around the origin in a ball of radius 1. Both ways of
+// drawing start from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,11 +24,11 @@ struct Surface {
 struct Mark {
   Eigen::Vector3f centre;
   float radius = 0;        // Of the disc or of the ball.
-  Eigen::Vector3f normal;  // Of the sheet; unit length, either side. Nobody asks a ball.
-  float value = 0;         // Where in the palette its colour is: 2.5 is half way from the third to the fourth.
-  Frame seen = {};         // The part of the panel outside of which a ball is hidden, pixels. Nobody asks a disc.
+  Eigen::Vector3f normal;  // Of the sheet; unit length, either side. Not used for balls.
+  float value = 0;         // Position of its colour in the palette: 2.5 is half way from the third to the fourth.
+  Frame seen = {};         // The part of the panel outside of which a ball is hidden, pixels. Not used for discs.
 };
-static_assert(sizeof(Mark) == 48);  // As the shaders read it.
+static_assert(sizeof(Mark) == 48);  // The layout that the shaders read.
 
 struct Legend {
   std::string title;
@@ -43,7 +43,7 @@ struct Scene {
   Legend legend;
 };
 
-/// `voxel_size` in units of the mesh. Makes discs and balls as far as they are shown.
+/// `voxel_size` is in units of the mesh. Discs and balls are made only if they are shown.
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                  const PictureOptions& options);
 

@@ -7,11 +7,11 @@
 
 namespace medial_vk::picture {
 
-constexpr std::uint32_t kGlyphWidth = 6;   // With the gap to the next one.
-constexpr std::uint32_t kGlyphHeight = 9;  // With the part below the base line.
+constexpr std::uint32_t kGlyphWidth = 6;   // Includes the gap to the next glyph.
+constexpr std::uint32_t kGlyphHeight = 9;  // Includes the part below the base line.
 
 /// Calls `set_pixel(x, y)` for every dark pixel of the text, from (0, 0) at its upper left. Characters that the font
-/// lacks (it has digits, lower case letters and a little punctuation) are left blank.
+/// lacks (it has digits, lower case letters and some punctuation) stay blank.
 void draw_text(std::string_view text, const std::function<void(std::uint32_t x, std::uint32_t y)>& set_pixel);
 
 }  // namespace medial_vk::picture

@@ -6,7 +6,7 @@ layout(location = 0) out vec2 at;            // samples
 layout(location = 1) flat out vec4 ball;     // centre from the eye, y down and z away; radius
 layout(location = 2) flat out float value;
 
-// Where the shadow of the ball begins and ends on a line at a distance of 1 from the eye: the tangents in a plane
+// The interval in which the shadow of the ball meets a line at a distance of 1 from the eye: the tangents in a plane
 // through the eye.
 vec2 shadow(float across, float away, float radius) {
   float square = away * away - radius * radius;

@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The light in a picture: from the layers to pixels. panel.cpp does the same on the CPU: change both, and the tests will
-// say whether they still agree.
+// The lighting of a picture: from the layers to pixels. panel.cpp does the same on the CPU: change both; the tests
+// compare them.
 #include "panel.glsl"
 layout(set = 0, binding = 1) readonly buffer Palette { vec4 palette[]; };
-layout(set = 0, binding = 2) uniform sampler2D front;       // normal; w: something is here
-layout(set = 0, binding = 3) uniform sampler2D back;        // the same
-layout(set = 0, binding = 4) uniform sampler2D marks;       // x and y of the normal, place in the palette, rim or -1
+layout(set = 0, binding = 2) uniform sampler2D front;       // normal; w: 1 where a surface is present
+layout(set = 0, binding = 3) uniform sampler2D back;        // as `front`
+layout(set = 0, binding = 4) uniform sampler2D marks;       // x and y of the normal, position in the palette, rim or -1
 layout(set = 0, binding = 5) uniform sampler2D mark_depth;
-layout(location = 0) out vec4 pixel;  // light; the image's format makes numbers of it
+layout(location = 0) out vec4 pixel;  // linear light; the format of the image encodes it
 
 const vec3 key_light = normalize(vec3(-0.45, 0.65, 0.62));  // view space, towards the light
 const vec3 halfway = normalize(key_light + vec3(0.0, 0.0, 1.0));
@@ -41,8 +41,8 @@ float taken_by(ivec2 at, ivec2 offset, float nearness, float unit, float reach, 
   return max(dot(normal, to) / size - 0.08, 0.0) / (1.0 + share * share);
 }
 
-// The part of the sky that neighbours leave: 1 on an open plain. Eight places around the sample are asked, others for
-// each sample of a pixel, on one spiral.
+// The part of the sky that neighbours leave visible: 1 on an open plain. Eight positions around the sample are tested,
+// different ones for each sample of a pixel, on one spiral.
 float openness(ivec2 at, float nearness, vec3 normal) {
   const int asked = 8;
   int side = int(panel.layer.z), samples = side * side;
@@ -57,8 +57,8 @@ float openness(ivec2 at, float nearness, vec3 normal) {
   return 1.0 - 0.85 * min(1.6 * taken / float(asked), 1.0);
 }
 
-// A disc or a ball: lit by the sky, which what is near takes away, and by a lamp. Discs are darker at the rim so that
-// they can be told apart, and paler farther away.
+// A disc or a ball, lit by the sky, which nearby marks occlude, and by a lamp. Discs are darker at the rim, which
+// distinguishes them, and paler farther away.
 vec3 mark_colour(ivec2 at, vec4 mark) {
   vec3 normal = vec3(mark.xy, sqrt(max(1.0 - dot(mark.xy, mark.xy), 0.0)));
   float depth = texelFetch(mark_depth, at, 0).r, nearness = nearness_of(depth);
@@ -78,8 +78,8 @@ vec3 over_front_wall(vec3 colour, vec3 normal) {
   return mix(seen, vec3(1.0), 0.30 * highlight(outward, 48.0));
 }
 
-// Does the near wall end or bend sharply within half a pixel to the right or below? Drawn as a thin line, this shows
-// the outline and the creases of the shape.
+// True if the near wall ends or bends sharply within half a pixel to the right or below. Drawn as a thin line, this
+// shows the outline and the creases of the shape.
 bool on_line(ivec2 at, vec4 here) {
   const float crease = 0.80;
   int one = max(int(panel.layer.z) / 2, 1);

@@ -5,7 +5,7 @@ layout(location = 0) in vec2 from_centre;
 layout(location = 1) flat in vec4 normal_value;
 layout(location = 2) flat in vec4 shape;
 layout(location = 3) flat in vec2 centre_nearness;
-layout(location = 0) out vec4 seen;  // x and y of the normal, place in the palette, distance from the centre
+layout(location = 0) out vec4 seen;  // x and y of the normal, position in the palette, distance from the centre
 
 void main() {
   float across = dot(from_centre, shape.xy);

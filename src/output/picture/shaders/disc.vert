@@ -3,12 +3,12 @@
 #include "panel.glsl"
 #include "marks.glsl"
 layout(location = 0) out vec2 from_centre;          // samples, y down
-layout(location = 1) flat out vec4 normal_value;    // normal in view space, towards the viewer; place in the palette
+layout(location = 1) flat out vec4 normal_value;    // normal in view space, towards the viewer; position in the palette
 layout(location = 2) flat out vec4 shape;           // direction of the tilt, flattening, radius
-layout(location = 3) flat out vec2 centre_nearness;  // at the centre, and what a step of a sample's length takes
+layout(location = 3) flat out vec2 centre_nearness;  // at the centre, and its decrease over the length of a sample
 
 void main() {
-  const float least_flattening = 0.35;  // a disc that is seen from its edge does not vanish
+  const float least_flattening = 0.35;  // a disc that is seen from its rim does not vanish
   Mark m = mark();
   vec3 seen = turn(m.centre.xyz);
   float nearness = 1.0 / (panel.layer.w - seen.z);

@@ -1,8 +1,8 @@
-// Marks are squares of six corners without attributes: their numbers say which mark and which corner.
+// Marks are squares of six corners without attributes: the vertex index gives the mark and the corner.
 struct Mark {
   vec4 centre;  // w: radius
-  vec4 normal;  // w: place in the palette
-  vec4 seen;    // of a ball: left, top, right and bottom of where it is seen, pixels of the panel
+  vec4 normal;  // w: position in the palette
+  vec4 seen;    // for a ball: left, top, right and bottom of its visible part, pixels of the panel
 };
 layout(set = 0, binding = 0) readonly buffer Marks { Mark marks[]; };
 

@@ -13,7 +13,7 @@ namespace medial_vk::picture {
 namespace {
 
 constexpr std::uint32_t kBorder =
-    static_cast<std::uint32_t>(kGreatestReach) + 1;  // Pixels around a tile that light it.
+    static_cast<std::uint32_t>(kGreatestReach) + 1;  // Pixels around a tile that may shade it.
 constexpr std::uint32_t kTileSamples = 1024;         // Per side: 45 MiB of layers.
 constexpr std::uint32_t kMarksAtOnce = 1u << 20;     // 48 MiB: every device can bind 128.
 constexpr std::uint32_t kCornersOfMark = 6;
@@ -32,7 +32,7 @@ DrawingBuffer upload(DrawingDevice& device, const std::vector<T>& values, VkBuff
   return buffer;
 }
 
-/// More than can be bound at once are padded to whole batches.
+/// Lists longer than one binding are padded to whole batches.
 DrawingBuffer upload_marks(DrawingDevice& device, const std::vector<Mark>& marks) {
   return upload(device, marks, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, marks.size() > kMarksAtOnce ? kMarksAtOnce : 1);
 }
@@ -109,7 +109,7 @@ class DevicePainter::Impl {
   }
 
   void create_targets() {
-    const DrawingImage wall_depth = create_depth();  // For both: each is done with it when the next begins.
+    const DrawingImage wall_depth = create_depth();  // For both: each is finished with it when the next begins.
     mark_depth_ = create_depth();
     front_ = create_layer(wall_depth);
     back_ = create_layer(wall_depth);
@@ -186,7 +186,7 @@ class DevicePainter::Impl {
     writes[2].descriptorCount = static_cast<std::uint32_t>(images.size());
     writes[2].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     writes[2].pImageInfo = images.data();
-    // The four images have a binding each: an update runs on into the next ones.
+    // The four images have a binding each: an update continues into the next bindings.
     device_.vk.UpdateDescriptorSets(device_.device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                                     nullptr);
   }
@@ -315,7 +315,7 @@ class DevicePainter::Impl {
     }
   }
 
-  DrawingDevice device_;  // goes last: the others are destroyed by it
+  DrawingDevice device_;  // destroyed last: the others are destroyed through it
   std::uint32_t samples_;
   VkExtent2D tile_, layer_;  // pixels, samples
   DrawingPipelines pipelines_;

@@ -28,7 +28,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<std::uint64_t>* co
   return info;
 }
 
-/// Never closed: the runtime uses the same one.
+/// Never closed, because the runtime uses the same library.
 PFN_vkGetInstanceProcAddr load_vulkan() {
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
@@ -56,7 +56,7 @@ DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation, P
     physical_device_ = find(wanted);
     create_device(physical_device_);
   } catch (...) {
-    destroy();  // the destructor of an object that was never whole is not called
+    destroy();  // the destructor of a partially constructed object is not called
     throw;
   }
 }
@@ -156,7 +156,7 @@ void DrawingDevice::create_device(VkPhysicalDevice physical_device) {
   vk.GetDeviceQueue(device, queue_family, 0, &queue);
 }
 
-/// Not every device draws into depths of 32 bits.
+/// Some devices do not support depth targets of 32 bits.
 void DrawingDevice::check_format(VkFormat format, VkImageUsageFlags usage) const {
   constexpr std::array<std::pair<VkImageUsageFlags, VkFormatFeatureFlags>, 4> kNeeded = {
       {{VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT},

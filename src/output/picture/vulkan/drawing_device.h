@@ -1,5 +1,5 @@
-// A Vulkan device that draws: own instance, own device, one queue, and buffers and images with a memory block each.
-// Inside this folder what fails is thrown as a DrawingError; it does not leave the folder (device_painter.h).
+// A Vulkan device that draws: its own instance, device and queue, and buffers and images with a memory block each.
+// Inside this folder failures are thrown as DrawingError, which does not leave the folder (device_painter.h).
 #pragma once
 
 #include <atomic>
@@ -32,8 +32,8 @@ struct DrawingImage {
 
 class DrawingDevice {
  public:
-  /// On the physical device that is meant by `wanted`: the one of its index, which must have its name. `loader`: null
-  /// for that of the system.
+  /// Opens the physical device that `wanted` describes: the one with its index, which must have its name. `loader`:
+  /// null for that of the system.
   DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader);
   DrawingDevice(const DrawingDevice&) = delete;
   DrawingDevice& operator=(const DrawingDevice&) = delete;
@@ -42,7 +42,7 @@ class DrawingDevice {
   DrawingBuffer create_buffer(VkDeviceSize bytes, VkBufferUsageFlags usage);  // visible to the host, coherent
   DrawingImage create_image(VkExtent2D size, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect);
 
-  /// What is to be done before the device goes, the last first.
+  /// Registers an action to run before the device is destroyed, the last first.
   void at_end(std::function<void()> destroy) { at_end_.push_back(std::move(destroy)); }
   static void check(VkResult result, const char* call);
 

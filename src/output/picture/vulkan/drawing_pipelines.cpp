@@ -55,7 +55,7 @@ VkRenderPass create_pass(DrawingDevice& device, std::span<const VkAttachmentDesc
   return pass;
 }
 
-/// After what the tile before has read of the layers, and before what this tile reads of them.
+/// Runs after the previous tile has read the layers, and before this tile reads them.
 VkRenderPass create_layer_pass(DrawingDevice& device) {
   const std::array attachments = {attachment(kLayerFormat, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
                                   attachment(kDepthFormat, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL)};
@@ -113,7 +113,7 @@ VkPipelineLayout create_layout(DrawingDevice& device, VkDescriptorSetLayout set_
   return layout;
 }
 
-/// A shader that is gone when the pipeline has been made.
+/// A shader module that is destroyed once the pipeline exists.
 class Shader {
  public:
   Shader(DrawingDevice& device, std::span<const std::uint32_t> code) : device_(device) {

@@ -1,4 +1,4 @@
-// What is drawn into and with what: render passes, layouts, pipelines.
+// Targets and state of drawing: render passes, layouts, pipelines.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr VkFormat kLayerFormat = VK_FORMAT_R16G16B16A16_SFLOAT, kDepthFormat = 
 constexpr VkShaderStageFlags kDrawingStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 struct DrawingPipelines {
-  /// `layer` and `tile`: what is drawn into, samples and pixels. Throws DrawingError.
+  /// `layer` and `tile` are the sizes of the targets, in samples and pixels. Throws DrawingError.
   DrawingPipelines(DrawingDevice& device, VkExtent2D layer, VkExtent2D tile);
 
   VkRenderPass layer_pass = VK_NULL_HANDLE, compose_pass = VK_NULL_HANDLE;

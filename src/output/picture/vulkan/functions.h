@@ -1,5 +1,5 @@
-// The functions of Vulkan that draw a picture. They are found at run time, so that the program starts without a Vulkan
-// loader; in a table each, so that they are nobody else's (the runtime has its own).
+// The functions of Vulkan that draw a picture. They are loaded at run time, so that the program starts without a Vulkan
+// loader, into tables of their own (the runtime has separate ones).
 #pragma once
 
 #define VK_NO_PROTOTYPES
