@@ -1,4 +1,4 @@
-// Which features of a solid its medial balls can touch, and with which spokes.
+// The features of a solid that its medial balls can touch, and the spokes with which they do.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -103,7 +103,7 @@ TEST(ReferenceSpokeCones, UntrustedTrianglesHoldTheirFeatures) {
   EXPECT_EQ(count(mesh).vertices, 0);
 }
 
-/// Arcs of spokes to the edges of a mesh that nothing of is trusted, by the middle of the edge.
+/// Arcs of spokes to the edges of a mesh without trusted normals, by the middle of the edge.
 std::vector<std::pair<Vector3d, reference::Arc>> arcs_of(const Mesh& solid) {
   reference::Mesh mesh = test::to_reference(solid);
   mesh.trusted.clear();
@@ -179,7 +179,7 @@ TEST(ReferenceSpokeCones, NeedlesAreNotTrusted) {
   EXPECT_EQ(std::count(cones.trusted().begin(), cones.trusted().end(), 0), 1);
 }
 
-// Lemma D itself: the spokes of medial points are what their feet allow.
+// Lemma D itself: the spokes of medial points are among those that their feet allow.
 TEST(ReferenceSpokeCones, SpokesOfMedialPointsAreInTheirCaps) {
   Mesh solid = test::make_sphere(1, 80);
   std::mt19937_64 engine(3);
