@@ -26,7 +26,7 @@ vec4 tangent_of(vec3 centre, uint name) {
   return vec4(v / max(d, 1e-30), d - distance_slack(d, step.voxel_size));
 }
 
-// The bounds of the entry that lane k of the eight has loaded.
+// The tangent of the entry that lane k of the eight has loaded.
 vec4 tangent_of_lane(vec4 mine, vec3 centre, uint list_entry, uint k) {
 #ifdef LOCKSTEP
   return from_lane(mine, k);

@@ -97,7 +97,7 @@ TEST(UnionByCgal, OfBallsOfAllSizes) {
 }
 
 TEST(UnionByCgal, OfLattices) {
-  // Squares of these radii are exact: CGAL gets them squared. None touch by their radius alone.
+  // Squares of these radii are exact: CGAL receives them squared. None touch by their radius alone.
   for (const double radius : {0.625, 0.75, 0.8125, 0.875, 1.25, 1.75}) expect_same_union(test::lattice(6, radius));
   for (const double radius : {0.625, 0.75, 2.5, 6.0}) expect_same_union(test::flat_lattice(20, radius));
 }

@@ -117,7 +117,7 @@ TEST_F(Invariance, ScaledByMillions) {
   }
 }
 
-// The names of the vertices do not matter at all: the device gets corners, in the order of the faces.
+// The indices of the vertices do not matter: the device receives corners, in the order of the faces.
 TEST_F(Invariance, VerticesInAnotherOrder) {
   Mesh mixed = solid_;
   std::vector<std::uint32_t> place(mixed.vertices.size());

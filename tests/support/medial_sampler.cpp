@@ -242,7 +242,7 @@ double MedialSampler::object_angle(const Ball& ball) const {
 
 namespace {
 
-/// Takes samples while they are wanted: until enough reach each angle, and no more than that between two angles.
+/// Takes samples while more are needed: until enough reach each angle, and no more than that between two angles.
 class Quota {
  public:
   Quota(const std::vector<double>& angles, std::size_t wanted)

@@ -65,7 +65,7 @@ class MedialSampler {
 };
 
 struct SampleRequest {
-  std::vector<double> angles;    ///< Ascending: at least `wanted` samples reach each of them, as far as there are any.
+  std::vector<double> angles;    ///< Ascending: at least `wanted` samples reach each of them, as long as there are any.
   std::size_t wanted = 0;        ///< By angle; and no more than that between two of them.
   std::size_t most_tries = 100;  ///< Random points, as a multiple of `wanted`.
   std::uint64_t seed = 1;

@@ -128,7 +128,7 @@ TEST(ReadLimits, FilesUpToTheLimitAreRead) {
   EXPECT_TRUE(read_mesh(path).ok());
   EXPECT_TRUE(read_mesh(path, bytes.size()).ok());
   EXPECT_FALSE(read_mesh(path, bytes.size() - 1).ok());
-  std::filesystem::resize_file(path, kMostFileBytes + 1);  // takes no room; refused before a byte is read
+  std::filesystem::resize_file(path, kMostFileBytes + 1);  // occupies no blocks; refused before a byte is read
   const Result<Mesh> mesh = read_mesh(path);
   ASSERT_FALSE(mesh.ok());
   EXPECT_EQ(mesh.error().message, path + ": longer than 4096 MiB, the most that is read");

@@ -96,7 +96,7 @@ TEST(ReferenceSpokeCones, UntrustedTrianglesHoldTheirFeatures) {
   mesh.trusted.pop_back();
   const SpokeCones cones(mesh, reference::Tree(mesh));
   EXPECT_EQ(std::count(cones.trusted().begin(), cones.trusted().end(), 0), 3);
-  // Three triangles at the hole are gone with all their edges, their neighbours' vertices with them.
+  // Three triangles at the hole are dropped with all their edges, and with them the vertices of their neighbours.
   EXPECT_EQ(count(mesh).edges, all.edges - 9);
   mesh.trusted.clear();
   EXPECT_EQ(count(mesh).edges, 0);

@@ -213,8 +213,8 @@ TEST(AbsorbPieces, GivesAPointToThePieceOfMostVoxelsAround) {
   EXPECT_THAT(Drawn({"AAAAAA", "BBBsBB", "BBBBBB"}).handed_out(2, 6), ElementsAreArray({"AAAAAA", "BBBBBB", "BBBBBB"}));
 }
 
-// A strip of one row between A and B gets shorter from both ends, one point per layer: half of it goes to either side,
-// and a point equally near to both goes to the first.
+// A strip of one row between A and B is shortened from both ends, one point per layer: half of it is assigned to either
+// side, and a point equally near to both to the first.
 TEST(AbsorbPieces, LayerByLayer) {
   EXPECT_THAT(Drawn({"AAA       BBB", "AAAssssssBBBB", "AAA       BBB"}).handed_out(7, 13),
               ElementsAreArray({"AAA       BBB", "AAAAAABBBBBBB", "AAA       BBB"}));

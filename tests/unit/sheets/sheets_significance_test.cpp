@@ -171,7 +171,7 @@ TEST(Significance, BallsWithoutWeightAreOfTheSheetsAround) {
 }
 
 // Equal balls; the second and third count as one, 4.25 from the first, which has no weight and reaches farther than the
-// nearer of them, but not as far as their centre: its share goes to no other sheet than its own.
+// nearer of them, but not as far as their centre: its share must go to its own sheet, or it would be lost.
 TEST(Significance, NothingIsLostBetweenAPointAndItsNode) {
   std::vector<MedialSphere> spheres(3);
   Parts parts;
@@ -220,7 +220,7 @@ TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
   EXPECT_NEAR(removal.volume_left[0], balls / measure(parts).volume, 1e-13);
 }
 
-/// Without the bar the union would fall apart, so the smaller ball goes; then the bar may.
+/// Without the bar the union would fall apart, so the smaller ball is removed first; then the bar may follow.
 TEST(SheetRemoval, KeepsTheTopology) {
   const SheetRemoval removal = remove(dumbbell(), RemovalRule::kTopology);
   EXPECT_THAT(removal.sheets, ElementsAre(2, 1));
