@@ -1,11 +1,12 @@
-# Puts the page of --html together from src/page/ and three.js, and embeds it.
+# Combines the page of --html from src/page/ and three.js, and embeds it.
 #   medial_vk_bundle_page(TARGET)
-# adds to TARGET a source that defines page::embedded_page() (src/output/page/embedded_page.h). Without npm, or where its
-# packages cannot be had, that is empty and the build goes on: --html then says what is missing. The packages are looked
-# for anew at every configuration until they are there.
+# adds to TARGET a source that defines page::embedded_page() (src/output/page/embedded_page.h). Without npm, or if its
+# packages cannot be obtained, the page is empty and the build continues: --html then reports the missing program. The
+# packages are sought at every configuration until they are present.
 option(MEDIAL_VK_PAGE "Bundle the page that --html writes (needs node and npm)" ON)
 
-# Sets RESULT to the folder with the packages of src/page/package-lock.json, or to nothing, having said why.
+# Sets RESULT to the folder with the packages of src/page/package-lock.json, or to nothing after a message with the
+# reason.
 function(medial_vk_fetch_page_packages folder result)
   set(${result} "" PARENT_SCOPE)
   if(NOT MEDIAL_VK_PAGE)
@@ -38,12 +39,12 @@ function(medial_vk_fetch_page_packages folder result)
       COMMAND ${NPM_PROGRAM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1
               --fetch-timeout=60000 --loglevel=error
       WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_QUIET TIMEOUT 300)
-    if(NOT failed)  # The program that bundles is one for this kind of machine: does it run?
+    if(NOT failed)  # The bundler is a program for one kind of machine: does it run here?
       execute_process(COMMAND ${NODE_PROGRAM} node_modules/esbuild/bin/esbuild --version
         WORKING_DIRECTORY ${folder} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_QUIET)
     endif()
     if(failed)
-      string(REGEX MATCH "^[^\n]*(\n[^\n]*)?(\n[^\n]*)?(\n[^\n]*)?" why "${why}")  # Its first lines say it.
+      string(REGEX MATCH "^[^\n]*(\n[^\n]*)?(\n[^\n]*)?(\n[^\n]*)?" why "${why}")  # Its first lines state the reason.
       message(STATUS "npm could not fetch the packages of the page (${failed}): the tool is built without it\n${why}")
       return()
     endif()
@@ -66,7 +67,7 @@ function(medial_vk_bundle_page target)
       DEPENDS ${inputs} ${out}/fetched COMMENT "Page of --html" VERBATIM)
   endif()
   set(script ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedPage.cmake)
-  # Named by whether there is a page, so that the other one is made when npm comes or goes.
+  # The name depends on whether there is a page, so that the other source is generated when npm appears or disappears.
   if(packages)
     set(embedded ${out}/embedded_page.cpp)
   else()

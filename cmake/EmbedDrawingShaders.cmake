@@ -1,4 +1,4 @@
-# Compiles GLSL shaders of the graphics stages to SPIR-V, validates them and makes a header of each:
+# Compiles GLSL shaders of the graphics stages to SPIR-V, validates them and generates a header for each:
 #   medial_vk_embed_drawing_shaders(TARGET FOLDER mesh.vert mesh.frag ...)
 # mesh.vert becomes the array kMeshVert in mesh.vert.h, which TARGET can include.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)

@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: the library with its headers, CMake package and pkg-config file, the tool, the
+# The destinations of `cmake --install`: the library with its headers, CMake package and pkg-config file, the tool, the
 # manual and the licence. Everything can be moved after installation: no file holds an absolute path.
 include(CMakePackageConfigHelpers)
 
@@ -19,7 +19,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/medial_vk-config-version.
 install(FILES ${PROJECT_BINARY_DIR}/medial_vk-config.cmake ${PROJECT_BINARY_DIR}/medial_vk-config-version.cmake
   DESTINATION ${package_dir})
 
-# pkg-config: the prefix is found from the place of the file.
+# pkg-config: the prefix is derived from the location of the file.
 file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
 file(RELATIVE_PATH pc_includedir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})

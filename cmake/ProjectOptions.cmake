@@ -19,7 +19,7 @@ function(medial_vk_project_options target)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE")
-      # An object of its own: a program with a C source could not take precompiled headers of another target.
+      # A separate object: a program with a C source could not use precompiled headers of another target.
       if(NOT TARGET medial_vk_keep_libraries)
         add_library(medial_vk_keep_libraries OBJECT ${PROJECT_SOURCE_DIR}/cmake/keep_libraries.c)
       endif()
@@ -28,7 +28,7 @@ function(medial_vk_project_options target)
     endif()
   endif()
   if(MEDIAL_VK_SANITIZE_THREADS)
-    # volk.c too: its global pointers are what threads could race for.
+    # volk.c too: threads could race for its global pointers.
     target_compile_options(${target} PRIVATE -fsanitize=thread -fno-omit-frame-pointer)
     target_compile_definitions(${target} PRIVATE MEDIAL_VK_SANITIZED)
     target_link_options(${target} PUBLIC -fsanitize=thread)

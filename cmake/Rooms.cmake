@@ -1,12 +1,12 @@
-# Targets of the rooms in cmake/rooms.txt, which says what a room is.
+# Targets of the rooms in cmake/rooms.txt, which defines a room.
 #   medial_vk_add_rooms(library OBJECT)   of every room of a part, or of the rooms that are named, and all they use:
 #   medial_vk_add_rooms(ROOMS input cli/options ... STATIC)
 #   medial_vk_room_target(cli/options result)   medial_vk_room_cli_options
-# Room A gets the sources of its folder, its include directories, and what it `uses` and `links` to link with: of rooms of
-# the library the library as a whole where that is a target. A room that is not above its user is an error: there are no
-# cycles.
+# Room A gets the sources of its folder, its include directories, and links the rooms that it `uses` and the targets
+# that it `links`: for rooms of the library, the library as a whole where that is a target. A room that is not above its
+# user is an error, so there are no cycles.
 #   medial_vk_add_room_link_check()   the target medial_vk_linked_rooms
-# Each room as a shared object, whole, with nothing but what it says it uses: the linker refuses what is missing.
+# Each room as a whole shared object that links only the rooms that it uses: the linker rejects missing symbols.
 set(MEDIAL_VK_ROOMS_FILE ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 
 function(medial_vk_room_target room result)
@@ -15,7 +15,7 @@ function(medial_vk_room_target room result)
 endfunction()
 
 # Into global properties: MEDIAL_VK_ROOMS, and of each room ROOM its MEDIAL_VK_ROOM_ROOM_FOLDER, _PART, _USES, _LINKS.
-# Rooms without a part have names of their own, with their tree before them: no target is made of them.
+# Rooms without a part have names of their own, preceded by their tree: they have no target.
 function(_medial_vk_read_rooms)
   get_property(known GLOBAL PROPERTY MEDIAL_VK_ROOMS)
   if(known)
@@ -106,7 +106,7 @@ function(medial_vk_add_rooms)
   _medial_vk_read_rooms()
   get_property(rooms GLOBAL PROPERTY MEDIAL_VK_ROOMS)
   set(wanted ${arg_ROOMS})
-  list(REVERSE rooms)  # users first, so that one pass finds all that they use
+  list(REVERSE rooms)  # users first, so that one pass collects all that they use
   set(chosen)
   foreach(room IN LISTS rooms)
     get_property(part GLOBAL PROPERTY MEDIAL_VK_ROOM_${room}_PART)
@@ -168,6 +168,6 @@ function(medial_vk_add_room_link_check)
     list(APPEND all medial_vk_linked_${name})
   endforeach()
   add_custom_target(medial_vk_linked_rooms DEPENDS ${all})
-  # The check can fail: a room without any of those that it uses.
+  # The check can fail: it must reject a room without any of those that it uses.
   _medial_vk_link_room(medial_vk_linked_without_its_rooms device_mesh)
 endfunction()

@@ -1,5 +1,5 @@
-# Read by ctest when all tests are known: those that get the label `full`, which scripts/test leaves to scripts/test --full.
-# Each takes long and goes over the same ground as shorter ones that stay (docs/testing.md).
+# Read by ctest when all tests are known: assigns the label `full` to those that scripts/test leaves to scripts/test
+# --full. Each takes long and covers the same ground as shorter tests that remain (docs/testing.md).
 set(full
   # Boundaries of four and sixteen times fewer triangles stay.
   analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_16x
@@ -8,16 +8,16 @@ set(full
   analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_16x
   analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_16x
   analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/triaxial_16x
-  # The other runs of Kills write more kinds of files; the other tests of goals meet them one by one.
+  # The other runs of Kills write more kinds of files; the other tests of goals cover them one by one.
   cli.Kills.LeaveWholeFilesOrNone/Spheres
   cli.SpheresCommand.CoversAndBalancedSetsMeetGoals
-  # Other seeds of the same mutations stay, as do levels and smaller covers, and the contacts that a foam holds.
+  # Other seeds of the same mutations remain, as do levels and smaller covers, and the contacts that a foam holds.
   property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/2
   property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/3
   property.SphereCover.CoversEverySolidWithAnyNumber
   property.SphereCover.MoreBallsAreNeverWorse
   property.Foam.BoundsWidthAndDepth
-  # Hundreds of thousands of triangles, in LoopBudget, stay.
+  # Hundreds of thousands of triangles, in LoopBudget, remain.
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
   regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles)
 foreach(name ${full})

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // The share of each ball in a union of balls: its volume and surface in its power cell, in units of its radius. One
-// invocation per ball, in the order of the tree: neighbours run together.
+// invocation per ball, in the order of the tree, so that neighbours run together.
 #include "ball_types.h"
 #include "lanes/workgroup_index.glsl"
 
@@ -14,7 +14,8 @@ layout(set = 0, binding = 3) writeonly buffer Results { MeasuredBall results[]; 
 #include "balls/ball_walk.glsl"
 #include "balls/ball_in_cell.glsl"
 
-// All that the last cut left lay beyond the plane: nothing is there, or a sliver of the cell's displacement.
+// The last cut left only points beyond the plane: the cell is empty, or a sliver of the size of the cell's
+// displacement.
 MeasuredBall empty_cell() {
   float moves = 2.0 * displacement();
   float sliver = beyond > moves ? 0.0 : moves;

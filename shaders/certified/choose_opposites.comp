@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Which samples of the flux (equation 2.4) are two-sided fans (Definition 2.4): nearest to an edge or a vertex, with an
-// opposite that sees the same direction. Most need not ask. Samples nearest to the inside of a face are none. Where the
-// opposite lies on the segment from the sample to its nearest point, whose points all have that nearest point, they are.
-// Of the others the opposites are asked, in groups.
+// Determines the samples of the flux (equation 2.4) that are two-sided fans (Definition 2.4): nearest to an edge or a
+// vertex, with an opposite that sees the same direction. Most need no query. Samples nearest to the inside of a face
+// are no fans. If the opposite lies on the segment from the sample to its nearest point, all points of which have that
+// nearest point, the sample is one. The opposites of the other samples are queried, in groups.
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -43,6 +43,6 @@ void main() {
   uint groups = (count + kFluxGroup - 1u) / kFluxGroup;
   for (uint k = count; k < groups * kFluxGroup; ++k) opposites[base + k] = last;
   tallies[index] = vec4(sum, used, float(count), 0.0);
-  uint slot = atomicAdd(counters[kAsked], groups);  // in any order: every answer goes to its own place
+  uint slot = atomicAdd(counters[kAsked], groups);  // in any order: every result is written to its own slot
   for (uint k = 0u; k < groups; ++k) asked[slot + k] = (base / kFluxGroup) + k;
 }

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Packs the points of the finest voxels, and the voxels that stay undecided, in the order of the voxels' slots. Run
-// twice: to count what became of every voxel, then, after prefix sums, to write (step.second_task).
+// twice: first to count the results of every voxel, then, after prefix sums, to write (step.second_task).
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
@@ -18,7 +18,7 @@ layout(set = 0, binding = 9) readonly buffer GivenUp { uint given_up[]; };
 UndecidedCell describe(uint index) {
   Cell voxel = voxels[index];
   uvec2 reason = reasons[index];
-  if (reason.x == 0u) reason = uvec2(kOtherReason + 1u, floatBitsToUint(2.0));  // nobody asked: wider than the box
+  if (reason.x == 0u) reason = uvec2(kOtherReason + 1u, floatBitsToUint(2.0));  // not classified: wider than the box
   return UndecidedCell(voxel.x, voxel.y, voxel.z, reason.x - 1u, uintBitsToFloat(reason.y), 0u, 0u, 0u);
 }
 

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Does the accepted end of a line lie in the solid? Asked where its cell does not know: next to the boundary, and
-// around the open edges of a mesh. Inside is where the winding number is at least 1/2; where the error bound leaves that
-// open, the line is given up and the voxel stays undecided.
+// Decides whether the accepted end of a line lies in the solid, where its cell does not know: next to the boundary, and
+// around the open edges of a mesh. A point is inside if its winding number is at least 1/2; if the error bound does not
+// decide that, the line is given up and the voxel stays undecided.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
@@ -21,7 +21,7 @@ layout(set = 0, binding = 6) readonly buffer OpenEdges { OpenEdge open_edges[]; 
 #include "lanes/elect.glsl"
 
 bool is_inside_by_tree(vec3 point) {
-  float tolerance = 0.3;  // most points are clear at once
+  float tolerance = 0.3;  // decides most points at once
   Winding w;
   for (uint attempt = 0;; ++attempt) {
     w = winding_number(point, tolerance);

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The children that the first test of mark_contacts.comp leaves open: is there an axis that all contacts obey
-// (axis_test.glsl)? It is sought by moving it towards the contact that violates most (as Badoiu and Clarkson do for
-// smallest enclosing balls).
+// Examines the children that the first test of mark_contacts.comp leaves open: is there an axis that all contacts obey
+// (axis_test.glsl)? The axis is moved towards the contact that violates the condition most (as Badoiu and Clarkson do
+// for smallest enclosing balls).
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 11
@@ -20,26 +20,27 @@ layout(set = 0, binding = 8) buffer States { uvec4 states[]; };     // kept, lis
 layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };  // kept children that do not know their side
 layout(set = 0, binding = 10) readonly buffer Counts { uvec4 counts[]; };  // y: contacts that touch
 
-const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most
-const uint kDirectionSweeps = 3;  // with directions too; two more for every level below the finest voxel
+const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most cells
+const uint kDirectionSweeps = 3;  // with directions too; two more per level below the finest voxel
 // lavapipe ends the loops of an invocation after 65,535 iterations in all, counted for up to 16 neighbours together. A
-// sweep takes an iteration per entry of the list at most (one for a word without any, which stands for some), so one that
-// may make s sweeps takes kLoopBudget / s for each. Of the up to 6 sweeps by normals the k-th is made by those with s >= k
-// only, and all meet before the sweeps by directions, of which that is true as well, up to 23 (10 levels below the
-// finest voxel): less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 + 1/2 + ... + 1/23), or 64,400, with the sweeps themselves. Cells with lists too long for a sweep are kept unproved.
+// sweep takes at most one iteration per entry of the list (one for a word without any, which replaces some), so a cell
+// that may make s sweeps takes kLoopBudget / s for each. Of the up to 6 sweeps by normals the k-th is made only by
+// cells with s >= k, and all meet before the sweeps by directions, for which the same holds, up to 23 (10 levels below
+// the finest voxel): less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 + 1/2 + ... + 1/23), or 64,400, with the sweeps
+// themselves. Cells with lists too long for a sweep are kept unproved.
 const uint kLoopBudget = 10400;
 
 float theta, cos_theta;
 vec3 centre, to_nearest;
 
-// How far contact t is from obeying axis a by its normal alone (cosine; below 0: it obeys).
+// Amount by which contact t violates axis a by its normal alone (cosine; below 0: it obeys).
 float normal_violation(uint t, vec3 axis, out vec3 help) {
   vec4 normal = triangle_texel(4 * t + 3);
   help = normal.xyz;
   return normal.w > 0.5 ? cos_theta - dot(normal.xyz, axis) : 4.0;
 }
 
-// The same by its normal or its direction, and the vector that would help.
+// The same by its normal or its direction, and the vector towards which the axis must move.
 float violation(uint t, vec3 axis, out vec3 help) {
   TriangleTexels texels = load_triangle(t);
   bool trusted = texels.normal.w > 0.5;
@@ -53,8 +54,8 @@ float violation(uint t, vec3 axis, out vec3 help) {
   return min(by_normal, by_direction);
 }
 
-// One sweep over the contacts, an iteration for each and for each word without any: the worst violation, the contact
-// that makes it, and the vector that would help it.
+// One sweep over the contacts, an iteration for each contact and for each word without any: the worst violation, its
+// contact, and the vector towards which the axis must move.
 float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, bool directions, out vec3 towards,
                       out uint offender) {
   float worst = -2.0;
@@ -83,7 +84,7 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
   }
 }
 
-// `tests`: distances asked.
+// `tests`: number of distances evaluated.
 bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, inout uint tests) {
   uint sweeps = kLoopBudget / parent.list_count;
   vec3 axis = unit_or_zero(axes[item].xyz), towards;
@@ -104,7 +105,7 @@ bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, ino
     float worst = worst_violation(parent, word_base, word_count, axis, true, towards, offender);
     tests += touching;
     if (worst < 0.0) return true;
-    if (worst > 3.0) return false;  // a contact without any usable direction
+    if (worst > 3.0) return false;  // a contact without a usable direction
     Obedience next = obedience_of(offender, centre, theta);
     if (incompatible(last, next)) return false;
     last = next;
@@ -130,5 +131,5 @@ void main() {
   if (is_empty)
     states[item] = uvec4(0);
   else if (must_ask_side(states[item].w, nearest_distance))
-    asked[atomicAdd(counters[kAsked], 1u)] = item;  // in any order: every answer goes to its own state
+    asked[atomicAdd(counters[kAsked], 1u)] = item;  // in any order: every result is written to its own state
 }

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// After the search of a level: voxels that have elected a line get their point, from the cell whose line it is, and all
-// their cells are done. What is left is subdivided, or stays undecided: at the last level, or where subdividing is
-// hopeless or settles nothing. Where another search of the level follows (step.second_task), all that is left goes
-// there.
+// Runs after the search of a level: voxels that have elected a line receive their point, from the cell whose line it
+// is, and all their cells are done. The remaining cells are subdivided, or stay undecided: at the last level, or where
+// subdivision is hopeless or settles nothing. If another search of the level follows (step.second_task), all remaining
+// cells go there.
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) buffer Counters { uint counters[]; };

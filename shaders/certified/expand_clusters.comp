@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Writes the kept children of parents whose lists are of clusters, with lists of triangles: those of the contacts'
-// triangles that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One workgroup
-// of eight lanes per child. Triangles dismiss more than clusters do (axis_test.glsl): a child that is empty, as is seen
-// only now, keeps its place, with an empty list.
+// Writes the kept children of parents with lists of clusters, with lists of triangles: those triangles of the contacts
+// that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One workgroup of eight
+// lanes per child. Triangles dismiss more than clusters do (axis_test.glsl): a child that is found empty only here
+// keeps its slot, with an empty list.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -24,7 +24,7 @@ layout(set = 0, binding = 7) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 8) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 9) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 10) buffer Lists { uint lists[]; };
-// x: between rounds, entries so far; z: cluster of the second witness; w: mean axis of the clusters, packed
+// x: between rounds, number of entries so far; z: cluster of the second witness; w: mean axis of the clusters, packed
 layout(set = 0, binding = 11) buffer Counts { uvec4 counts[]; };
 
 // The triangle of a cluster that is nearest to p, the same in all lanes.
@@ -95,7 +95,7 @@ void main() {
   Axes axes = axes_of(front.name, counts[item].w);
   uint end = min(word_count, (step.first_entry + step.clusters_per_round) / 32u);
   for (uint w = step.first_entry / 32u; w < end; ++w) {
-    // Eight clusters at a time: each lane looks one of them up.
+    // Eight clusters at a time: each lane reads one of them.
     for (uint word = masks[base + w], first_entry = parent.list_begin + 32u * w; word != 0u;) {
       uint number = min(uint(bitCount(word)), kLanes);
       Run my_run = run_of(parent_lists[first_entry + bit_above(word, min(lane, number - 1u))]);
@@ -129,10 +129,10 @@ void main() {
   if (lane != 0u) return;
   if (is_empty) position = begin;
   counts[item].x = position;
-  // All that there is so far: the last round completes it.
+  // The result so far: the last round completes it.
   cells[offset.x] = Cell(coordinates.x, coordinates.y, coordinates.z, parent.voxel, offset.y, position, offset.z,
                          state.w, front.name, 0u, kNoTriangle, 0u);
-  // No level that has cells goes without the kernel that walks their lists, not even if all of these are empty.
+  // At every level with cells, the kernel that walks their lists is run, even if all lists are empty.
   atomicMax(counters[kLongestCellList], max(position, 1u));
   if (step.first_entry == 0u && !is_empty) COUNT(kKeptCount, 1u);
   COUNT(kContactCount, position - begin);

@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // The nearest triangles, among the contacts of a cell, of the two ends of every proposed line, and a mask of the
-// contacts that may be the nearest of some point of it: all that narrowing and the growth test ask. A line is worth
-// narrowing if the direction to the boundary turns by at least twice the object angle between its ends; points that
-// need no line have been asked for that already. Lists longer than kEntriesPerRound take several rounds; each goes on
-// from the result of the one before.
+// contacts that may be the nearest of some point of the line, which are all that narrowing and the growth test read. A
+// line is worth narrowing if the direction to the boundary turns by at least twice the object angle between its ends;
+// points that need no line have passed that test already. Lists longer than kEntriesPerRound take several rounds; each
+// continues from the result of the previous one.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 9

@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // The nearest triangle, among the contacts of a cell, of points in that cell.
-// An invocation answers kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
-// of a line, or a group of flux samples or of their opposites.
-// Points of a line ask only the contacts that find_line_ends.comp has left of it, and samples those that
-// mark_samples.comp has left of their group. The grown ends of a line decide whether it has found a point. Lists longer
-// than kEntriesPerRound take several rounds; each goes on from the result of the one before.
+// An invocation handles kPointsPerLane points that share a list, so that each triangle is loaded once for all of them:
+// those of a line, or of a group of flux samples or of their opposites.
+// Points of a line read only the contacts that find_line_ends.comp has left for it, and samples those that
+// mark_samples.comp has left for their group. The grown ends of a line decide whether it has found a point. Lists
+// longer than kEntriesPerRound take several rounds; each continues from the result of the previous one.
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -24,7 +24,7 @@ layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // oppo
 layout(set = 0, binding = 5) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
-layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines that do not know their side
+layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines without a known side
 layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
 layout(set = 0, binding = 10) buffer Winners { uint winners[]; };
 layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of lines and samples: sort_by_work.comp
@@ -32,7 +32,7 @@ layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of li
 
 const bool kIsLine = kSource == kSections || kSource == kGrownEnds;
 
-// Of a group, in the block of spheres that starts at the first item.
+// Index in a group, in the block of spheres that starts at the first item.
 uint sphere_of(uint item) { return (step.first_item + item) / kGroupsPerSphere; }
 
 uint cell_of(uint item) { return kIsLine ? lines[item].cell : found[sphere_of(item)].cell; }
@@ -50,7 +50,7 @@ vec3 point_of(uint item, uint index) {
                     : lines[item].q.xyz - step.epsilon * lines[item].toward_q.xyz;
 }
 
-// Where the answer for a point goes.
+// The slot for the result of a point.
 uint result_of(uint item, uint index) {
   uint place = kSource == kSamples ? sample_of_group(item % kGroupsPerSphere, index) : 0u;
   return kSource == kSamples ? item / kGroupsPerSphere * kFluxSamples + place : item * kPointsPerLane + index;
@@ -70,7 +70,7 @@ void ask(uint t, bool counts) {
   }
 }
 
-// The entries whose bits are set; an iteration for each, and one for each word. Returns how many there are.
+// Examines the entries whose bits are set, with an iteration for each, and one for each word. Returns their number.
 uint ask_masked(Cell cell, uint base, uint begin, uint end) {
   uint w = begin / 32u, last_word = (end - 1u) / 32u, word = masks[base + w], count = 0u;
   for (;;) {
@@ -95,7 +95,7 @@ void ask_all(Cell cell, uint entry, uint end) {
 
 void main() {
   uint item = invocation_index();
-  // Groups of opposites come packed, from all over the block of spheres that the caller says.
+  // Groups of opposites are packed, from the whole block of spheres that the caller gives.
   const bool is_packed = kSource == kOpposites;
   if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
   if (is_packed) item = asked[item];

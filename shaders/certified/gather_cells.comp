@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Packs the cells that are left; their contact lists stay where they are.
+// Packs the remaining cells; their contact lists are not moved.
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };

@@ -44,7 +44,7 @@ uint find_witness(vec3 centre) {
   }
 }
 
-// Which of the 32 clusters from `first` on are listed, and a lower bound of the distance to them all.
+// Mask of the listed clusters among the 32 from `first` on, and a lower bound of the distance to them all.
 uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance) {
   uint lane = gl_LocalInvocationID.x, last = step.cluster_count - 1u, word = 0u;
   for (uint begin = 0u;;) {
@@ -68,7 +68,7 @@ uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance
 // Lanes beyond the last cell walk with the others.
 void main() {
   uint item = invocation_index();
-  if (item - gl_LocalInvocationID.x >= counters[kParents]) return;  // all of the workgroup
+  if (item - gl_LocalInvocationID.x >= counters[kParents]) return;  // the same for the whole workgroup
   bool exists = item < counters[kParents], writes = step.second_task != 0u;
   bool is_kept = exists && writes && states[item].x != 0u;
   uvec3 coordinates = top_cell_coordinates(step.first_item + item);

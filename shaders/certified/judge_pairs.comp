@@ -1,18 +1,18 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Is there any pair of carriers of a cell that can hold the spokes of a salient point (docs/theory.md, theorem on pairs)?
-// One workgroup per cell. Asked twice, by one program: a driver takes long to translate it.
+// Decides whether any pair of carriers of a cell can hold the spokes of a salient point (docs/theory.md, theorem on
+// pairs). One workgroup per cell. One program has both tasks, since a driver takes long to translate it.
 //
-// Before the search, of cells that are kept because no axis obeys all contacts: if there is no such pair, the cell is
-// empty. If there is, no more are asked, and of those that no third carrier beats, the ones that tie nearest to the
-// boundary say where to aim.
+// Before the search, it examines cells that are kept because no axis obeys all contacts: if there is no such pair, the
+// cell is empty. If there is one, the search for pairs ends, and of the pairs that no third carrier beats, those with a
+// tie nearest to the boundary determine the aims.
 //
-// After the search (step.second_task), of cells that it leaves: what must a salient medial point that hides there be like
-// (docs/theory.md, "What undecided means")? The pairs that remain bound its width (equation 3.1), and the same test on the
-// part of the cell away from the faces of its voxel, or with a larger angle, says why it could not be settled. A voxel
-// takes the gravest reason and the largest width of its cells. Above the last level only cells that can hide nothing else
-// are given up; the others are left to be subdivided.
+// After the search (step.second_task), it examines the cells that remain, to bound the salient medial points that may
+// be hidden there (docs/theory.md, "What undecided means"). The remaining pairs bound the width (equation 3.1), and the
+// same test on the part of the cell away from the faces of its voxel, or with a larger angle, gives the reason why it
+// could not be settled. A voxel takes the gravest reason and the largest width of its cells. Above the last level only
+// cells that can hide nothing else are given up; the others are subdivided.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -35,22 +35,22 @@ layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, 
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
-const float kSettleMargin = 0.02;  // above the last level: what is given up is at least that near the angle
+const float kSettleMargin = 0.02;  // above the last level: given-up points are at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 
-// Of rounds over queued pairs that an invocation makes: some 60 iterations each where directions at corners are asked, 12
-// elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl). Cells with more pairs stay.
+// Limit of the rounds over queued pairs of an invocation: some 60 iterations each where directions at corners are
+// tested, 12 elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl). Cells with more pairs are kept.
 const uint kMostRounds = kHasUntrusted ? 512u : 4096u;
 uint rounds = 0u;
 
-const float kParallel = 0.98;  // cosine above which aims at the same place count as one
+const float kParallel = 0.98;  // cosine above which aims at the same point count as one
 
 bool is_same(Aim a, Aim b) {
   return abs(dot(a.direction.xyz, b.direction.xyz)) > kParallel &&
          distance(a.base.xyz, b.base.xyz) < 0.2 * step.cell_size;
 }
 
-// All lanes: writes the best aims of the lanes, different ones, those nearest to the boundary first.
+// For all lanes: writes the best aims of the lanes, without repetition, the nearest to the boundary first.
 void write_aims(uint cell, bool exists) {
   bool is_new = best_aim.direction.w > 0.0;
   for (uint k = 0; k < kAimsPerCell; ++k) {
@@ -74,13 +74,13 @@ float pair_width(Carrier a, Carrier b, float nearest_distance, Box box) {
   return min(by_feet, by_turn);
 }
 
-// What a box may hold: whether its carriers could be listed, whether a pair of them is feasible, and its width.
+// Result for a box: whether its carriers could be listed, whether a pair of them is feasible, and its width.
 struct Remains {
   bool decided, feasible;
   float width;
 };
 
-// All lanes: the pairs that are queued, or, if the width is not wanted, until one is feasible.
+// For all lanes: evaluates the queued pairs, or, if the width is not needed, stops at the first feasible one.
 void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float nearest_distance, bool wants_width, Box box) {
   for (;;) {
     Carrier a, b;
@@ -94,7 +94,7 @@ void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float neare
   }
 }
 
-// All lanes.
+// For all lanes.
 Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bool wants_width) {
   Remains r = Remains(gather_carriers(cell, box), false, 0.0);
   float sine_of_angle = sine(theta - kAngleSlack);

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// What mark_contacts.comp does, where cells are large and lists are of clusters: which of a parent's clusters may hold
-// contacts of each child (Lemma A with two witnesses), and which children that suffices to dismiss. One invocation per
-// parent and child, one workgroup per parent: its eight children walk one list together.
+// The task of mark_contacts.comp for large cells, whose lists hold clusters: determines the parent's clusters that may
+// hold contacts of each child (Lemma A with two witnesses), and the children that these suffice to dismiss. One
+// invocation per parent and child, one workgroup per parent: its eight children walk one list together.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #include "certified/witness.glsl"
@@ -34,7 +34,7 @@ ClusterBounds bounds_of_lane(ClusterBounds mine, uint list_entry, uint k) {
 #endif
 }
 
-// The cluster of the parent's, or of a sample of them, whose known point is nearest to p.
+// The cluster among the parent's, or among a sample of them, whose known point is nearest to p.
 uint witness_near(Cell parent, vec3 p) {
   uint stride = 1u + parent.list_count / kWitnessSample;
   uint best_name = 0u;
@@ -58,9 +58,9 @@ Witness witness_of(vec3 centre, uint name) {
   return w;
 }
 
-// What the first walk over a list finds.
+// Result of the first walk over a list.
 struct Tally {
-  uint contacts, entries;  // clusters, and what the child's list will hold
+  uint contacts, entries;  // clusters, and the number of entries of the child's list
   float clearance;         // no cluster is nearer to the centre
   vec3 axis;               // sum of the axes of the clusters that touch
   bool behind, in_front;   // of all triangles of all clusters that may be the nearest
@@ -68,7 +68,7 @@ struct Tally {
 
 Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, uint base) {
   Tally tally = Tally(0u, 0u, 3e38, vec3(0.0), true, true);
-  bool expands = step.lists == kListsExpanded;  // then room is made for all triangles of the clusters
+  bool expands = step.lists == kListsExpanded;  // then space is reserved for all triangles of the clusters
   uint word = 0u, touch_word = 0u, last = parent.list_begin + parent.list_count - 1u;
   for (uint entry = 0u;;) {
     uint next = parent.list_begin + entry;
@@ -110,8 +110,8 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
   }
 }
 
-// The cluster that touches and obeys the axis least: cosine of the most that its spokes may turn away, and what to turn
-// the axis to.
+// The touching cluster that obeys the axis least: cosine of the greatest turn of its spokes from the axis, and the
+// vector towards which the axis must move.
 struct Offender {
   float cosine;
   vec3 help;
@@ -140,7 +140,7 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
   }
 }
 
-// Dismissal by an axis (axis_test.glsl), for all eight at once: a sweep is made as long as one of them asks.
+// Dismissal by an axis (axis_test.glsl), for all eight at once: sweeps are made while any of them needs one.
 bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, bool asks, uint base) {
   float enough = cosine(theta) + kAxisSlack;
   bool dismissed = false;
@@ -156,7 +156,7 @@ bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, 
 
 void main() {
   uint item = invocation_index();
-  if (item >= 8u * counters[kParents]) return;  // all of the workgroup
+  if (item >= 8u * counters[kParents]) return;  // the same for the whole workgroup
   Cell parent = parents[item / 8];
   uint child = item % 8;
   uvec3 coordinates = child_coordinates(parent, child);

@@ -1,15 +1,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which of a parent's contacts are contacts of each child: Lemma A (docs/theory.md) with two witnesses and Lemma L, for
-// the ball that the child's list must serve, and, sharper, for the cube itself: dismissal asks only what touches that. One
-// invocation per parent and child; one bit per list entry. The eight children of a parent walk one list. On the way they find the
-// triangle nearest to their centre, and a partner for it: the contact whose sheet with it passes the centre closest.
+// Determines the parent's contacts that are contacts of each child: Lemma A (docs/theory.md) with two witnesses and
+// Lemma L, for the ball that the child's list must serve, and, sharper, for the cube itself, since dismissal reads only
+// contacts that touch it. One invocation per parent and child; one bit per list entry. The eight children of a parent
+// walk one list, and find the triangle nearest to their centre, and a partner for it: the contact whose sheet with it
+// passes the centre closest.
 //
-// The last round also asks for dismissal (axis_test.glsl) with the first axis at hand, the normal of the first witness:
+// The last round also attempts dismissal (axis_test.glsl) by the first available axis, the normal of the first witness:
 // a child is dropped if all contacts obey it, is kept if the one that obeys least and the nearest one can obey no
-// common axis, and is left open for dismiss_cells.comp else. Those that stay learn their side where the nearest triangles tell
-// it (docs/theory.md, "Outside").
+// common axis, and is otherwise left open for dismiss_cells.comp. The remaining children determine their side if the
+// nearest triangles decide it (docs/theory.md, "Outside").
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -24,8 +25,8 @@ layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) buffer Nearest { uvec2 nearest[]; };  // distance from the centre (bits), triangle
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) writeonly buffer TouchMasks { uint touch_masks[]; };
-// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and in the
-// end the cell's partner; what has been seen (kSeen*).
+// Contacts; those that touch the cube; of these the one whose normal is farthest from that of the witness, and finally
+// the cell's partner; flags of the contacts seen (kSeen*).
 layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 // Sum of the normals of the contacts that touch; w: least cosine between one of them and that of the first witness.
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
@@ -34,7 +35,7 @@ layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
 layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
 
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
-// One of the triangles that may be the nearest has the centre not clearly behind it, or not clearly in front of it.
+// The centre is not clearly behind, or not clearly in front of, one of the triangles that may be the nearest.
 const uint kSeenInFront = 2u, kSeenBehind = 4u;
 
 Witness witness_of(vec3 centre, uint name) {
@@ -62,8 +63,8 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 #endif
 }
 
-// Among which contacts of the parent witnesses are sought: the first ones touch its cube, and whatever is nearest to a
-// point of that, the child's centre say, is one of them. (For other points any witness will do.)
+// The contacts of the parent among which witnesses are sought: the first ones touch its cube, and the nearest triangle
+// to any point of the cube, such as the child's centre, is one of them. (For other points any witness suffices.)
 uint candidates_of(Cell parent) { return parent.touching != 0u ? parent.touching : parent.list_count; }
 
 // The nearest to p of these, or of a sample of them. All eight lanes call it, each with its own p.
@@ -77,7 +78,7 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
     TriangleTexels mine = load_triangle(mine_name);
     for (uint k = 0; k < kLanes; ++k) {
       uint list_entry = min(entry + k * stride, last);
-      // Both in all lanes: a choice between calls may be a branch, and shuffles need everybody.
+      // Both in all lanes: a choice between calls may be a branch, and shuffles need all lanes.
       float d = squared_distance_to_triangle(p, triangle_of_lane(mine, list_entry, k));
       uint name = name_of_lane(mine_name, list_entry, k);
       best_name = d < best ? name : best_name;
@@ -89,13 +90,14 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
   return best_name;
 }
 
-// Of a triangle that may be the nearest: on which side of it the centre may be, given how far that is behind its plane.
+// For a triangle that may be the nearest: its possible sides for the centre, given the distance of the centre behind
+// its plane.
 uint sides_seen(float depth, bool trusted) {
   float clear = 4.0 * step.slack;
   return (trusted && depth > clear ? 0u : kSeenInFront) | (trusted && depth < -clear ? 0u : kSeenBehind);
 }
 
-// What a walk over the entries of a list finds: as in Counts, Axes and Nearest, and the partner.
+// The result of a walk over the entries of a list: the values of Counts, Axes and Nearest, and the partner.
 struct Marks {
   uvec4 count;
   vec4 axis;
@@ -142,7 +144,7 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
       marks.partner = is_partner ? name : marks.partner;
       partner_away = is_partner ? away : partner_away;
       marks.count.w |= touches && !trusted ? kSeenUntrusted : 0u;
-      // Of all triangles that may be the nearest, in the end: those before a clearly nearer one are forgotten.
+      // In the end, of all triangles that may be the nearest: those before a clearly nearer one are discarded.
       float behind_first = d - uintBitsToFloat(marks.first.x);
       marks.count.w &= behind_first < -6.0 * step.slack ? ~(kSeenInFront | kSeenBehind) : 0xffffffffu;
       marks.count.w |= behind_first <= 6.0 * step.slack ? sides_seen(dot(v, texels.normal.xyz), trusted) : 0u;
@@ -172,7 +174,7 @@ void store(uint item, Marks marks, bool is_last) {
 
 Marks stored(uint item) { return Marks(counts[item], axes[item], nearest[item], states[item].x); }
 
-// Of the eight children of a parent, where they walk together.
+// For the eight children of a parent, if they walk together.
 bool is_so_of_any(bool mine) {
 #ifdef LOCKSTEP
   return or_of_lanes(mine ? 1u : 0u) != 0u;
@@ -181,13 +183,13 @@ bool is_so_of_any(bool mine) {
 #endif
 }
 
-// Does the witness have the centre behind it?
+// True if the centre is behind the witness.
 bool is_behind(Witness w) {
   vec4 normal = triangle_texel(4u * w.name + 3u);
   return (sides_seen(w.distance * dot(w.direction, normal.xyz), normal.w > 0.5) & kSeenInFront) == 0u;
 }
 
-// What becomes of a child, once all contacts have been seen.
+// Decides about a child, once all contacts have been seen.
 void settle(uint item, vec3 centre, uint parent_flags, Marks marks) {
   COUNT(kVisitedCount, 1u);
   uvec4 count = marks.count;
@@ -205,7 +207,7 @@ void settle(uint item, vec3 centre, uint parent_flags, Marks marks) {
   states[item] = is_empty ? uvec4(0u) : uvec4(1u, count.x, (count.x + 31u) / 32u, flags);
   bool is_kept = !is_empty && incompatible(obedience_of(marks.first.y, centre, theta),
                                            obedience_of(count.z, centre, theta));
-  // Their order does not matter: every answer goes to its own state.
+  // In any order: every result is written to its own state.
   if (!is_empty && !is_kept) open[atomicAdd(counters[kOpen], 1u)] = item;
   if (is_kept && asks) asked[atomicAdd(counters[kAsked], 1u)] = item;
 }
@@ -215,7 +217,7 @@ void main() {
   if (item >= 8u * counters[kParents]) return;
   Cell parent = parents[item / 8];
   uint child = item % 8, begin = step.first_entry;
-  // Empty, as was seen when its list was to be written: it has no children, and none of the queries that were counted.
+  // The child was found empty when its list was to be written: it has no children, and none of the counted queries.
   if (parent.list_count == 0u && begin == 0u) {
     states[item] = uvec4(0u);
     atomicAdd(counters[kQueries], 0xffffffffu);
@@ -223,7 +225,7 @@ void main() {
   if (begin >= parent.list_count) return;
   uvec3 coordinates = child_coordinates(parent, child);
   vec3 centre = cell_centre(coordinates);
-  // On the other side of the sheet that may pass: the parent's partner, if it has one. All eight children agree on that.
+  // On the other side of a sheet that may pass: the parent's partner, if it has one. All eight children use the same.
   bool seeks = parent.partner == kNoTriangle;
   Witness front = witness_of(centre, witness_near(parent, child, centre));
   uint back_name = seeks ? witness_near(parent, child, centre - step.circumradius * front.direction) : parent.partner;
@@ -232,8 +234,8 @@ void main() {
   bool is_first = begin == 0u, is_last = end >= parent.list_count;
   Marks before = Marks(uvec4(0u), vec4(0.0, 0.0, 0.0, 2.0), uvec2(kFarthestBits, 0u), kNoTriangle);
   if (!is_first) before = stored(item);
-  // Whether Lemma L may be asked is known of the nearest triangle, in the end. A witness from a sample may promise too much:
-  // then the cell is marked once more without it, which is rare if only half of the promise is believed.
+  // Whether Lemma L applies is known only from the nearest triangle, at the end. A witness from a sample may give too
+  // large a bound: the cell is then marked once more without it, which is rare if only half of the bound is used.
   float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
   Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
@@ -244,8 +246,8 @@ void main() {
     bool is_wrong = prism.is_asked && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
     prism.is_asked = prism.is_asked && !is_wrong;
     if (is_so_of_any(is_wrong)) continue;
-    // In the loop, as the walks of others that share its vector may change what a lane has when it leaves
-    // (docs/reliability.md).
+    // Inside the loop, as the walks of other lanes of its vector may change the values of a lane after it has left the
+    // loop (docs/reliability.md).
     store(item, marks, is_last);
     if (!is_last) break;
     if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Which contacts of a found voxel may be the nearest triangle of a sample of its flux: a mask of the list for each of the
-// eight groups of samples (docs/theory.md, "Samples"). One lane for each group. Lists longer than kEntriesPerRound take
-// several rounds.
+// Determines the contacts of a found voxel that may be the nearest triangle of a sample of its flux: a mask of the list
+// for each of the eight groups of samples (docs/theory.md, "Samples"). One lane for each group. Lists longer than
+// kEntriesPerRound take several rounds.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
@@ -18,15 +18,15 @@ layout(set = 0, binding = 4) readonly buffer FoundPoints { FoundPoint found[]; }
 layout(set = 0, binding = 5) writeonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) buffer Work { uint work[]; };  // contacts in the mask of a group
 
-// The distance to a triangle is convex, so nowhere below its tangent at the centre, w - xyz . x, here less what rounding
-// makes of that.
+// The distance to a triangle is convex, so it is nowhere below its tangent at the centre, w - xyz . x, here reduced by
+// a bound of the rounding.
 vec4 tangent_of(vec3 centre, uint name) {
   vec3 v = vector_to_triangle(centre, load_triangle(name));
   float d = length(v);
   return vec4(v / max(d, 1e-30), d - distance_slack(d, step.voxel_size));
 }
 
-// Of the entry that lane k of the eight looks at.
+// The tangent of the entry that lane k of the eight has loaded.
 vec4 tangent_of_lane(vec4 mine, vec3 centre, uint list_entry, uint k) {
 #ifdef LOCKSTEP
   return from_lane(mine, k);

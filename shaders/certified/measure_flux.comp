@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Average outward flux of the gradient of the distance transform (equation 2.4) through the sphere around a voxel: what
-// choose_opposites.comp summed up, and the samples that its answers show not to be two-sided fans (Definition 2.4).
+// Average outward flux of the gradient of the distance transform (equation 2.4) through the sphere around a voxel: the
+// sum of choose_opposites.comp, and the samples whose queried opposites show that they are not two-sided fans
+// (Definition 2.4).
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // The winding number at the centres of cells through which the boundary passes, with triangles whose normals prove
-// nothing, and how fast it changes around them: foot_sides.glsl goes from there to either side of a triangle
-// (docs/theory.md, Lemma K). Nothing is noted where open edges are too near.
+// nothing, and the rate of its change around them: foot_sides.glsl proceeds from there to either side of a triangle
+// (docs/theory.md, Lemma K). Nothing is stored where open edges are too near.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1
@@ -35,7 +35,7 @@ void main() {
   COUNT_LONG(kNodeTestCount, tested_nodes);
   COUNT_TESTS(tested_triangles);
   if (!w.complete || w.bound > 0.1) return;
-  // Rounded up: halves are right to 2^-11 of themselves.
+  // Rounded up: the relative error of halves is 2^-11.
   float most = w.number + w.bound;
   cells[index].level = packHalf2x16(vec2(most + 1e-3 * (1.0 + abs(most)), 1.001 * change + 1e-6));
   cells[index].flags = cell.flags | kCellMeasured;

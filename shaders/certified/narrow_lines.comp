@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// One narrowing step: of the nine parts that the eight inner points make of a line, the one over which the direction
-// to the boundary turns most. (Bisection towards the first change of the nearest point, Algorithm 1, would end at a
-// crease between neighbouring facets.) Directions also flip where the line crosses the boundary itself, and there the
-// distances at the ends of the part add up to no more than its length: such a part is taken only if no other turns
-// enough, and before those that do not.
+// One narrowing step: selects, of the nine parts into which the eight inner points divide a line, the one over which
+// the direction to the boundary turns most. (Bisection towards the first change of the nearest point, Algorithm 1,
+// would end at a crease between neighbouring facets.) Directions also flip where the line crosses the boundary itself,
+// and there the distances at the ends of the part add up to no more than its length: such a part is selected only if no
+// other turns enough, and before those that do not.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 5
@@ -35,7 +35,7 @@ End end_at(Line line, uint index, uint k) {
 
 float turn_between(End a, End b) { return dot(a.toward.xyz, b.toward.xyz); }
 
-// By as much as verify_line.glsl asks: less where one of the ends is deep.
+// The turn that verify_line.glsl requires: less if one of the ends is deep.
 bool turns_enough(End a, End b) {
   bool deep = max(a.point.w, b.point.w) + step.slack >= step.radius;
   return turn_between(a, b) <= cosine_of_least_turn(deep);
@@ -45,22 +45,22 @@ bool may_cross_boundary(End a, End b) {
   return a.point.w + b.point.w <= 1.001 * distance(a.point.xyz, b.point.xyz) + step.slack;
 }
 
-// The least is best: of the parts that turn enough, then of those of them that may cross the boundary, then of the others
-// the one that turns most.
+// The least rank is best: first parts that turn enough, then those of them that may cross the boundary, then of the
+// others the one that turns most.
 float rank(End a, End b) {
   float turn = turn_between(a, b);
   return !turns_enough(a, b) ? turn + 4.0 : may_cross_boundary(a, b) ? turn + 2.0 : turn;
 }
 
-// So near to each other that the growth test should hold at both (verify_line.glsl asks): docs/theory.md, "How far to
-// narrow", with the angle that there is.
+// So close to each other that the growth test should hold at both (verify_line.glsl decides): docs/theory.md, "How far
+// to narrow", with the actual angle.
 bool is_narrow(End a, End b) {
   float d = min(a.point.w, b.point.w);
   float longest = 0.4 * (1.0 - turn_between(a, b)) * step.epsilon * d / (d + step.epsilon);
   return turns_enough(a, b) && distance(a.point.xyz, b.point.xyz) <= longest;
 }
 
-// The part that is best, and its ends: it lies between ends k - 1 and k.
+// The best part, and its ends: it lies between ends k - 1 and k.
 uint best_part(Line line, uint index, out End p, out End q) {
   float least = 8.0;  // more than any rank
   uint best = 0u, k = 1u;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The first line of a finest voxel, which most need only: across the sheet between its nearest contact and the partner
-// that mark_contacts.comp saw on the way.
+// The first line of a finest voxel, the only one that most voxels need: across the sheet between its nearest contact
+// and the partner that mark_contacts.comp has found.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 5
@@ -12,7 +12,7 @@
 layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) writeonly buffer Points { vec4 points[]; };
-layout(set = 0, binding = 4) writeonly buffer Work { uint work[]; };  // contacts that the line asks
+layout(set = 0, binding = 4) writeonly buffer Work { uint work[]; };  // number of contacts that the line reads
 
 vec4 contact_of(vec3 centre, uint triangle) {
   vec3 v = vector_to_triangle(centre, load_triangle(triangle));

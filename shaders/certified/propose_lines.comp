@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
 // Aims at the sheets that may cross a cell (docs/theory.md, "Aimed lines"). Eight lanes share a cell. The first take
-// the aims that the dismissal by pairs left. Where it could not list all carriers, six scouts look through the contacts
+// the aims that the dismissal by pairs left. If it could not list all carriers, six scouts examine the contacts
 // instead: the sheet between the nearest one (direction g0, distance D0) and contact j (g_j, D_j) is crossed at right
 // angles by the line through the centre along g_j - g0 (equation 2.11), at about (D_j - D0) / |g_j - g0| from it; each
-// proposes its best line, and lines nearly parallel to a better one are given up. The sixth lane, if it is free, and the
-// seventh aim at the point where the contacts tie: curves of the medial surface, such as the axis of a round tube, are
-// thinner than any set of lines through centres. The eighth takes the line along g0, whose ends are the deep samples of
-// Section 3.2.
+// proposes its best line, and lines nearly parallel to a better one are given up. The sixth lane, if it is free, and
+// the seventh aim at the point equally near to several contacts: curves of the medial surface, such as the axis of a
+// round tube, are thinner than any set of lines through centres. The eighth takes the line along g0, whose ends are the
+// deep samples of Section 3.2.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -21,19 +21,19 @@ layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 4) readonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 5) writeonly buffer Points { vec4 points[]; };
-layout(set = 0, binding = 6) writeonly buffer Work { uint work[]; };  // contacts that a line asks
+layout(set = 0, binding = 6) writeonly buffer Work { uint work[]; };  // number of contacts that a line reads
 
-const uint kMostEntries = 4096;   // a lane looks at no more of the list than this; proposals need not be the best
+const uint kMostEntries = 4096;   // a lane reads no more of the list than this; proposals need not be the best
 const uint kScoutLanes = 6, kSecondTieLane = 5, kTieLane = 6, kDeepLane = 7;
-const uint kTieEntries = 64;      // contacts that the tie is computed from
+const uint kTieEntries = 64;      // contacts from which the tie is computed
 const uint kTieSteps = 3;         // and two more below the finest level
-const uint kMostDirectEntries = 8192;  // cells with longer lists are not asked directly: lavapipe's loop budget
-const uint kDirectDepth = 2;      // levels below the finest voxel from which points are asked directly
+const uint kMostDirectEntries = 8192;  // cells with longer lists get no direct points: lavapipe's loop budget
+const uint kDirectDepth = 2;      // levels below the finest voxel from which points are tested directly
 const float kParallel = 0.95;     // cosine above which two lines count as the same
 const float kAlongNormal = 0.99999;  // cosine
 const float kNoLine = 3e38;
 
-shared vec4 proposals[64];  // direction; w: how far the crossing is expected, smaller is better
+shared vec4 proposals[64];  // direction; w: expected distance of the crossing, smaller is better
 
 struct Candidate {
   vec3 direction;
@@ -58,9 +58,10 @@ Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, floa
   return best;
 }
 
-// From the centre to the point equally far from all contacts that are about as near as the nearest, in the sense of
-// least squares: D_j - g_j.x = t for all j, by Gauss-Newton. Where the directions leave a degree of freedom (along a
-// sheet or a curve) the step has no part in it. The eight lanes of a cell share its contacts; all of them call this.
+// The vector from the centre to the point equally far from all contacts that are about as near as the nearest, in the
+// sense of least squares: D_j - g_j.x = t for all j, by Gauss-Newton. Where the directions leave a degree of freedom
+// (along a sheet or a curve) the step has no component in it. The eight lanes of a cell share its contacts; all of them
+// call this.
 vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
   vec3 x = vec3(0.0);
   float nearest_distance = d0;
@@ -96,7 +97,7 @@ vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
   return x;
 }
 
-// Of the contacts that tie at a point within epsilon, the direction that differs most from g. All lanes call it.
+// Of the contacts that tie at a point within epsilon, the direction that differs most from g. For all lanes.
 vec3 opposite_direction(Cell cell, uint lane, vec3 point, float nearest_distance, vec3 g) {
   uint stride = kLinesPerCell * (1u + cell.touching / kTieEntries);
   vec3 opposite = g;
@@ -113,7 +114,7 @@ vec3 opposite_direction(Cell cell, uint lane, vec3 point, float nearest_distance
   return sum.xyz / max(sum.w, 1.0);
 }
 
-// The normal of the sheet between the two contacts at the tie whose spokes differ most, or as good as most.
+// The normal of the sheet between the two contacts at the tie whose spokes differ most, or nearly most.
 vec3 widest_turn(Cell cell, uint lane, vec3 point) {
   float nearest_distance = 3e38;
   uint stride = kLinesPerCell * (1u + cell.touching / kMostEntries);
@@ -131,15 +132,15 @@ vec3 widest_turn(Cell cell, uint lane, vec3 point) {
 }
 
 // A point that needs no line (docs/theory.md, "Points beside a sheet"): if p, pushed away from its nearest contact a by
-// epsilon, is closer than D + epsilon to some contact b, then a medial point lies within epsilon of p, wherever its sheet
-// is. Where the directions to a and b differ by enough, p stands for it.
+// epsilon, is closer than D + epsilon to some contact b, then a medial point lies within epsilon of p, wherever its
+// sheet is. If the directions to a and b differ by enough, p represents it.
 struct Direct {
   vec3 point;
   vec3 toward;   // b
-  float cosine;  // between the directions to a and b; above 1: there is none
+  float cosine;  // between the directions to a and b; above 1: there is no b
 };
 
-// Each lane asks the centre of one eighth of the cell; the widest turn of all lanes is returned to all.
+// Each lane tests the centre of one eighth of the cell; the widest turn of all lanes is returned to all.
 Direct direct_point(Cell cell, uint lane, vec3 centre) {
   vec3 p = centre + 0.25 * step.cell_size * corner_sign(lane), to_a = vec3(0.0), toward = vec3(0.0);
   float least = 3e38, cosine = 2.0;
@@ -154,7 +155,7 @@ Direct direct_point(Cell cell, uint lane, vec3 centre) {
   for (uint entry = 0; entry < count; ++entry) {
     TriangleTexels b = load_triangle(lists[cell.list_begin + entry]);
     vec3 g = unit_or_zero(vector_to_triangle(p, b));
-    // Only a foot inside a face is sure to be the end of a spoke: the angle is that of the sheet between a and b.
+    // Only a foot inside a face is certainly the end of a spoke: the angle is that of the sheet between a and b.
     bool is_foot = b.normal.w > 0.5 && dot(g, b.normal.xyz) > kAlongNormal;
     bool better = is_foot && squared_distance_to_triangle(pushed, b) < limit * limit && dot(a, g) < cosine;
     toward = better ? g : toward;
@@ -204,7 +205,7 @@ void main() {
     base = tie;
     best = Candidate(lane == kSecondTieLane && dot(across, across) > 0.0 ? across : g0, 1e30);
   }
-  // Lines that do not go through the centre stand for themselves.
+  // Lines that do not pass through the centre are never merged.
   bool alone = dot(base, base) > 0.0 || takes_tie;
   proposals[slot] = alone ? vec4(0.0, 0.0, 0.0, kNoLine) : vec4(best.direction, best.key);
   barrier();

@@ -1,13 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Invocations that walk together wait for the one that has most to ask. So lines and groups of flux samples are asked
-// in another order: in blocks of 1024, those that ask most contacts first, those that ask none last. Every answer goes
-// to a place of its own, so that the order changes nothing else, and equals may come in any. Of flux samples (its second
-// task) it counts the distances, for all groups together; who asks for lines counts them there.
+// Invocations that walk together wait for the one with the most work. Lines and groups of flux samples are therefore
+// processed in another order: in blocks of 1024, those with the most contacts first, those without any last. Every
+// result has its own slot, so the order changes nothing else, and equal items may come in any order. Of flux samples
+// (its second task) it counts the distances, for all groups together; the kernel that evaluates lines counts them
+// itself.
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) buffer Counters { uint counters[]; };
-layout(set = 0, binding = 1) readonly buffer Work { uint work[]; };  // contacts that an item asks
+layout(set = 0, binding = 1) readonly buffer Work { uint work[]; };  // number of contacts that an item reads
 layout(set = 0, binding = 2) writeonly buffer Order { uint order[]; };
 
 const uint kClasses = 128u;
@@ -28,7 +29,7 @@ void main() {
   uint items = min(left, kSortedPerLane * gl_WorkGroupSize.x);
   for (uint c = lane; c < kClasses; c += gl_WorkGroupSize.x) places[c] = 0u;
   barrier();
-  // Eight invocations go through a run of items: where they are one vector, those of a class stay in their order.
+  // Eight invocations process a run of items: if they are one vector, the items of a class keep their order.
   uint first = kSortedPerLane * (lane & ~7u) + (lane & 7u);
   uint place[kSortedPerLane];  // class and, above it, number in the class
   uint contacts = 0u;

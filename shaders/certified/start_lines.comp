@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Packs the lines worth narrowing. A point that needs no line becomes one of length zero: narrowing finds its whole turn
-// in the last part, between the point and itself with the other direction.
+// Packs the lines worth narrowing. A point that needs no line becomes a line of length zero: narrowing finds its whole
+// turn in the last part, between the point and the same point with the other direction.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TRIANGLE_TEXEL_BINDING 9
@@ -14,7 +14,7 @@ layout(set = 0, binding = 4) readonly buffer States { uvec4 states[]; };
 layout(set = 0, binding = 5) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 6) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 7) writeonly buffer Lines { Line lines[]; };
-layout(set = 0, binding = 8) writeonly buffer Work { uint work[]; };  // contacts that a line asks
+layout(set = 0, binding = 8) writeonly buffer Work { uint work[]; };  // number of contacts that a line reads
 
 void main() {
   uint index = invocation_index();

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Writes the kept children and their contact lists, the contacts that touch the cube first: the prefix sums of `states`
-// say where. Where the children are finest voxels (step.second_task), each gets a slot of its own.
+// Writes the kept children and their contact lists, the contacts that touch the cube first, at the positions that the
+// prefix sums of `states` give. If the children are finest voxels (step.second_task), each gets a slot of its own.
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Parents { Cell parents[]; };
@@ -14,7 +14,8 @@ layout(set = 0, binding = 6) readonly buffer Offsets { uvec4 offsets[]; };
 layout(set = 0, binding = 7) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 8) writeonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 9) writeonly buffer Lists { uint lists[]; };
-// Before the first round: contacts, those that touch, and the partner. Between rounds: where the next of either kind goes.
+// Before the first round: contacts, those that touch, and the partner. Between rounds: the next position of either
+// kind.
 layout(set = 0, binding = 10) buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 11) writeonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 12) writeonly buffer GivenUp { uint given_up[]; };

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// What a recorded job tells its host (RecordedCounts in medial_vk/extraction_job.h): arguments of a draw with an instance
-// for every sphere, and whether all of them are there.
+// The counts that a recorded job reports to its host (RecordedCounts in medial_vk/extraction_job.h): arguments of a
+// draw with an instance for every sphere, and whether all of them are there.
 #include "gpu_types.h"
 
 layout(local_size_x_id = 0) in;  // 1

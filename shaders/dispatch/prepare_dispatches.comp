@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The group counts of all indirect dispatches up to the next that needs a counter which has changed. On a CPU one more
-// dispatch costs as much as the work of a small one. Before that, counters move on to another level, if they do.
+// The group counts of all indirect dispatches up to the next one that needs a changed counter. On a CPU one more
+// dispatch costs as much as the work of a small one. Before that, counters are moved to another level, if requested.
 #include "gpu_types.h"
 
 layout(local_size_x_id = 0) in;
@@ -10,7 +10,7 @@ layout(set = 0, binding = 0) coherent buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
 layout(set = 0, binding = 2) readonly coherent buffer Stop { uint stop_word; };
 layout(set = 0, binding = 3) readonly buffer Table { DispatchConstants table[]; };
-// The host may stop at any moment: all rows see the same. What is written without its prefix sums would go anywhere.
+// The host may stop at any moment: all rows see the same word. Writes without prefix sums could go anywhere.
 shared uint stop;
 #include "lanes/prepare.glsl"
 

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Prefix sums of uvec4, step 2 of 3: one workgroup turns the block sums into offsets, and stores the totals. A total
-// above its limit means that a buffer is too small: the overflow counter says so, and all dispatches that are sized after
-// that are empty; those that have been sized look at it themselves before they go by the sums. Few elements need no other
-// step: their sums are made here.
+// Prefix sums of uvec4, step 2 of 3: one workgroup converts the block sums into offsets, and stores the totals. A total
+// above its limit means that a buffer is too small: the overflow counter records that, and all dispatches that are
+// sized afterwards are empty; those that have been sized read it before they use the sums. Few elements need no other
+// step: their sums are computed here.
 #include "lanes/scan.glsl"
 
 layout(local_size_x_id = 0) in;  // 64
@@ -22,8 +22,8 @@ uvec4 part(uint i, bool few) {
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  // After an overflow nobody has written elements: what is there may not tell of another. (All lanes read before any
-  // writes.)
+  // After an overflow no elements have been written: stale elements must not raise another one. (All lanes read before
+  // any writes.)
   if (counters[kOverflow] != 0u) return;
   uint count = counters[scan.items_counter] * scan.items_multiplier;
   bool few = count <= kFewElements;

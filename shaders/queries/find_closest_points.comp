@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The point of the mesh nearest to each query: xyz, and in w the squared distance within which it is of interest, or a
-// negative number if the query is to be passed over.
+// The point of the mesh nearest to each query: xyz, and in w the squared distance within which it is sought, or a
+// negative number if the query is to be skipped.
 #define QUERY_STORAGE_BUFFERS 8
 #include "tree/tree_query.glsl"
 #include "tree/closest_result.glsl"

@@ -1,11 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Generalised winding numbers within the tolerance, and the bound of their error that was met. A query whose w is
-// negative is passed over.
+// Generalised winding numbers within the tolerance, and the attained bound of their error. A query with a negative w is
+// skipped.
 #define QUERY_STORAGE_BUFFERS 7
 #include "tree/tree_query.glsl"
 layout(set = 0, binding = 5) writeonly buffer Numbers { vec2 numbers[]; };
-layout(set = 0, binding = 6) readonly coherent buffer Stop { uint stop; };  // not 0: no answer is wanted any more
+layout(set = 0, binding = 6) readonly coherent buffer Stop { uint stop; };  // not 0: results are no longer needed
 #include "tree/winding.glsl"
 
 void main() {

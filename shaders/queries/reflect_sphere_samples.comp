@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Queries at the opposites of those samples that are nearest to an edge or a vertex: only they can be two-sided fans
-// (Definition 2.4).
+// Queries at the opposites of those samples that are nearest to an edge or a vertex, since only these can be two-sided
+// fans (Definition 2.4).
 #include "tree/sphere_samples.glsl"
 layout(set = 0, binding = 2) readonly buffer Samples { vec4 samples[]; };
 layout(set = 0, binding = 3) readonly buffer Nearest { vec4 nearest[]; };

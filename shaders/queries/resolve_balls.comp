@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The balls whose walk was too long: a workgroup looks at all triangles for one ball.
+// The balls whose walk was too long: a workgroup tests all triangles for one ball.
 #define QUERY_STORAGE_BUFFERS 8
 #include "tree/tree_query.glsl"
 layout(set = 0, binding = 5) readonly buffer TriangleOrder { uint triangle_order[]; };
 layout(set = 0, binding = 6) writeonly buffer Empty { uint empty[]; };
-layout(set = 0, binding = 7) readonly coherent buffer Stop { uint stop; };  // not 0: no answer is wanted any more
+layout(set = 0, binding = 7) readonly coherent buffer Stop { uint stop; };  // not 0: results are no longer needed
 
 shared uint found;
-shared bool stopped;  // one look for all lanes: they meet at barriers
+shared bool stopped;  // one read for all lanes, which meet at barriers
 
 void main() {
   if (group_index() >= unresolved[kUnresolvedCount]) return;

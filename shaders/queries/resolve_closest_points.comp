@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Closest points of the queries whose walk was too long: a workgroup looks at all triangles for one query.
+// Closest points of the queries whose walk was too long: a workgroup examines all triangles for one query.
 #define QUERY_STORAGE_BUFFERS 8
 #include "tree/tree_query.glsl"
 #include "tree/closest_result.glsl"

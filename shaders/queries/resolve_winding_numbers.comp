@@ -5,11 +5,11 @@
 #define QUERY_STORAGE_BUFFERS 7
 #include "tree/tree_query.glsl"
 layout(set = 0, binding = 5) writeonly buffer Numbers { vec2 numbers[]; };
-layout(set = 0, binding = 6) readonly coherent buffer Stop { uint stop; };  // not 0: no answer is wanted any more
+layout(set = 0, binding = 6) readonly coherent buffer Stop { uint stop; };  // not 0: results are no longer needed
 #include "tree/winding.glsl"
 
 shared float sums[256];
-shared bool stopped;  // one look for all lanes: they meet at barriers
+shared bool stopped;  // one read for all lanes, which meet at barriers
 
 void main() {
   if (group_index() >= unresolved[kUnresolvedCount]) return;

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Average outward flux of the gradient of D through every sphere (equation 2.4), two-sided fans left out.
+// Average outward flux of the gradient of D through every sphere (equation 2.4), without two-sided fans.
 #include "tree/sphere_samples.glsl"
 layout(set = 0, binding = 2) readonly buffer Samples { vec4 samples[]; };
 layout(set = 0, binding = 3) readonly buffer Nearest { vec4 nearest[]; };

@@ -1,11 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Is the open ball around a query's xyz empty of the mesh? w is its squared radius; negative: passed over. Writes 1 or 0.
+// Tests whether the open ball around a query's xyz holds no point of the mesh. w: squared radius; negative: skipped.
+// Writes 1 or 0.
 #define QUERY_STORAGE_BUFFERS 8
 #include "tree/tree_query.glsl"
 layout(set = 0, binding = 5) readonly buffer TriangleOrder { uint triangle_order[]; };
 layout(set = 0, binding = 6) writeonly buffer Empty { uint empty[]; };
-layout(set = 0, binding = 7) readonly coherent buffer Stop { uint stop; };  // not 0: no answer is wanted any more
+layout(set = 0, binding = 7) readonly coherent buffer Stop { uint stop; };  // not 0: results are no longer needed
 #include "tree/tree_closest.glsl"
 
 void main() {

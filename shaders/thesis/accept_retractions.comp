@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Tells the sample that a segment came from that its end is acceptable.
+// Notifies the sample from which a segment came that its end is acceptable.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Lines { Retraction lines[]; };
 layout(set = 0, binding = 2) readonly buffer Empty { uint empty[]; };

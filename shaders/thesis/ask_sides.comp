@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Asks for the winding number of those centres whose side of the boundary is not known from the level above.
+// Queries the winding number of those centres whose side of the boundary is not known from the level above.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) buffer Cells { ThesisCell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Nearest { vec4 nearest[]; };

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Which cells are kept: above the finest level those with positive flux; at the finest level those with more than
-// (3/8) sin(theta), or far enough from the boundary to hold a point of the radius threshold (2.4.2).
+// Determines the cells that are kept: above the finest level those with positive flux; at the finest level those with
+// more than (3/8) sin(theta), or far enough from the boundary to hold a point of the radius threshold (2.4.2).
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) buffer Cells { ThesisCell cells[]; };
 layout(set = 0, binding = 2) buffer States { uvec4 states[]; };

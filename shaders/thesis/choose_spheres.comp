@@ -1,12 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Section 2.3.2, step 1: a cell whose sphere (its side as radius) lies inside the solid is judged by its flux. One whose
-// sphere meets the boundary is subdivided without a test; at the finest level it is searched if narrow features are
-// wanted (2.4.3), and its flux is measured to be stored. Cells wholly outside are dropped.
+// Section 2.3.2, step 1: a cell whose sphere (its side as radius) lies inside the solid is judged by its flux. A cell
+// whose sphere meets the boundary is subdivided without a test; at the finest level it is searched if narrow features
+// are requested (2.4.3), and its flux is measured to be stored. Cells wholly outside are dropped.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) buffer Cells { ThesisCell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Numbers { vec2 numbers[]; };
-layout(set = 0, binding = 3) writeonly buffer States { uvec4 states[]; };  // measure flux; keep whatever it is
+layout(set = 0, binding = 3) writeonly buffer States { uvec4 states[]; };  // measure flux; keep in any case
 
 void main() {
   uint item = invocation_index();

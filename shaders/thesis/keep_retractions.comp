@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The segments that are narrowed, in order, and the first question about each: its middle.
+// The segments that are narrowed, in order, and the first query of each: its middle.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Lines { Retraction lines[]; };
 layout(set = 0, binding = 2) readonly buffer States { uvec4 states[]; };

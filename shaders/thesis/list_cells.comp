@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The cells of a level: top cells of the chunk, or the children of the cells that were kept. Asks for the boundary
-// point nearest to each centre.
+// The cells of a level: top cells of the chunk, or the children of the cells that were kept. Queries the boundary point
+// nearest to each centre.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Parents { ThesisCell parents[]; };
 layout(set = 0, binding = 2) writeonly buffer Cells { ThesisCell cells[]; };

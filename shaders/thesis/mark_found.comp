@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Which finest voxels have got a point.
+// Marks the finest voxels that have a point.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Points { FoundPoint points[]; };
 layout(set = 0, binding = 2) writeonly buffer States { uvec4 states[]; };

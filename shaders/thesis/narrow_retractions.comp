@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Algorithm 1, one step of every segment: B(m) = B(p) exactly if the ball around the middle m through B(p) is empty.
-// Then asks about the next middle; after the last step, for the nearest point of q.
+// Then queries the next middle, or, after the last step, the nearest point of q.
 #include "thesis/thesis.glsl"
 layout(constant_id = 1) const bool kLastStep = false;
 layout(set = 0, binding = 1) readonly buffer Voxels { ThesisCell voxels[]; };

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Algorithm 2, its loop over samples: the segment from a sample phi to its opposite, and whether B(opp(phi)) is another
-// point than B(phi), that is, whether the ball around opp(phi) through B(phi) holds boundary points. Segments that miss
-// the voxel cannot end in it.
+// Algorithm 2, its loop over samples: the segment from a sample phi to its opposite, and whether B(opp(phi)) differs
+// from B(phi), that is, whether the ball around opp(phi) through B(phi) holds boundary points. Segments that miss the
+// voxel cannot end in it.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Voxels { ThesisCell voxels[]; };
 layout(set = 0, binding = 2) readonly buffer Active { uint active_slots[]; };

@@ -22,10 +22,10 @@ using Eigen::Vector3d;
 using test::ExtrudedPolygon;
 
 constexpr double kObjectAngle = 0.6;  // below pi/4, the object angle of the bisectors of right angles
-// Medial surface that crosses a voxel by less than this share of its side need not be found: what a line must hit
+// A medial surface that crosses a voxel by less than this share of its side need not be found: the target of a line
 // shrinks with it, and the contract does not promise it.
 constexpr double kCrossing = 0.05;
-// Nor do thinner objects: sheets whose object angle just passes.
+// The same holds for thinner objects: sheets whose object angle barely passes.
 constexpr double kClearAngle = kObjectAngle + 0.05;
 
 struct Prism {
@@ -62,10 +62,11 @@ void expect_every_crossed_voxel_found(const Prism& prism, const Matrix3d& to_wor
   const VoxelGrid& grid = extraction.grid;
   const test::SphereByVoxel found = test::spheres_by_voxel(extraction);
   std::map<test::Voxel, ExtrudedPolygon::MedialPoint> crossed;
-  // Samples closer than the crossing that is asked for.
+  // Samples closer together than the required crossing.
   for (const Vector3d& start : prism.exact.boundary_samples(kCrossing * grid.voxel_size)) {
     const ExtrudedPolygon::MedialPoint medial = prism.exact.medial_point_behind(start);
-    // The proof that an aimed line ends in a medial point wants D >= 4 epsilon (docs/theory.md, "How far to narrow").
+    // The proof that an aimed line ends in a medial point requires D >= 4 epsilon (docs/theory.md, "How far to
+    // narrow").
     if (medial.object_angle < kClearAngle || medial.radius < 4 * epsilon) continue;
     const Vector3d world = to_world * medial.centre;
     if (test::depth_in_voxel(grid, world) >= kCrossing) crossed.emplace(test::voxel_of(grid, world), medial);
@@ -118,8 +119,8 @@ TEST(ExactBox, ObjectAnglesAreThoseOfItsFaces) {
   std::size_t neighbours = 0, opposite = 0;
   for (const MedialSphere& s : result.extraction.spheres) {
     const auto angle = static_cast<double>(s.object_angle);
-    // Spoke b comes from the device: off by 2 * slack / D (docs/theory.md, "Rounding"; slack is 2e-6 of the longest
-    // side), half of it in the object angle; 1e-6 for numbers written as floats.
+    // Spoke b comes from the device, with an error of 2 * slack / D (docs/theory.md, "Rounding"; slack is 2e-6 of the
+    // longest side), half of it in the object angle; 1e-6 for numbers written as floats.
     const double tolerance = 2e-6 * mesh.report.longest_side() / s.radius + 1e-6;
     const bool is_neighbours = std::abs(angle - std::numbers::pi / 4) <= tolerance;
     const bool is_opposite = std::abs(angle - std::numbers::pi / 2) <= tolerance;

@@ -108,7 +108,7 @@ TEST(ReferenceAnalytic, EveryVoxelOfABoxIsFound) {
 }
 
 TEST(ReferenceAnalytic, SpheresOfACubeInItsOwnGrid) {
-  // Not turned: sheets fall on voxel faces and edges, ties everywhere.
+  // Not turned: sheets lie on voxel faces and edges, with ties everywhere.
   const reference::Mesh mesh = test::to_reference(test::make_box({1, 1, 1}));
   Parameters parameters;
   parameters.resolution = 17;
@@ -117,8 +117,8 @@ TEST(ReferenceAnalytic, SpheresOfACubeInItsOwnGrid) {
   expect_certified(mesh, result, parameters);
 }
 
-// The ideal medial axis is a segment. Facets of sagitta s put salient points at most s / (1 - cos(2 theta)) off it:
-// a point that far off has its nearest facets all on one side.
+// The ideal medial axis is a segment. Facets of sagitta s put salient points at most s / (1 - cos(2 theta)) away from
+// it: a point at that distance has its nearest facets all on one side.
 TEST(ReferenceAnalytic, CapsuleKeepsToItsAxis) {
   constexpr int kSegments = 64;
   const double radius = 0.4, length = 1.0;
@@ -191,7 +191,7 @@ TEST(ReferenceAnalytic, RadiusThresholdAddsDeepPoints) {
   expect_certified(mesh, reference::extract(mesh, parameters), parameters);
 }
 
-// Nothing may rest on normals or on closedness where they are not known.
+// Nothing may depend on normals or on closedness where these are not known.
 TEST(ReferenceAnalytic, UntrustedAndOpenSolids) {
   reference::Mesh mesh = turned(test::make_l_shape(1, 0.35, 0.6));
   Parameters parameters;
@@ -199,7 +199,7 @@ TEST(ReferenceAnalytic, UntrustedAndOpenSolids) {
   mesh.trusted.clear();
   const reference::Tree tree(mesh);
   const Result untrusted = reference::extract(mesh, parameters);
-  // Where the boundary does not touch the voxel, directions (Lemma C) do as well as normals.
+  // Where the boundary does not touch the voxel, directions (Lemma C) serve as well as normals.
   const auto deep = [&](const test::MedialSample& s) {
     return s.object_angle >= 0.65 && s.radius > std::sqrt(3.0) * untrusted.voxel_size;
   };

@@ -56,10 +56,10 @@ KnownSolid box() {
 }
 
 /// Arms 0.35 thick and 1 long, 0.5 high: nowhere does a ball touch bottom and top, as the largest, at the corner, has
-/// the radius 0.35 (2 - sqrt(2)) = 0.205. Each arm has a middle; they meet that of the outer corner where a ball
+/// the radius 0.35 (2 - sqrt(2)) = 0.205. Each arm has a middle sheet; they meet that of the outer corner where a ball
 /// touches both outer walls and the reflex edge. The two inner walls and the reflex edge between them are one part:
-/// spokes turn from one wall to the other without a jump. Both ends have a bisector with each wall beside them, and
-/// bottom and top one with everything else.
+/// spokes turn from one wall to the other without a jump. Both ends have a bisector with each adjacent wall, and bottom
+/// and top have one with every other part.
 KnownSolid l_shape() {
   const auto inner = [](const Vector3d& p) {
     const Vector3d q(std::max(p.x(), 0.35), std::max(p.y(), 0.35), 0);
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, KnownSheets, testing::Values(&box, &l_shape, &p
                          [](const auto& solid) { return solid.param().name; });
 
 // The bisector of an edge of length l in a box of least side a ends where the balls have the radius a/2: a trapezium of
-// area (l - a/2) a / sqrt(2). The middle is what is left of the rectangle between.
+// area (l - a/2) a / sqrt(2). The middle sheet is the remainder of the rectangle between.
 TEST(KnownAreas, OfABox) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_box({1, 0.75, 0.5});
@@ -183,16 +183,16 @@ TEST(KnownAreas, OfABox) {
   double area = 0, exact = (1 - 0.5) * (0.75 - 0.5);
   for (const Sheet& sheet : sheets.sheets) area += sheet.area;
   for (const double edge : {1.0, 0.75, 0.5}) exact += 4 * (edge - 0.25) * 0.5 / std::sqrt(2.0);
-  // Of a voxel at a rim half counts, which is right in the mean. One at a seam counts for one of three sheets, each of
-  // which has half of it in the mean, so that up to half a voxel is missing along the seams: from the eight corners to
-  // the middle, and around that.
+  // Half of a voxel at a rim counts, which is right on average. A voxel at a seam counts for one of three sheets, each
+  // of which has half of it on average, so that up to half a voxel is missing along the seams: from the eight corners
+  // to the middle, and around the middle.
   const double seams = 8 * 0.25 * std::sqrt(3.0) + 2 * (1 - 0.5) + 2 * (0.75 - 0.5);
   EXPECT_LT(area, exact);
   EXPECT_GT(area, exact - 0.5 * extraction.grid.voxel_size * seams);
 }
 
-// A torus whose tube is an ellipse with semi-axes 0.4 and 0.2: one sheet in its plane, a ring, though a mesh of flat
-// facets stands for it.
+// A torus whose tube is an ellipse with semi-axes 0.4 and 0.2: one sheet in its plane, a ring, although a mesh of flat
+// facets represents it.
 TEST(KnownSheetsOfATorus, OneRing) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_torus(1, 0.4, 40, 80, 0.5);

@@ -1,5 +1,5 @@
 // Finely faceted smooth solids against the medial surfaces of the smooth ones: a point, a segment, a disk, a focal
-// ellipse. Tolerances derive from how far facets lie below the surface and how far their normals turn.
+// ellipse. Tolerances derive from the depth of facets below the surface and the turn of their normals.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -64,11 +64,12 @@ double longest_edge(std::uint32_t triangles) {
 /// obtuse, asin(x) <= pi / 2 x).
 double facet_radius(double longest_edge) { return longest_edge; }
 
-/// How far from the centre of a ball of radius R, whose facets are tangent somewhere between R - delta and R, a point
-/// can be that certifies as salient. Let it lie at distance m in direction u. A facet within f of u is at most
-/// R - m cos f away, so the nearest one, with normal a, has m (cos f - cos(u, a)) <= delta. The other contact b ties
-/// within 2 epsilon (Lemma 2.4) and within delta: m (cos(u, a) - cos(u, b)) <= 2 epsilon + delta. a and b are at least
-/// 2 theta apart, so one of them is theta or more from u: in either case m (cos f - cos theta) <= 2 epsilon + 2 delta.
+/// The greatest distance from the centre of a ball of radius R, whose facets are tangent somewhere between R - delta
+/// and R, of a point that certifies as salient. Let it lie at distance m in direction u. A facet within f of u is at
+/// most R - m cos f away, so the nearest one, with normal a, has m (cos f - cos(u, a)) <= delta. The other contact b
+/// ties within 2 epsilon (Lemma 2.4) and within delta: m (cos(u, a) - cos(u, b)) <= 2 epsilon + delta. a and b are at
+/// least 2 theta apart, so one of them is theta or more from u: in either case m (cos f - cos theta) <= 2 epsilon + 2
+/// delta.
 double salient_reach(double epsilon, double delta, double facet) {
   return (2 * epsilon + 2 * delta) / (std::cos(facet) - std::cos(kObjectAngle));
 }
@@ -92,12 +93,12 @@ TEST_P(SmoothSphere, OnlyTheCentreIsMedial) {
   EXPECT_EQ(s.voxel, (std::array<std::uint32_t, 3>{16, 16, 16}));
 }
 
-// In double precision another of the facets that tie may be the nearest than in float: 20,000 once lost their point.
+// In double precision another of the tied facets may be the nearest than in float: 20,000 facets once lost their point.
 INSTANTIATE_TEST_SUITE_P(Smooth, SmoothSphere, testing::Values(2000u, 8000u, 20000u),
                          [](const auto& triangles) { return std::to_string(triangles.param); });
 
-// The exact medial curve of a regular prism is a single line where all facets tie: the hardest thing to hit. What is
-// missed must have been called undecided, and most of the chain must be there.
+// The exact medial curve of a regular prism is a single line where all facets tie: the most difficult target. A missed
+// voxel must have been classified as undecided, and most of the chain must be present.
 TEST(SmoothCapsule, PointsFormAChainAlongItsAxis) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const double radius = 0.4, length = 1.5;
@@ -137,8 +138,8 @@ TEST_P(SmoothEllipsoid, PointsLieInTheFocalEllipse) {
   SCOPED_TRACE(test::describe(r.result));
   // A geodesic sphere of 20^2 * 20 facets, as above, stretched by at most a.
   const double edge = longest_edge(8000), delta = a * edge * edge / 5;
-  // One spoke up, one down, both at least theta from the plane for their half angle to be theta; two contacts that tie
-  // within 2 epsilon, each as far below the surface as delta: 2 |z| sin(theta) <= 2 epsilon + delta.
+  // One spoke goes up, one down, both at least theta from the plane if their half angle is theta; two contacts that tie
+  // within 2 epsilon, each at most delta below the surface: 2 |z| sin(theta) <= 2 epsilon + delta.
   const double height = (2 * r.epsilon + delta) / (2 * std::sin(kObjectAngle));
   // The smooth medial surface: z = 0 inside the ellipse of semi-axes a - c^2/a and b - c^2/b (of its foci).
   const double ellipse_x = a - c * c / a, ellipse_y = b - c * c / b;
@@ -148,14 +149,14 @@ TEST_P(SmoothEllipsoid, PointsLieInTheFocalEllipse) {
     const double outside = std::hypot(p.x() / ellipse_x, p.y() / ellipse_y);
     EXPECT_LE(outside, 1.0) << p.transpose();  // near the rim object angles fall to 0, far below the threshold
   }
-  // Where the object angle of the smooth solid clearly passes, voxels that the ellipse crosses have their point.
+  // Where the object angle of the smooth solid clearly passes, voxels that the ellipse crosses have a point.
   const VoxelGrid& grid = r.result.extraction.grid;
   const test::SphereByVoxel found = test::spheres_by_voxel(r.result.extraction);
   const double depth = 0.05 + height / grid.voxel_size, spacing = 0.05 * grid.voxel_size;
   std::set<test::Voxel> crossed;
   for (double x = -ellipse_x; x <= ellipse_x; x += spacing) {
     for (double y = -ellipse_y; y <= ellipse_y; y += spacing) {
-      // Nearest surface points: stretch back the normals, then up to the surface.
+      // Nearest surface points: the normals are scaled back, then the points are raised to the surface.
       const double foot_x = x / (1 - c * c / (a * a)), foot_y = y / (1 - c * c / (b * b));
       const double rest = 1 - std::pow(foot_x / a, 2) - std::pow(foot_y / b, 2);
       if (rest <= 0) continue;

@@ -1,6 +1,6 @@
-// The same smooth solids cut into triangles in many ways: what is found must be the medial surface of the smooth solid,
-// not of its facets. Both ways, within 1.5 voxels; tests/support/solids/mesh_promises.h says what can be asked of a
-// mesh and why.
+// The same smooth solids cut into triangles in many ways: the result must be the medial surface of the smooth solid,
+// not of its facets. In both directions, within 1.5 voxels; tests/support/solids/mesh_promises.h derives the promises
+// of a mesh.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -32,7 +32,7 @@ using test::SmoothSolid;
 
 constexpr std::uint32_t kResolution = 40;
 constexpr double kNearby = 1.5;  // voxels
-// Objects thinner than this need not be found: their angle just passes, and the last float decides.
+// Objects thinner than this need not be found: their angle barely passes, and the last bits of float decide.
 constexpr double kClearAngle = 0.05;
 constexpr double kNoise = 1e-4;  // of the longest side
 constexpr std::uint32_t kCoarse = 1000;
@@ -82,7 +82,7 @@ double distance_to_nearest(const std::vector<Vector3d>& points, const Vector3d& 
   return std::sqrt(squared);
 }
 
-/// How finely and how the solid is cut.
+/// The fineness and the kind of the triangulation.
 struct Cut {
   std::uint32_t triangles;
   bool is_irregular, is_noisy;
@@ -109,7 +109,7 @@ std::ostream& operator<<(std::ostream& out, const SmoothCase& smooth) { return o
 
 class Tessellation : public OnDevice, public testing::WithParamInterface<SmoothCase> {};
 
-/// A count that must be 0, and how bad the worst case is.
+/// A count that must be 0, and the size of the worst case.
 struct Verdict {
   std::size_t judged = 0, failed = 0;
   double worst = 0;  // voxels
@@ -121,7 +121,7 @@ struct Verdict {
   }
 };
 
-/// What is known of a mesh, whatever is asked of it.
+/// The known properties of a mesh, for all tests of it.
 struct Expectation {
   const SmoothSolid& solid;
   double deviation;
@@ -157,7 +157,7 @@ void expect_agreement(const Expectation& expected, const Extraction& extraction,
                                 << " points are far from the smooth medial surface, the worst " << outputs.worst
                                 << " voxels";
   const Verdict promises = judge_promises(expected, extraction, object_angle);
-  // Facets and noise turn normals by less than what separates the threshold from the widest angles.
+  // Facets and noise turn normals by less than the difference between the threshold and the widest angles.
   EXPECT_GT(promises.judged, 0u);
   EXPECT_EQ(promises.failed, 0u) << "of " << promises.judged << " smooth medial points have no point near, the worst "
                                  << "none in " << promises.worst << " voxels";
@@ -219,7 +219,7 @@ Voxels voxels_with_a_point(const Extraction& extraction) {
   return voxels;
 }
 
-/// Voxels that a curve crosses, with how far it gets from their faces, as a fraction of the voxel side.
+/// Voxels that a curve crosses, with its greatest distance from their faces, as a fraction of the voxel side.
 std::map<test::Voxel, double> crossed_voxels(const SmoothSolid& solid, const VoxelGrid& grid) {
   std::map<test::Voxel, double> voxels;
   const Matrix3d turn = to_world();
@@ -283,8 +283,8 @@ std::vector<SmoothCase> round_tubes() {
 INSTANTIATE_TEST_SUITE_P(Smooth, ThinCurve, testing::ValuesIn(round_tubes()),
                          [](const auto& smooth) { return smooth.param.name; });
 
-// The curve of the mesh may miss a voxel that the smooth one just touches: crossings deeper than the reach of a promise
-// (mesh_promises.h, alpha = pi/2) and epsilon are found without exception, and nearly all of any depth.
+// The curve of the mesh may miss a voxel that the smooth one barely touches: crossings deeper than the reach of a
+// promise (mesh_promises.h, alpha = pi/2) and epsilon are found without exception, and nearly all of any depth.
 TEST_F(OnDevice, FindsNearlyEveryVoxelThatTheCircleOfATorusCrosses) {
   const std::unique_ptr<SmoothSolid> solid = torus();
   const Mesh mesh = solid->mesh(16 * kCoarse);

@@ -43,14 +43,14 @@ void expect_same_measures(const std::vector<Ball>& balls, const BallUnion& found
   expect_measures(found, test::measure_by_complex(balls, complex, true));
 }
 
-/// Ours is a complex of the union in its own right: the same measures follow from it.
+/// The project's complex must itself be a complex of the union: the same measures follow from it.
 void expect_consistent(const std::vector<Ball>& balls, const BallUnion& found) {
   expect_measures(found, test::measure_by_complex(balls, found.complex));
 }
 
-/// Ties may be broken in another way: only the topology is the same.
-/// `touching`: spheres touch on the union's surface, by less than what counts as touching; simplices of such spheres
-/// are in ours, which changes no topology, but inclusion and exclusion knows no tolerance.
+/// Ties may be broken differently: only the topology is the same.
+/// `touching`: spheres touch on the union's surface, within the tolerance of touching; simplices of such spheres are in
+/// the project's complex, which changes no topology, but inclusion and exclusion knows no tolerance.
 void expect_same_union(const std::vector<Ball>& balls, bool touching = false) {
   const BallUnion found = measure(balls);
   const DualComplex complex = test::dual_complex_by_cgal(balls);
@@ -97,7 +97,7 @@ TEST(UnionByCgal, OfBallsOfAllSizes) {
 }
 
 TEST(UnionByCgal, OfLattices) {
-  // Squares of these radii are exact: CGAL gets them squared. None touch by their radius alone.
+  // Squares of these radii are exact: CGAL receives them squared. None touch by their radius alone.
   for (const double radius : {0.625, 0.75, 0.8125, 0.875, 1.25, 1.75}) expect_same_union(test::lattice(6, radius));
   for (const double radius : {0.625, 0.75, 2.5, 6.0}) expect_same_union(test::flat_lattice(20, radius));
 }
@@ -111,14 +111,15 @@ TEST(UnionByCgal, OfLatticesWithNoise) {
   }
 }
 
-/// Noise of one rounding: CGAL's radii, squared and rounded, are not ours, and the diagrams differ everywhere.
+/// Noise of one rounding: CGAL's radii, squared and rounded, differ from the project's, and so do the diagrams
+/// everywhere.
 TEST(UnionByCgal, OfLatticesWithRoundingNoise) {
   for (const double radius : {0.625, 0.8, 1.0, 1.3}) {
     for (const double noise : {1e-18, 1e-17, 1e-16, 1e-15}) expect_same_union(test::lattice(5, radius, noise));
   }
 }
 
-/// Few balls on a plane, a line, a sphere or through a point, but for noise.
+/// Few balls on a plane, a line, a sphere or through a point, up to noise.
 TEST(UnionByCgal, OfNearlyDegenerateBalls) {
   std::mt19937_64 engine(7);
   for (unsigned n = 0; n < 200; ++n) {

@@ -38,13 +38,13 @@ struct Sphere {
 
 Both of_ball(const Real& r) { return {4 * pi() / 3 * r * r * r, 4 * pi() * r * r}; }
 
-/// What a plane at `height` above the centre cuts off a ball.
+/// The cap that a plane at `height` above the centre cuts off a ball.
 Both of_cap(const Real& r, const Real& height) {
   const Real rise = r - height;
   return {pi() * rise * rise * (3 * r - rise) / 3, 2 * pi() * r * rise};
 }
 
-/// What two balls have in common; neither lies in the other.
+/// The intersection of two balls, neither of which lies in the other.
 Both of_lens(const Sphere& a, const Sphere& b) {
   const Real distance = length(b.centre - a.centre);
   const Real height = (distance + (a.radius - b.radius) * (a.radius + b.radius) / distance) / 2;
@@ -71,7 +71,7 @@ Real tetrahedron_volume(const Vector& p, const Vector& q, const Vector& r, const
   return abs(dot(q - p, cross(r - p, s - p))) / 6;
 }
 
-/// A point that lies on all three spheres; false if there is none but for rounding.
+/// A point that lies on all three spheres; false if there is none except by rounding.
 bool find_apex(const Sphere& a, const Sphere& b, const Sphere& c, Vector& apex) {
   const Vector u = b.centre - a.centre, v = c.centre - a.centre, n = cross(u, v);
   const Real of_u = (dot(u, u) + (a.radius - b.radius) * (a.radius + b.radius)) / 2;
@@ -84,8 +84,8 @@ bool find_apex(const Sphere& a, const Sphere& b, const Sphere& c, Vector& apex) 
   return true;
 }
 
-/// What three balls have in common. The sum of this file holds for the tetrahedron of the three and a fourth ball of
-/// radius 0 on their spheres, too, and gives half of it.
+/// The intersection of three balls. The sum of this file also holds for the tetrahedron of the three and a fourth ball
+/// of radius 0 on their spheres, and gives half of the volume.
 Both of_triple(const Sphere& a, const Sphere& b, const Sphere& c) {
   Vector apex;
   if (!find_apex(a, b, c, apex)) return {};
@@ -149,7 +149,7 @@ class Measuring {
 
   const DualComplex& complex_;
   std::vector<Sphere> spheres_;
-  std::vector<Real> corners_, edges_, triangles_;  // shares of directions that are left
+  std::vector<Real> corners_, edges_, triangles_;  // remaining shares of directions
   Both sum_;
 };
 

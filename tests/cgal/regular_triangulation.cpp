@@ -34,8 +34,8 @@ std::vector<NamedBall> named(std::span<const Ball> balls) {
   return result;
 }
 
-/// Points far from all balls, so that the triangulation has tetrahedra even where centres are in a plane. In the union
-/// none of them is nearest, so no simplex with one of them is in the dual complex but the point itself.
+/// Points far from all balls, so that the triangulation has tetrahedra even if all centres are in a plane. In the union
+/// none of them is nearest, so the only simplices with one of them in the dual complex are these points themselves.
 void add_far_points(std::span<const Ball> balls, std::vector<NamedBall>& points) {
   double reach = 1;
   for (const auto& [c, r] : balls) {
@@ -49,9 +49,9 @@ void add_far_points(std::span<const Ball> balls, std::vector<NamedBall>& points)
   }
 }
 
-/// Finds which simplices of the triangulation are in the complex: those whose smallest orthogonal sphere has no real
-/// radius above 0 and holds no neighbour, and the faces of these (H. Edelsbrunner, E. P. Muecke, "Three-Dimensional
-/// Alpha Shapes", 1994).
+/// Determines the simplices of the triangulation that are in the complex: those whose smallest orthogonal sphere has no
+/// real radius above 0 and holds no neighbour, and the faces of these (H. Edelsbrunner, E. P. Muecke,
+/// "Three-Dimensional Alpha Shapes", 1994).
 class Classifier {
  public:
   Classifier(const Triangulation& triangulation, std::uint32_t count)
@@ -74,7 +74,7 @@ class Classifier {
  private:
   using Handle = Triangulation::Vertex_handle;
 
-  /// Sorted names; false if one is none of the balls.
+  /// Sorted names; false if one of them is not a ball.
   template <std::size_t N>
   bool name(const std::array<Handle, N>& vertices, std::array<std::uint32_t, N>& names) const {
     for (std::size_t k = 0; k < N; ++k) names[k] = vertices[k]->info();

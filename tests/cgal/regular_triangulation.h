@@ -1,4 +1,5 @@
-// The dual complex by CGAL: its regular triangulation with exact predicates and its own criteria of what is in it.
+// The dual complex by CGAL: its regular triangulation with exact predicates and its own criteria for the simplices in
+// it.
 #pragma once
 
 #include <span>
@@ -7,11 +8,10 @@
 
 namespace medial_vk::test {
 
-/// Complete and sorted, like BallUnion::complex. Squared radii are rounded to double; of balls that are equal, any one
-/// counts.
+/// Complete and sorted, like BallUnion::complex. Squared radii are rounded to double; of equal balls, any one counts.
 DualComplex dual_complex_by_cgal(std::span<const Ball> balls);
 
-/// How many vertices the regular triangulation of the balls has; nothing else is done with it (for measurements).
+/// Number of vertices of the regular triangulation of the balls, without any further work (for measurements).
 std::size_t triangulate_by_cgal(std::span<const Ball> balls);
 
 }  // namespace medial_vk::test

@@ -199,7 +199,7 @@ TEST_F(CommandLine, SheetsAreInPointsAndReport) {
   EXPECT_EQ(report["medial_mesh"]["components"], 1);
   EXPECT_THAT(read_file(path("m.ma")), StartsWith(std::to_string(report["points"]["written"].get<int>()) + " "));
 
-  // Everything in one.
+  // All options together.
   ASSERT_EQ(run_cpu({"part.obj", "-o", "one.ply", "--sheet-crease", "180"}).exit_code, 0);
   for (const MedialSphere& sphere : points("one.ply").spheres) EXPECT_EQ(sphere.sheet, 0);
 }
@@ -285,13 +285,13 @@ TEST_P(Interrupted, StopsWith130AndLeavesNothing) {
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "torus.obj"));
 }
 
-/// Sends the signal after a second; the tool ends with 130 without going on with what it does.
+/// Sends the signal after a second; the tool ends with 130 without continuing its work.
 void expect_end_at_once(test::Tool& tool, int signal) {
   std::this_thread::sleep_for(std::chrono::seconds(1));
   ASSERT_TRUE(tool.running());
   const auto sent = std::chrono::steady_clock::now();
   tool.send(signal);
-  // 200 ms on a machine that has nothing else to do.
+  // 200 ms on an otherwise idle machine.
   while (tool.running() && std::chrono::steady_clock::now() - sent < std::chrono::seconds(2))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_FALSE(tool.running());

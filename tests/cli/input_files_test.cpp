@@ -1,4 +1,4 @@
-// Meshes as people have them, from outside: names, standard input, locales, headers that lie.
+// Mesh files as users have them, from outside: names, standard input, locales, false headers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST_F(InputFiles, NothingOnStandardInputIs3) {
   EXPECT_THAT(folder_.names(), ElementsAre());
 }
 
-// Whether or not these locales are installed: the tool is never to ask for one.
+// Independent of whether these locales are installed: the tool must never query one.
 TEST_F(InputFiles, ADecimalCommaInTheEnvironmentChangesNothing) {
   test::write_file(path("part.obj"), all_formats()[0].bytes);
   const std::vector<std::string> arguments = {"part.obj",  "-o",   "-",        "--ascii",
@@ -83,7 +83,7 @@ TEST_F(InputFiles, ADecimalCommaInTheEnvironmentChangesNothing) {
   }
 }
 
-// In 64 MiB of address space: memory that a header asks for would end with exit code 5.
+// In 64 MiB of address space: an allocation of the size in a header would end with exit code 5.
 TEST_F(InputFiles, HeadersThatLieTakeNoMemory) {
 #if defined(MEDIAL_VK_SANITIZED)
   GTEST_SKIP() << "AddressSanitizer needs all of the address space";

@@ -1,5 +1,5 @@
-// Killed a hundred times, at moments spread over a run: files are those of before, or whole new ones, or not there, and
-// there are no others. Every kind of file that the program writes.
+// The tool is killed a hundred times, at moments spread over a run: files are the previous ones, or whole new ones, or
+// absent, and there are no others. For every kind of file that the program writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -23,7 +23,7 @@ struct Job {
   std::string name;
   std::vector<std::string> arguments;
   std::vector<std::string>
-      files;  // that it writes; reports, which hold times, end in .json, pages, which hold a report, in .html
+      files;  // of the run; reports, which hold times, end in .json, pages, which hold a report, in .html
 };
 
 void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
@@ -39,7 +39,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     test::write_file(path("part.obj"), test::to_obj(part));
   }
 
-  /// Seconds of a run that nobody kills. Takes note of what it writes.
+  /// Seconds of a run that is not killed. Records the files that it writes.
   std::chrono::duration<double> run_whole() {
     const auto begin = std::chrono::steady_clock::now();
     const test::ToolResult result = run(GetParam().arguments);
@@ -50,7 +50,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     return seconds;
   }
 
-  /// Is it that file as a whole run writes it, but for the times in it?
+  /// True if it is the file that a whole run writes, up to the times in it.
   bool is_whole(const std::string& file, const std::string& bytes) const {
     if (file.ends_with(".json")) return nlohmann::json::accept(bytes);
     if (file.ends_with(".html")) return bytes.ends_with(whole_.at(file).substr(whole_.at(file).size() - 64));
@@ -64,7 +64,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     }
   }
 
-  /// Killed between the two calls that replace a file: what stays under another name is whole.
+  /// Killed between the two calls that replace a file: the file that remains under another name is whole.
   void expect_whole_leftover(bool had_files) {
     std::size_t left_over = 0;
     for (const std::string& name : folder_.names()) {
@@ -79,7 +79,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     EXPECT_LE(left_over, 1u);
   }
 
-  /// Returns how many files are new.
+  /// Returns the number of new files.
   int expect_whole_files(bool had_files) {
     std::size_t there = 0;
     int replaced = 0;
@@ -99,7 +99,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
   }
 
  private:
-  std::map<std::string, std::string> whole_;  // by file: what a whole run writes
+  std::map<std::string, std::string> whole_;  // by file: the result of a whole run
 };
 
 TEST_P(Kills, LeaveWholeFilesOrNone) {

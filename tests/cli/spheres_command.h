@@ -54,7 +54,7 @@ class SpheresCommand : public ToolTest {
   nlohmann::json report() const { return nlohmann::json::parse(read_file(path("r.json"))); }
   nlohmann::json measures() const { return report()["parts"][0]["measures"]; }
 
-  /// As the library sees part.obj.
+  /// The mesh of part.obj in the form that the library takes.
   PreparedMesh part() const { return std::move(prepare_mesh(std::move(read_mesh(path("part.obj"))).value())).value(); }
 
   std::vector<std::string> robot_arguments(const std::string& goal, const std::string& number) const {

@@ -66,7 +66,7 @@ TEST_F(SpheresCommand, LevelsAreBeginningsOfEachOther) {
   }
 }
 
-/// Read again, its spheres are themselves.
+/// When the file is read again, its spheres represent themselves.
 TEST_F(SpheresCommand, AMeshBecomesARobotOfOneLink) {
   ASSERT_EQ(best({"part.obj", "--count", "9", "-q", "-o", "part.urdf"}).exit_code, 0);
   ASSERT_EQ(best({"part.obj", "--count", "9", "-q", "-o", "part.json"}).exit_code, 0);
@@ -107,7 +107,7 @@ TEST_F(SpheresCommand, ARobotGetsSpheresForCollision) {
   EXPECT_THAT(urdf, HasSubstr("<origin xyz=\"0 0 3\" rpy=\"0 0 0\"/>"));
   EXPECT_THAT(urdf, HasSubstr("<joint name=\"j\" type=\"fixed\">"));
   EXPECT_THAT(urdf, Not(HasSubstr("package://")));  // it was collision geometry
-  // What was written is a robot again, of balls only.
+  // The written file is again a robot, of balls only.
   std::vector<std::string> again = {"two.spheres.urdf", "--total", "1000", "-o", "again.json"};
   ASSERT_EQ(spheres(again).exit_code, 0);
   const json links = json::parse(read_file(path("again.json")))["links"];

@@ -19,7 +19,7 @@ class ScratchFolder {
   ~ScratchFolder();
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  /// Names of the files in it, sorted.
+  /// Names of the files in it, in order.
   std::vector<std::string> names() const;
 
  private:
@@ -41,10 +41,10 @@ struct ToolCall {
   std::string standard_input = {};                      ///< Its bytes.
   std::map<std::string, std::string> environment = {};  ///< Added to the test's own.
   std::uint64_t address_space = 0;                      ///< Limit in bytes, 0: none.
-  bool endless_input = false;  ///< After these bytes of standard input neither more nor an end.
+  bool endless_input = false;  ///< After these bytes standard input neither delivers more nor ends.
 };
 
-/// A process under way. The destructor kills what was not waited for.
+/// A running process. The destructor kills a process that has not been waited for.
 class Tool {
  public:
   explicit Tool(const ToolCall& call);

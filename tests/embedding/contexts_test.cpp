@@ -1,4 +1,4 @@
-// Contexts come and go, many at once and many after each other: nothing grows.
+// Contexts are created and destroyed, many at once and many after each other: memory does not grow.
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -22,14 +22,14 @@ namespace medial_vk::test {
 namespace {
 
 #if defined(MEDIAL_VK_SANITIZED)
-constexpr bool kSanitized = true;  // what is freed stays in memory for a while: its size says nothing
+constexpr bool kSanitized = true;  // freed memory stays allocated for a while: its size is not meaningful
 #else
 constexpr bool kSanitized = false;
 #endif
 
 /// Measured on lavapipe (Mesa 22.3): six runs over 1,000 contexts, between -32 and 40 KiB, up and down; nine over 50
-/// that load the driver anew, at most 84 KiB. Three times the most: a quarter of a KiB a context of a thousand. A
-/// forgotten VkDevice costs tens of KiB, an object of Vulkan some hundred bytes.
+/// that load the driver each time, at most 84 KiB. The limit is three times the most: a quarter of a KiB per context
+/// for a thousand. A leaked VkDevice costs tens of KiB, an object of Vulkan some hundred bytes.
 constexpr double kMostGrowth = 256 * 1024;
 
 /// Without the user's pipeline cache.
@@ -39,7 +39,7 @@ Context make_context() {
   return std::move(context).value();
 }
 
-/// Pages of this process in memory, in bytes, after the allocator has given back what it can.
+/// Pages of this process in memory, in bytes, after the allocator has returned free memory to the system.
 std::int64_t resident_bytes() {
   malloc_trim(0);
   std::int64_t total = 0, resident = 0;
@@ -63,8 +63,8 @@ void use_a_context() {
   ASSERT_TRUE(ran.ok()) << ran.error().message;
 }
 
-/// Bytes of growth over `count` contexts after a warm-up of 100: in a process that has done nothing yet, pools of the
-/// driver and of the allocator fill up over the first fifty. Prints how it went.
+/// Bytes of growth over `count` contexts after a warm-up of 100: in a fresh process, pools of the driver and of the
+/// allocator fill up over the first fifty. Prints the progress.
 double growth(std::size_t count) {
   const std::size_t parts = 10, part = std::max<std::size_t>(1, count / parts);
   for (std::size_t i = 0; i < (kSanitized ? 5u : 100u); ++i) use_a_context();
@@ -93,7 +93,7 @@ TEST_F(Contexts, LiveSideBySide) {
 }
 
 TEST_F(Contexts, AThousandOfThemLeaveNothingBehind) {
-  const Context other = make_context();  // keeps the driver loaded: loading it takes far longer than all the rest
+  const Context other = make_context();  // keeps the driver loaded, since loading it takes far longer than the rest
   const double bytes = growth(kSanitized ? 20 : 1000);
   if (!kSanitized) {
     EXPECT_LT(bytes, kMostGrowth);

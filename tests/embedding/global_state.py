@@ -10,7 +10,7 @@ import re
 import subprocess
 import sys
 
-# (object file, name): why it may be there.
+# (object file, name): the reason why it may exist.
 ALLOWED = [
     (r"instance\.cpp\.o", r"medial_vk::volk_mutex\(\)::mutex", "guards what follows"),
     (r"volk_source\.c\.o", r"medial_vk_(vk|volk)\w+", "volk's pointers to the loader and to functions of instances"),

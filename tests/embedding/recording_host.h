@@ -1,4 +1,4 @@
-// A host that records jobs: its device is that of a context, lent as a host lends its own.
+// A host that records jobs: its device is that of a context, lent in the way of a host.
 #pragma once
 
 #include <stdexcept>

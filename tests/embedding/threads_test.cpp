@@ -1,5 +1,5 @@
-// Many contexts in one process, from many threads: nothing is shared, answers are those of one thread. The
-// ThreadSanitizer runs these (scripts/test --tsan).
+// Many contexts in one process, from many threads: nothing is shared, and results are those of one thread. The
+// ThreadSanitizer runs these tests (scripts/test --tsan).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kThreads = 4;
 
-/// A box, turned a little; borrowed arrays with their owner.
+/// A box in a turned position; borrowed arrays with their owner.
 struct Solid {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
@@ -65,7 +65,7 @@ void append_bytes(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
-/// Spheres and closest points as bytes; what went wrong if anything did.
+/// Spheres and closest points as bytes; otherwise the error.
 std::string work(Context& context, const Solid& mesh) {
   std::string out;
   const auto extraction = test::extract_spheres(context, mesh.view(), small_job());
@@ -110,7 +110,7 @@ TEST_F(Threads, WithAContextEachAnswerLikeOne) {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < kThreads; ++i) {
       threads.emplace_back([&, i] {
-        for (int round = 0; round < 2; ++round) {  // contexts come and go while others are at work
+        for (int round = 0; round < 2; ++round) {  // contexts are created and destroyed while others are at work
           Context context = make_context();
           found[i] = work(context, meshes[i]);
         }
@@ -123,7 +123,7 @@ TEST_F(Threads, WithAContextEachAnswerLikeOne) {
   }
 }
 
-// Made by one thread, used by others in turn, destroyed by another.
+// Created by one thread, used by others in turn, destroyed by another.
 TEST_F(Threads, HandAContextOn) {
   const std::vector<Solid> meshes = solids();
   const std::vector<std::string> expected = one_after_the_other(meshes);
@@ -153,7 +153,7 @@ TEST_F(Threads, ListAndOpenDevicesAtOnce) {
   }
 }
 
-/// What jobs on a device of the thread's own count and find, frame after frame, the mesh moved in between.
+/// Counts and results of jobs on a device of the thread's own, frame after frame, with the mesh moved in between.
 std::string record_and_move(const Solid& mesh) {
   RecordingHost host(make_context());
   Result<Context> context = Context::adopt(host.lend());
@@ -177,7 +177,7 @@ std::string record_and_move(const Solid& mesh) {
   return out;
 }
 
-// As several windows of a program do: each thread has a device, a context that has adopted it, and a job.
+// In the way of a program with several windows: each thread has a device, a context that has adopted it, and a job.
 TEST_F(Threads, RecordJobsAtOnce) {
   const std::vector<Solid> meshes = solids();
   std::vector<std::string> expected, found(kThreads);
@@ -194,7 +194,7 @@ TEST_F(Threads, RecordJobsAtOnce) {
   }
 }
 
-// One device, one context, one job: made by one thread, each frame recorded by another.
+// One device, one context, one job: created by one thread, with each frame recorded by another.
 TEST_F(Threads, HandAJobOn) {
   const Solid mesh = solid(1);
   RecordingHost host(make_context());

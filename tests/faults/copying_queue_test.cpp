@@ -1,5 +1,5 @@
-// Devices with a queue for copies: they go on beside the kernels, and nothing is read before it is there, however late
-// either queue is.
+// Devices with a queue for copies: copies run beside the kernels, and nothing is read before it has arrived, even if
+// either queue is late.
 #include <gmock/gmock.h>
 
 #include <numeric>
@@ -24,7 +24,7 @@ class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQu
     return open();
   }
 
-  /// The same answer as that of the device as it is.
+  /// The same result as on the unmodified device.
   void expect_same(const Job& job) {
     std::string expected;
     vulkan().set_profile({});
@@ -67,7 +67,7 @@ TEST_P(CopyingQueue, ExtractsAlike) {
   expect_same([&](Context& context) { return extract(context, mesh, Mode::kThesis); });
 }
 
-// Points of one chunk go down while the next is computed, into the same buffer in the end.
+// Points of one chunk are downloaded while the next is computed, finally into the same buffer.
 TEST_P(CopyingQueue, ExtractsChunkByChunk) {
   const PreparedMesh mesh = small_box();
   const ExtractionOptions parameters = job_of_many_chunks();

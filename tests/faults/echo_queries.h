@@ -1,4 +1,4 @@
-// Queries whose kernel is a copy: every answer is its query.
+// Queries whose kernel is a copy: every result equals its query.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace medial_vk::test {
 
-/// In batches of 60, in groups of 20. `answers` outlives the queries.
+/// In batches of 60, in groups of 20. `answers` must outlive the queries.
 inline QuerySet echo(std::span<const float> values, std::vector<float>& answers) {
   answers.assign(values.size(), -1.0f);
   QuerySet set;

@@ -1,4 +1,5 @@
-// What the tests of faults share: small jobs with known answers, behind an interposer that can spoil them.
+// Shared definitions of the tests of faults: small jobs with known results, behind an interposer that can inject
+// faults.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -29,7 +30,7 @@
 
 namespace medial_vk::test {
 
-/// Equal answers have equal bytes: runs on one device are deterministic.
+/// Equal results have equal bytes: runs on one device are deterministic.
 template <class T>
 void append_bytes(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof(value));
@@ -51,7 +52,7 @@ inline ExtractionOptions small_job(Mode mode) {
   return parameters;
 }
 
-/// The box is searched piece by piece: points of one come down while the next is computed.
+/// The box is searched in chunks: points of one are downloaded while the next is computed.
 inline ExtractionOptions job_of_many_chunks() {
   ExtractionOptions parameters = small_job(Mode::kCertified);
   parameters.resolution = 64;
@@ -60,7 +61,7 @@ inline ExtractionOptions job_of_many_chunks() {
   return parameters;
 }
 
-/// All that is said about the solid, as bytes.
+/// All results for the solid, as bytes.
 inline std::string answer_of(const Extraction& extraction) {
   std::string out;
   for (const MedialSphere& s : extraction.spheres) {
@@ -84,7 +85,7 @@ inline std::vector<Point> points_around(std::size_t count) {
   return points;
 }
 
-/// The answer as bytes, or the error.
+/// The result as bytes, or the error.
 using Answer = Result<std::string>;
 using Job = std::function<Answer(Context&)>;
 
@@ -124,8 +125,8 @@ inline Answer make_scene_and_ask(Context& context, const PreparedMesh& mesh) {
   return ask_everything(scene.value());
 }
 
-/// Calls and allocations fail one by one: all of them, or the first and every so many-th after it, as the environment
-/// variable MEDIAL_VK_FAULT_STRIDE says. A sanitizer makes a run with every one of them take too long.
+/// Calls and allocations fail one by one: all of them, or the first and every n-th after it, where the environment
+/// variable MEDIAL_VK_FAULT_STRIDE gives n. With a sanitizer, a run with every one of them takes too long.
 inline std::uint64_t fault_stride() {
   static const std::uint64_t stride = [] {
     const char* asked = std::getenv("MEDIAL_VK_FAULT_STRIDE");
@@ -137,7 +138,7 @@ inline std::uint64_t fault_stride() {
   return stride;
 }
 
-/// With the interposer in place. Skipped without a device.
+/// With the interposer installed. Skipped without a device.
 class FaultTest : public testing::Test {
  protected:
   void SetUp() override {

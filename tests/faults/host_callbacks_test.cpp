@@ -17,7 +17,7 @@ namespace {
 
 using HostCallbacks = FaultTest;
 
-/// A host's allocator for Vulkan: counts, knows its blocks, and fails where it is told to.
+/// A host's allocator for Vulkan: counts, knows its blocks, and fails where requested.
 class HostAllocator {
  public:
   HostAllocator() {
@@ -33,7 +33,7 @@ class HostAllocator {
   }
   HostAllocator(const HostAllocator&) = delete;
   HostAllocator& operator=(const HostAllocator&) = delete;
-  /// The driver may have forgotten blocks of its own; tests ask alive() before.
+  /// The driver may have leaked blocks of its own; tests call alive() before.
   ~HostAllocator() {
     for (const auto& block : sizes_) std::free(block.first);
   }
@@ -42,12 +42,12 @@ class HostAllocator {
   std::size_t alive() const { return sizes_.size(); }
   std::uint64_t foreign() const { return foreign_; }
   /// The k-th allocation from now on fails, of those in calls that can report it. While it records commands, lavapipe
-  /// (Mesa 22.3) does not look whether it got memory: it crashes or forgets the command, and says nothing.
+  /// (Mesa 22.3) does not check for failed allocations: it crashes or omits the command without an error.
   void fail_at(std::uint64_t k) {
     left_ = k;
     failed_ = "";
   }
-  /// The call in which it failed; empty: it did not.
+  /// The call in which it failed; empty if it did not.
   const std::string& failed() const { return failed_; }
 
  private:
@@ -186,7 +186,7 @@ TEST_F(HostCallbacks, RunOut) {
       std::cout << name << ": " << errors << " errors\n";
     }
   }
-  // lavapipe (Mesa 22.3) forgets a command buffer that it has begun to make; the runtime has never seen it.
+  // lavapipe (Mesa 22.3) leaks a partly created command buffer, which the runtime has never received.
   EXPECT_LE(allocator.alive(), lost);
 }
 

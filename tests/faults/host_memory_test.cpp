@@ -83,7 +83,7 @@ TEST_F(HostMemory, RunsOutInThesisExtraction) {
   fail_every_allocation("thesis extraction", [&] { return extract(context.value(), mesh, Mode::kThesis); });
 }
 
-// Copies are under way on a queue of their own when memory runs out: nothing that they use goes before them.
+// Copies are in progress on a queue of their own when memory runs out: nothing that they use is destroyed before them.
 TEST_F(HostMemory, RunsOutBesideCopies) {
   DeviceProfile discrete;
   discrete.split_memory = true;
@@ -110,7 +110,7 @@ TEST_F(HostMemory, RunsOutBesideCopies) {
   }
 }
 
-// The callback's allocations count as the foam's: what they throw is caught with the rest.
+// The callback's allocations count as the foam's: their exceptions are caught with the rest.
 TEST_F(HostMemory, RunsOutInAFoam) {
   const Ball sphere = {{0, 0, 0}, 1};
   const NearestPointsFunction nearest = [](std::span<const Point> queries) -> Result<std::vector<Point>> {
@@ -192,7 +192,7 @@ TEST_F(HostMemory, RunsOutInAShrinkingUnion) {
   });
 }
 
-/// All that can be asked of a union.
+/// All queries of a union.
 std::string bytes_of(const DynamicUnion& balls) {
   std::string out;
   append_bytes(out, balls.places());
@@ -210,7 +210,7 @@ std::string bytes_of(const DynamicUnion& balls) {
   return out;
 }
 
-/// A change, or a question. When that fails, nothing has changed: not the balls, not what the last change was.
+/// A change, or a query. When it fails, nothing has changed: neither the balls nor the record of the last change.
 Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& change) {
   const std::string before = bytes_of(balls);
   Status status = in_runtime(change);
@@ -219,7 +219,7 @@ Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& chang
   return status;
 }
 
-/// After a change that failed: the one before it is taken back, as if nothing had been tried since.
+/// After a failed change: the previous one is undone, as if nothing had been tried since.
 void expect_undone(DynamicUnion& balls, double volume) {
   balls.undo();
   EXPECT_EQ(balls.volume(), volume);

@@ -1,4 +1,4 @@
-// A host with a device of its own: that of another context, lent as a host lends its own.
+// A host with a device of its own: that of another context, lent in the way of a host.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ class LentDevice {
     return host;
   }
 
-  /// What the job counts, once it has been recorded and run. What the host itself calls does not fail.
+  /// The counts of the job, once it has been recorded and run. Calls of the host itself do not fail.
   Answer record_and_run(ExtractionJob& job) {
     const Status recorded = in_runtime([&] { return record(commands_, job); });
     VulkanInterposer::get().stop_failing();

@@ -1,4 +1,4 @@
-// What calls ask for, held against the limits that the device has reported.
+// Compares the requirements of calls with the limits that the device has reported.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace medial_vk::test::hooks {
 
-// What a call asks for, before it is made: overloads for those that matter.
+// The requirements of a call, before it is made: overloads for the relevant calls.
 template <class Tag, class... Args>
 void look_at(Tag, Args...) {}
 

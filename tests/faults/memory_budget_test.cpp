@@ -1,4 +1,4 @@
-// ExtractionOptions::memory_budget: what an extraction holds of the device's memory at any time stays below it.
+// ExtractionOptions::memory_budget: the device memory that an extraction holds at any time stays below it.
 #include <cstdint>
 
 #include "fault_test.h"
@@ -26,7 +26,7 @@ class MemoryBudget : public FaultTest {
     ASSERT_TRUE(extraction.ok()) << extraction.error().message;
     EXPECT_GT(extraction.value().spheres.size(), 200u);
     EXPECT_LE(vulkan().usage().memory_bytes, parameters.memory_budget);
-    // What is asked for is used: a search in smaller pieces than memory allows would take longer.
+    // The budget is used: a search in smaller chunks than memory allows would take longer.
     if (mode == Mode::kCertified) {
       EXPECT_GE(vulkan().usage().memory_bytes, parameters.memory_budget * 3 / 4);
     }

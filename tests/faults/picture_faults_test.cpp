@@ -33,7 +33,7 @@ class PictureFaults : public FaultTest {
     return std::string(out.rgb.begin(), out.rgb.end());
   }
 
-  /// The first call, then the second, and so on until drawing gets by with fewer. Returns the functions that failed.
+  /// The first call, then the second, and so on until drawing needs fewer calls. Returns the functions that failed.
   std::set<std::string> fail_every_call(Fault fault, const std::string& why) const {
     const std::string expected = draw().value();
     std::set<std::string> functions;

@@ -1,4 +1,5 @@
-// What a device seems to be (DeviceProfile): its properties, and calls that are changed into what the real one takes.
+// The pretended properties of a device (DeviceProfile), and calls that are converted into those that the real one
+// takes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace medial_vk::test::hooks {
 
-// What calls are changed to before the real ones see them: overloads for those that are.
+// Conversions of calls before the real ones receive them: overloads for the affected calls.
 template <class Tag, class... Args>
 VkResult make_call(Tag, Args... args) {
   return call_real<Tag>(args...);
@@ -69,7 +70,7 @@ inline VkResult make_call(vkQueueSubmitTag, VkQueue queue, std::uint32_t count, 
                                 [&self](std::string what) { self.violation(std::move(what)); });
 }
 
-// What somebody waits for has to run in the end.
+// Work for which somebody waits has to run in the end.
 template <class... Args>
 void let_run(VulkanInterposer& self, vkDeviceWaitIdleTag, Args...) {
   self.two_queues.run_until({});

@@ -1,4 +1,5 @@
-// Who uses what, by the calls that have succeeded and the commands that were recorded (WorkUnderWay).
+// Records the users of resources, from the calls that have succeeded and the commands that were recorded
+// (WorkUnderWay).
 #pragma once
 
 #include "limits_asked.h"
@@ -7,7 +8,7 @@
 
 namespace medial_vk::test::hooks {
 
-// After a call that has succeeded: who uses what.
+// After a call that has succeeded: records the users of its resources.
 template <class Tag, class... Args>
 void follow(WorkUnderWay&, Tag, Args...) {}
 
@@ -91,7 +92,7 @@ inline void update_sets(VkDevice device, std::uint32_t count, const VkWriteDescr
   call_real<vkUpdateDescriptorSetsTag>(device, count, writes, copies, copied);
 }
 
-// Commands that use something.
+// Commands that use resources.
 inline void dispatch_indirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset) {
   const InDriver inside;
   VulkanInterposer::get().work.records(commands, as_handle(buffer));

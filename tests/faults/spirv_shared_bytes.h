@@ -1,4 +1,4 @@
-// How much shared memory a SPIR-V module declares.
+// The amount of shared memory that a SPIR-V module declares.
 #pragma once
 
 #include <cstdint>

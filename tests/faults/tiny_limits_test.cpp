@@ -1,4 +1,4 @@
-// Poor devices: the same spheres as on a good one, or one error that names what is missing.
+// Poor devices: the same spheres as on a good one, or one error that names the missing feature.
 #include <gmock/gmock.h>
 
 #include "fault_test.h"
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 class PoorDevice : public FaultTest {
  protected:
-  /// The error of opening a device that looks like this; --list-devices says the same.
+  /// The error of opening a device with these properties; --list-devices prints the same.
   static Error refused(const DeviceProfile& profile) {
     vulkan().set_profile(profile);
     const Result<Context> context = open();
@@ -88,7 +88,7 @@ TEST_F(PoorDevice, WithNoMoreThanWhatIsRequiredGivesTheSameAnswers) {
   for (const bool poor : {false, true}) {
     DeviceProfile profile = poor ? minimum_profile(true) : DeviceProfile{};
     if (poor) {
-      // Below what Vulkan allows, so that a small mesh already has to be read through storage buffers.
+      // Below the minimum of Vulkan, so that a small mesh is already read through storage buffers.
       profile.limits = [least = profile.limits](VkPhysicalDeviceLimits& limits) {
         least(limits);
         limits.maxTexelBufferElements = 1000;
@@ -143,10 +143,9 @@ TEST_F(PoorDevice, ReadsALargeMeshThroughStorageBuffers) {
   EXPECT_TRUE(answers[0].value() == answers[1].value());
 }
 
-// A mesh that is larger than what kernels see of a storage buffer is read as texels: as many answers, of the same
-// bytes.
+// A mesh that exceeds the range of a storage buffer is read as texels: the same number of results, with the same bytes.
 TEST_F(PoorDevice, ReadsAMeshBeyondTheStorageBuffersAsTexels) {
-  constexpr std::uint32_t kBytes = 1u << 22;  // below what Vulkan allows, so that a small mesh is too large
+  constexpr std::uint32_t kBytes = 1u << 22;  // below the minimum of Vulkan, so that a small mesh is too large
   const PreparedMesh mesh = torus(280, 120);
   ASSERT_GT(64 * mesh.mesh.triangles.size(), kBytes);
   std::vector<std::vector<Answer>> answers;

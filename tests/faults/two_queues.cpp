@@ -18,7 +18,7 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
   const Kept work{info.commandBufferCount != 0 ? info.pCommandBuffers[0] : VK_NULL_HANDLE,
                   info.waitSemaphoreCount != 0 ? info.pWaitSemaphores[0] : VK_NULL_HANDLE,
                   info.signalSemaphoreCount != 0 ? info.pSignalSemaphores[0] : VK_NULL_HANDLE, fence};
-  // What a submission waits for has been submitted before it.
+  // The semaphores that a submission waits for have been submitted before it.
   if (work.waits != VK_NULL_HANDLE && promised_.erase(work.waits) == 0)
     report("a submission waits for a semaphore that nobody signals");
   if (work.signals != VK_NULL_HANDLE && !promised_.insert(work.signals).second)
@@ -31,7 +31,7 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
   return run(work);
 }
 
-// The real queue does one thing after the other, so semaphores are only followed here.
+// The real queue executes its work in order, so semaphores are only tracked here.
 VkResult TwoQueues::run(const Kept& work) {
   if (work.waits != VK_NULL_HANDLE) {
     if (!signalled_.contains(work.waits)) run_until_signalled(work.waits);

@@ -1,5 +1,5 @@
-// A device with one queue seems to have another one, of a family that only copies; and one of the two is as late as it
-// may be, so that what should have waited for it, and did not, goes wrong.
+// A device with one queue appears to have another one, of a family that only copies. One of the two runs as late as
+// possible, so that work that should have waited for it, and did not, fails.
 #pragma once
 
 #include <volk.h>
@@ -22,14 +22,14 @@ class TwoQueues {
 
   static VkQueue copying_queue();
 
-  /// What the late queue is given is kept until somebody waits for it. The other queue's runs at once, after what it
-  /// waits for. `report`: a wait for a semaphore that nobody will have signalled, a second signal, submissions of a
-  /// form that is not followed here.
+  /// Submissions to the late queue are kept until somebody waits for them. Those to the other queue run at once, after
+  /// the submissions for which they wait. `report`: a wait for a semaphore that will never be signalled, a second
+  /// signal, submissions of a form that is not supported here.
   VkResult submit(VkQueue queue, const VkSubmitInfo& info, VkFence fence, LateQueue late, const Submit& real,
                   const Report& report);
-  /// Runs all that was kept, up to what signals this fence, or all of it.
+  /// Runs all kept submissions, up to the one that signals this fence, or all of them.
   void run_until(std::optional<VkFence> fence);
-  /// A semaphore that is destroyed: another one may get its handle.
+  /// A semaphore was destroyed: another one may receive its handle.
   void forget(VkSemaphore semaphore) {
     signalled_.erase(semaphore);
     promised_.erase(semaphore);
@@ -46,8 +46,8 @@ class TwoQueues {
   void run_until_signalled(VkSemaphore semaphore);
 
   std::vector<Kept> kept_;
-  std::set<VkSemaphore> signalled_;  // by what has run
-  std::set<VkSemaphore> promised_;   // by what was submitted, and not taken by a wait that was
+  std::set<VkSemaphore> signalled_;  // by submissions that have run
+  std::set<VkSemaphore> promised_;   // by submissions, and not consumed by a submitted wait
   Submit real_;
   Report report_;
 };

@@ -1,4 +1,4 @@
-// The calls of Vulkan that are stood in for: which, how they may fail, and the real ones behind them.
+// The calls of Vulkan that are replaced: their list, their possible failures, and the real ones behind them.
 #pragma once
 
 #include <volk.h>
@@ -7,14 +7,14 @@
 
 namespace medial_vk::test::hooks {
 
-// How a call may fail.
+// The possible failures of a call.
 constexpr unsigned kHost = 1, kDevice = 2, kLost = 4, kAllocates = 8;
 
-// Of this thread: how deep inside a call of Vulkan it is, and in which that can report that memory has run out.
+// For this thread: its depth inside calls of Vulkan, and the call among them that can report exhausted memory.
 inline thread_local int driver_depth = 0;
 inline thread_local const char* current_call = nullptr;
 
-/// Hooks have it: neither what the driver allocates nor what they do themselves is the runtime's.
+/// Held by hooks: neither allocations of the driver nor their own belong to the runtime.
 struct InDriver {
   InDriver() { ++driver_depth; }
   InDriver(const InDriver&) = delete;
@@ -22,7 +22,7 @@ struct InDriver {
   ~InDriver() { --driver_depth; }
 };
 
-/// The function that is stood in for, one for each `Tag`: one loader and one driver are enough for tests.
+/// The replaced function, one for each `Tag`: one loader and one driver suffice for tests.
 template <class Tag>
 std::atomic<PFN_vkVoidFunction>& real_of() {
   static std::atomic<PFN_vkVoidFunction> real = nullptr;
@@ -102,7 +102,7 @@ auto call_real(Args... args) {
   X(vkDestroyRenderPass, 0, "VkRenderPass")                   \
   X(vkDestroySampler, 0, "VkSampler")
 
-// Calls that are changed or looked at, by hand.
+// Calls that are changed or examined, by hand.
 #define MEDIAL_VK_OTHERS(X)                               \
   X(vkEnumeratePhysicalDevices, kHost | kDevice, nullptr) \
   X(vkGetPhysicalDeviceProperties, 0, nullptr)            \

@@ -1,5 +1,5 @@
-// Every call of Vulkan that can fail does so once, in every job: the job then ends with an error that says why, nothing
-// stays behind, and the context goes on to give right answers.
+// Every call of Vulkan that can fail does so once, in every job: the job then ends with an error that gives the cause,
+// nothing is leaked, and the context continues to give right results.
 #include <gmock/gmock.h>
 
 #include <numeric>
@@ -22,8 +22,8 @@ ErrorCode expected_code(Fault fault) {
 
 class VulkanFaults : public FaultTest {
  protected:
-  /// Fails the first call, then the next one (fault_stride()), until the job gets by with fewer calls. `fresh`: what a
-  /// job starts from; it may leave programs behind, but the first run has made them.
+  /// Fails the first call, then the next one (fault_stride()), until the job needs fewer calls. `fresh`: the initial
+  /// state of a job; it may leave programs behind, but the first run has created them.
   void fail_every_call(Fault fault, const std::string& name, const std::function<Answer()>& job,
                        const std::function<void(std::uint64_t)>& afterwards) {
     const Answer expected = job();
@@ -57,7 +57,7 @@ class VulkanFaults : public FaultTest {
               << calls.size() << " functions\n";
   }
 
-  /// Of a job on a context that stays, for all faults. Faults of memory: a scene beside it must still answer.
+  /// Of a job on a persistent context, for all faults. Faults of memory: a scene beside it must still give results.
   void fail_every_call_of(const std::string& name, const Job& job) {
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
@@ -83,7 +83,7 @@ class VulkanFaults : public FaultTest {
 };
 
 TEST_F(VulkanFaults, OfOpeningADevice) {
-  // Two small programs: what makes them is the same for all.
+  // Two small programs: the creation of programs is the same for all.
   const std::set<ProgramKey> keys = {{"prepare_dispatch", 3, 0, sizeof(gpu::DispatchConstants), 1, {}},
                                      {"prepare_resolve", 1, 0, 0, 1, {}}};
   const auto job = [&]() -> Answer {
@@ -134,7 +134,7 @@ TEST_F(VulkanFaults, OfThesisExtraction) {
   fail_every_call_of("thesis extraction", [&](Context& context) { return extract(context, mesh, Mode::kThesis); });
 }
 
-// Semaphores, command buffers on two queues, staging memory; several batches and chunks under way.
+// Semaphores, command buffers on two queues, staging memory; several batches and chunks in progress.
 class TwoQueueFaults : public VulkanFaults, public testing::WithParamInterface<LateQueue> {
  protected:
   void SetUp() override {
@@ -171,7 +171,7 @@ TEST_P(TwoQueueFaults, OfManyBatches) {
   });
 }
 
-// After any failure the same batches answer everything again.
+// After any failure the same batches complete all queries again.
 TEST_P(TwoQueueFaults, OfBatchesThatStartOver) {
   Context context = open().value();
   QueryBatches batches(Internals::of(context), 64, false);
@@ -192,7 +192,7 @@ TEST_P(TwoQueueFaults, OfBatchesThatStartOver) {
   EXPECT_GT(failures * fault_stride(), 100u);
 }
 
-// Too many calls to fail each: every 41st; and of those that can lose the device, which are fewer, every fifth.
+// Too many calls to fail each: every 41st; and of the fewer calls that can lose the device, every fifth.
 TEST_P(TwoQueueFaults, OfManyChunks) {
   const PreparedMesh mesh = small_box();
   Context context = open().value();
@@ -306,7 +306,8 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     const std::string before = ask_everything(scene).value();
     const auto job = [&]() -> Answer {
       const Status updated = scene.update(indexed_moved);
-      // Afterwards: a scene that was left half-way must say so, and not answer for a mixture of two meshes.
+      // Afterwards: a scene that is in an intermediate state must report that, and not give results for a mixture of
+      // two meshes.
       Answer now = ask_everything(scene);
       if (!updated.ok()) {
         EXPECT_TRUE(!now.ok() || now.value() == before);
@@ -321,7 +322,8 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
       ASSERT_TRUE(now.ok());
       EXPECT_TRUE(now.value() == before);
     };
-    // Handles come and go with what an update that failed has freed: only the last count is compared, by the fixture.
+    // Handles change with the resources that a failed update has freed: only the last count is compared, by the
+    // fixture.
     const std::string after = job().value();
     for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory, Fault::kDeviceFull}) {
       for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
@@ -344,7 +346,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
   }
 }
 
-// What is lost stays lost, and says so: no call hangs or answers.
+// A lost device remains lost, and reports that: no call hangs or gives a result.
 TEST_F(VulkanFaults, ALostDeviceIsNamed) {
   Result<Context> context = open();
   ASSERT_TRUE(context.ok());

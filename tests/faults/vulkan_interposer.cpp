@@ -56,7 +56,7 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     constexpr bool kWaits = std::is_same_v<Tag, vkWaitForFencesTag> || std::is_same_v<Tag, vkDeviceWaitIdleTag>;
     if constexpr (kWaits) {
       let_run(self, Tag(), args...);
-      if (fault == VK_ERROR_DEVICE_LOST) {  // it does nothing any more: let the real one finish first
+      if (fault == VK_ERROR_DEVICE_LOST) {  // no further work follows: let the real one finish first
         self.two_queues.run_until({});
         call_real<vkDeviceWaitIdleTag>(std::get<0>(std::make_tuple(args...)));
         self.work.finished({});
@@ -70,7 +70,7 @@ struct Hook<Tag, VkResult (*)(Args...)> {
     if (result != VK_SUCCESS) return result;
     if constexpr (Tag::kHandle != nullptr) {
       self.created(Tag::kHandle);
-      self.work.destroyed(as_handle(*std::get<sizeof...(Args) - 1>(std::make_tuple(args...))));  // what had it before
+      self.work.destroyed(as_handle(*std::get<sizeof...(Args) - 1>(std::make_tuple(args...))));  // its former owner
     }
     follow(self.work, Tag(), args...);
     if constexpr (std::is_same_v<Tag, vkAllocateMemoryTag>) {
@@ -118,7 +118,7 @@ PFN_vkVoidFunction keep(PFN_vkVoidFunction real, typename Tag::Function hook) {
   return reinterpret_cast<PFN_vkVoidFunction>(hook);
 }
 
-/// Ours for those functions that are stood in for, else `real`.
+/// The replacement for those functions that have one, otherwise `real`.
 PFN_vkVoidFunction stand_in(const char* name, PFN_vkVoidFunction real) {
   if (real == nullptr) return nullptr;
   const std::string_view wanted = name;

@@ -1,5 +1,5 @@
-// Stands between the runtime and Vulkan: makes the k-th call fail, counts what is created and not destroyed, and makes
-// a device look poorer than it is. It comes in through volk's entry point, so that the runtime needs no hook for it.
+// Stands between the runtime and Vulkan: makes the k-th call fail, counts created and not destroyed objects, and makes
+// a device appear poorer than it is. It is installed through volk's entry point, so the runtime needs no hook for it.
 #pragma once
 
 #include <volk.h>
@@ -28,23 +28,23 @@ enum class Fault {
 
 const char* fault_name(Fault fault);
 
-/// What a device seems to be. What is empty is as it is.
+/// The pretended properties of a device. Empty members keep the real value.
 struct DeviceProfile {
   bool no_devices = false;
   bool no_compute = false;
   bool no_graphics = false;
   VkFormat missing_format = VK_FORMAT_UNDEFINED;  // of images
-  bool never_complete = false;                    // vkEnumeratePhysicalDevices always says VK_INCOMPLETE
+  bool never_complete = false;                    // vkEnumeratePhysicalDevices always returns VK_INCOMPLETE
   std::uint32_t api_version = 0;
   std::function<void(VkPhysicalDeviceLimits&)> limits;
   std::optional<VkDeviceSize> max_allocation_bytes;
   std::optional<std::uint32_t> timestamp_valid_bits;
   bool no_subgroup_operations = false;     // subgroups of one invocation, basic operations only
-  std::optional<LateQueue> copying_queue;  // there is another queue, of a family that only copies; which one is late
+  std::optional<LateQueue> copying_queue;  // another queue, of a family that only copies; the late one of the two
   bool split_memory = false;  // two types: one that only the device sees, one that the host may map (discrete GPUs)
 };
 
-/// What programs and buffers have asked for at most, to compare with limits.
+/// The greatest requirements of programs and buffers, to compare with limits.
 struct Usage {
   std::uint32_t storage_buffers = 0;
   std::uint32_t texel_buffers = 0;
@@ -62,26 +62,26 @@ class VulkanInterposer {
  public:
   static VulkanInterposer& get();
 
-  /// For code that asks a loader of its own, not volk. Precondition: get() was called.
+  /// For code that queries a loader of its own, not volk. Precondition: get() was called.
   static PFN_vkGetInstanceProcAddr entry();
 
   /// The k-th call from now on that can fail in this way fails, k = 1, 2, ...
   void fail_call(std::uint64_t k, Fault fault);
-  /// No faults any more; returns the name of the call that failed, empty if none did.
+  /// Ends all faults; returns the name of the call that failed, empty if none did.
   std::string stop_failing();
   /// Calls since fail_call() that could have failed.
   std::uint64_t calls() const { return calls_; }
 
-  /// Handles that are there, by type; those of a pool count with the pool.
+  /// Existing handles, by type; those of a pool count with the pool.
   std::map<std::string, std::int64_t> handles() const;
-  /// "VkBuffer: 3 more created than destroyed" for types that differ; empty: none does.
+  /// "VkBuffer: 3 more created than destroyed" for types that differ; empty if none does.
   std::string leaks() const;
 
   void set_profile(DeviceProfile profile);
   const DeviceProfile& profile() const { return profile_; }
   Usage usage() const;
   void clear_usage();
-  /// Calls that were beyond the limits of the profile, or destroyed something while the device was at work.
+  /// Calls beyond the limits of the profile, and destructions of objects while the device was at work.
   std::vector<std::string> violations() const;
 
   // For the hooks.
@@ -113,9 +113,9 @@ class VulkanInterposer {
   std::vector<std::string> violations_;
 };
 
-/// Is this thread inside a call of Vulkan now? What drivers allocate is not ours to fail.
+/// True if this thread is inside a call of Vulkan: allocations of drivers must not fail.
 bool in_driver();
-/// The call it is in, if that can report that host memory has run out; else null.
+/// The current call, if it can report that host memory has run out; otherwise null.
 const char* fallible_call();
 
 }  // namespace medial_vk::test

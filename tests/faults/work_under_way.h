@@ -1,4 +1,4 @@
-// What submitted work uses until somebody has waited for it: none of that may be destroyed.
+// Resources of submitted work until somebody has waited for it: none of them may be destroyed.
 #pragma once
 
 #include <volk.h>
@@ -19,13 +19,14 @@ class WorkUnderWay {
     return reinterpret_cast<Handle>(vulkan_handle);
   }
 
-  /// Whoever uses the one uses the other: a set of descriptors its buffers, and its pool; a buffer its memory.
+  /// A user of one resource also uses those that it refers to: a set of descriptors its buffers and its pool, a buffer
+  /// its memory.
   void depends(Handle user, Handle used);
   void begin(VkCommandBuffer commands);
   void records(VkCommandBuffer commands, Handle used);
-  /// What it records, and the semaphores that it waits for and signals.
+  /// Its recorded commands, and the semaphores for which it waits and that it signals.
   void submit(const VkSubmitInfo& info, VkFence fence);
-  /// Waited for: what signals this fence, or all.
+  /// A wait has completed: for the work that signals this fence, or for all.
   void finished(std::optional<VkFence> fence);
   bool uses(Handle used) const;
   void destroyed(Handle used);

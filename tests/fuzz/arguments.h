@@ -1,4 +1,4 @@
-// What the targets of the command lines share.
+// Shared definitions of the targets of the command lines.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace medial_vk::fuzz {
 
-/// One to a line, as main() gets them: any bytes but 0, which ends an argument, too.
+/// One per line, as main() receives them: any bytes but 0, which also ends an argument.
 std::vector<std::string> arguments(std::string_view text);
 
-/// True for one in 64 lines, for the same line always, so that findings come again.
+/// True for one in 64 lines, and always for the same lines, so that findings can be reproduced.
 bool is_sample(const std::vector<std::string>& arguments);
 
-/// What one line leaves behind may change the next: `options` of a parser that has seen others are compared with those
-/// of a `fresh` one.
+/// The state that one line leaves may change the next: `options` of a parser that has parsed others are compared with
+/// those of a `fresh` one.
 template <class Options>
 void require_no_trace(const Result<Options>& options, const Result<Options>& fresh) {
   require(fresh.ok() == options.ok(), "earlier lines do not decide about this one");

@@ -1,4 +1,4 @@
-// The command line, its arguments one to a line: options that keep their ranges, or a clear message.
+// The command line, one argument per line: options that keep their ranges, or a clear message.
 #include <algorithm>
 #include <numbers>
 

@@ -1,5 +1,5 @@
-// The command line of `medial-vk spheres`, its arguments one to a line: options that keep their ranges and go together,
-// or a clear message.
+// The command line of `medial-vk spheres`, one argument per line: options that keep their ranges and are consistent, or
+// a clear message.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// From bytes of any format, told apart by content, to a prepared mesh.
+// From bytes of any format, distinguished by content, to a prepared mesh.
 #include <sched.h>
 
 #include "fuzz/require.h"

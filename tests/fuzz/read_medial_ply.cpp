@@ -1,4 +1,4 @@
-// The reader of the medial PLY, on any bytes; what it accepts is written and read again.
+// The reader of the medial PLY, on any bytes; accepted input is written and read again.
 #include <cmath>
 
 #include "fuzz/require.h"

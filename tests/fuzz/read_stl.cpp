@@ -1,4 +1,4 @@
-// Both STL readers, on any bytes: which one a file gets depends on bytes that may be wrong.
+// Both STL readers, on any bytes: the choice between them depends on bytes that may be wrong.
 #include "fuzz/require.h"
 #include "input/readers.h"
 

@@ -1,4 +1,4 @@
-// The URDF reader, on any bytes; and what is asked of a robot before its meshes are read.
+// The URDF reader, on any bytes, and the queries of a robot before its meshes are read.
 #include "robots/model/read_urdf.h"
 
 #include <algorithm>

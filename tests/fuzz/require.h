@@ -1,4 +1,5 @@
-// What the fuzz targets share: a broken promise ends the process, and the fuzzer keeps the input that broke it.
+// Shared definitions of the fuzz targets: a broken promise ends the process, and the fuzzer keeps the input that broke
+// it.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +12,17 @@
 
 namespace medial_vk::fuzz {
 
-/// What every target calls its input in messages.
+/// The name of the input in messages, for every target.
 inline const std::string kName = "input";
 
 /// Aborts, naming the promise, unless it holds.
 void require(bool holds, const char* promise);
 
-/// One line of printable characters and readable length, whatever the input holds.
+/// One line of printable characters and readable length, for any input.
 void require_clear(const Error& error, ErrorCode code);
 
-/// Valid indices, finite coordinates, and no more of either than the bytes can hold; or a clear error that names the
-/// input.
+/// Requires valid indices, finite coordinates, and no more of either than the bytes can hold; or a clear error that
+/// names the input.
 void require_mesh_or_message(const Result<Mesh>& mesh, std::string_view bytes);
 
 inline std::string_view as_text(const std::uint8_t* data, std::size_t size) {

@@ -26,7 +26,7 @@ class BallUnionOnDevice : public test::DeviceTest {
     EXPECT_TRUE(result.ok()) << result.error().message;
     return std::move(result).value();
   }
-  /// Compares with the host; at most `redone` balls may be left to it. For the record: the largest error by its bound.
+  /// Compares with the host; at most `redone` balls may be left to it. Records the largest error relative to its bound.
   DeviceBallUnion expect_within_bounds(const std::vector<Ball>& balls, std::size_t redone);
 };
 
@@ -154,7 +154,7 @@ TEST_F(BallUnionOnDevice, OfDuplicatesCountsTheFirst) {
   for (std::size_t i = 300; i < balls.size(); ++i) EXPECT_EQ(found.volumes[i], 0);
 }
 
-/// The large one has more neighbours than a cell has room for; the small ones are cut by it.
+/// The large one has more neighbours than a cell can hold; the small ones are cut by it.
 TEST_F(BallUnionOnDevice, OfOneLargeAmongThousands) {
   auto balls = random_balls(4000, 8, 0.005, 0.02);
   for (Ball& ball : balls) {
@@ -187,7 +187,7 @@ TEST_F(BallUnionOnDevice, OfAnySize) {
   }
 }
 
-/// Points, a ball too small for the device, numbers that three floats do not hold.
+/// Points, a ball too small for the device, numbers that three floats cannot represent.
 TEST_F(BallUnionOnDevice, OfWhatIsLeftToTheHost) {
   auto balls = random_balls(100, 11, 0.1, 0.3);
   balls.push_back({{0.5, 0.5, 0.5}, 0});

@@ -39,9 +39,9 @@ void expect_flux_agrees(Mesh solid, std::uint32_t resolution = 33, std::uint64_t
   ASSERT_FALSE(extraction.spheres.empty());
   const reference::Tree tree(test::to_reference(mesh.mesh));
   const std::vector<Eigen::Vector3d> directions = golden_spiral();
-  // A sample whose direction is good to 1e-3 (float, near-ties of neighbouring features) changes the average by no more
-  // than that. One that lies within rounding of the medial surface, or of the edge of a fan, may see the other side: it
-  // changes the sum by at most 2, and the number of samples by one. Few samples of few voxels do.
+  // A sample whose direction is accurate to 1e-3 (float, near-ties of neighbouring features) changes the average by no
+  // more than that. A sample within rounding of the medial surface, or of the edge of a fan, may see the other side: it
+  // changes the sum by at most 2, and the number of samples by one. This concerns few samples of few voxels.
   const double same = 1e-3, one_sample = 3.0 / kFluxSamples;
   std::size_t off = 0;
   for (const MedialSphere& s : extraction.spheres) {
@@ -62,7 +62,7 @@ TEST(CertifiedFlux, OfABox) {
 }
 
 // Flux is measured block by block: with this little memory a block has some 1,400 points, and there are 5,143. The
-// inner wall of a cup is hollow: there opposites are asked.
+// inner wall of a cup is hollow, so that opposites are queried there.
 TEST(CertifiedFlux, OfSeveralBlocks) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   expect_flux_agrees(test::make_cup(0.5, 0.12, 1.0, 32), 40, 40ull << 20);

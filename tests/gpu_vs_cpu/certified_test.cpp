@@ -40,14 +40,14 @@ const Solid kSolids[] = {
     {"plate_with_hole", [] { return test::make_plate_with_hole(1, 0.2, 0.4); }},
 };
 
-// What the two must agree on: voxels whose point is clearly salient (object angle 0.05 above the threshold: far more
-// than float changes) and clearly inside its voxel (5 % of the side; rounding moves points by 1e-4 of it).
+// The voxels on which the two must agree: those whose point is clearly salient (object angle 0.05 above the threshold:
+// far more than float changes) and clearly inside its voxel (5 % of the side; rounding moves points by 1e-4 of it).
 struct Missing {
   std::size_t firm = 0;
   std::size_t clear = 0;
 };
 
-// A point may stand for a medial point within epsilon of it (Lemma 2.3), which may lie in the next voxel or have an
+// A point may represent a medial point within epsilon of it (Lemma 2.3), which may lie in the next voxel or have an
 // angle below the threshold. The others are firm.
 Missing missing_from(const Extraction& there, const Extraction& here, const ExtractionOptions& parameters) {
   const test::SphereByVoxel found = test::spheres_by_voxel(there);
@@ -64,8 +64,8 @@ Missing missing_from(const Extraction& there, const Extraction& here, const Extr
 }
 
 // The rule. A voxel in which only one of the two found a firm point was not dismissed by the other one (dismissal is
-// proved on both sides), so the other one counts it as undecided: never more missing than undecided. Searches are tried
-// in different orders, so some may differ; but of the clear ones at most one in 200, and one.
+// proved on both sides), so the other one counts it as undecided: there are never more missing than undecided voxels.
+// Searches are tried in different orders, so some may differ; but of the clear ones at most one in 200, and one.
 void expect_explained(const Missing& missing, std::uint64_t undecided, std::size_t points) {
   EXPECT_LE(missing.firm, undecided);
   EXPECT_LE(missing.clear, 1 + points / 200);
@@ -87,7 +87,7 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
       EXPECT_EQ(c.levels[level].lines, 0u);
     }
     if (level == 0) continue;
-    // Eight children ask every contact of their parent.
+    // Eight children test every contact of their parent.
     const std::uint64_t tests = c.levels[level].triangle_tests + c.levels[level].cluster_tests;
     if (level <= finest) {
       EXPECT_GE(tests, 8 * c.levels[level - 1].contacts) << "level " << level;
@@ -95,12 +95,12 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
     if (c.levels[level].cluster_tests > 0) {
       EXPECT_EQ(c.levels[level].cluster_tests, 8 * c.levels[level - 1].contacts) << "level " << level;
     }
-    // Parts of a voxel are examined until it has a point, a point drops all parts that are left.
+    // Parts of a voxel are examined until it has a point, and a point drops all remaining parts.
     const std::uint64_t most = 8 * (c.levels[level - 1].kept - c.levels[level - 1].found);
     EXPECT_LE(c.levels[level].visited, most) << "level " << level;
   }
-  // Some top cells of a solid are clear of its boundary: their sides are asked of the tree. Flux asks the list: every
-  // sample of every point has a nearest triangle.
+  // Some top cells of a solid are clear of its boundary: their sides are computed with the tree. Flux uses the list:
+  // every sample of every point has a nearest triangle.
   if (closed) {
     EXPECT_GT(c.levels[0].node_tests, 0u);
   }
@@ -108,7 +108,7 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
   EXPECT_EQ(found, c.found + result.certificate.rejected);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_EQ(result.certificate.passed, result.extraction.spheres.size());
-  // What is kept to the very end belongs to undecided voxels; where the boundary has no trusted normals, cells may be
+  // Cells that are kept to the end belong to undecided voxels; where the boundary has no trusted normals, cells may be
   // given up before, but none at the finest level.
   const std::uint64_t left = closed ? c.levels.back().kept : c.levels[finest + 1].kept;
   EXPECT_LE(c.undecided, left + result.certificate.rejected);
@@ -128,7 +128,7 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, parameters));
   EXPECT_TRUE(test::passes_certificate(mesh, reference, parameters));
   EXPECT_EQ(device.extraction.grid.size, reference.grid.size);
-  // Balls that the device believed in and double precision did not: rounding, so hardly any.
+  // Balls that the device accepted and double precision rejected: caused by rounding, so hardly any.
   EXPECT_LE(device.certificate.rejected, device.extraction.spheres.size() / 100);
 
   const std::size_t points = reference.spheres.size();
@@ -204,7 +204,7 @@ TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
   }
 }
 
-// A tenth of its triangles are missing, from three places: sides follow from open edges.
+// A tenth of its triangles are missing, in three regions: sides follow from open edges.
 Mesh torus_with_holes() {
   Mesh torus = test::make_torus(1.0, 0.4, 16, 32, 0.5);
   std::erase_if(torus.triangles, [i = 0](const Triangle&) mutable { return ++i % 341 < 34; });

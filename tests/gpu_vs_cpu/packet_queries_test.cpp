@@ -8,8 +8,8 @@ namespace {
 
 using PacketQueriesTest = TreeQueriesTest;
 
-// Packets choose the triangle by another arithmetic, good to 15 u (|p - a| + |edge|) (triangle_frame.glsl), 3e-6: one
-// that is further by twice that may win. Root mean squares stay as small as one by one.
+// Packets choose the triangle by another arithmetic, with an error of 15 u (|p - a| + |edge|) (triangle_frame.glsl),
+// 3e-6: a triangle that is further by twice that may win. Root mean squares stay as small as those of single queries.
 constexpr double kPacketTolerance = kDistanceTolerance + 6e-6;
 
 /// Groups of `size` points on spheres around the points.
@@ -54,7 +54,7 @@ TEST_F(PacketQueriesTest, GroupsOfPoints) {
   }
 }
 
-// So many points are sorted and answered by packets.
+// This many points are sorted and processed by packets.
 TEST_F(PacketQueriesTest, ManyScatteredPoints) {
   for (const NamedSolid& solid : solids()) {
     SCOPED_TRACE(solid.name);

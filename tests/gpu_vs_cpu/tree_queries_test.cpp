@@ -31,7 +31,7 @@ TEST_F(TreeQueriesTest, ClosestPoints) {
       other_features += static_cast<int>(on.feature) != static_cast<int>(hit.feature);
       squares += std::pow((hit.distance - truth.distance) / tree.longest_side(), 2);
     }
-    // The bound is the worst case; rounding errors that do not conspire stay an order of magnitude below.
+    // The bound is the worst case; typical rounding errors stay an order of magnitude below.
     EXPECT_LE(std::sqrt(squares / static_cast<double>(points.size())), 2e-7);
     // Features differ only where the nearest point is within rounding of a feature's end.
     EXPECT_LE(other_features, static_cast<int>(points.size()) / 200);
@@ -81,8 +81,8 @@ TEST_F(TreeQueriesTest, EmptyBalls) {
   }
 }
 
-// The mesh that the device sees is off by 1.6e-7 L; where the boundary is further than 0.02 L, that moves a solid angle
-// by less than 1e-3. GLSL's atan may be off by 4096 units in the last place, 2.5e-4 of each angle.
+// The mesh on the device has an error of 1.6e-7 L; where the boundary is further than 0.02 L, that changes a solid
+// angle by less than 1e-3. GLSL's atan may have an error of 4096 units in the last place, 2.5e-4 of each angle.
 constexpr double kWindingRounding = 2e-3;
 
 TEST_F(TreeQueriesTest, WindingNumbers) {
@@ -112,10 +112,10 @@ TEST_F(TreeQueriesTest, WindingNumbers) {
   }
 }
 
-// A sample's direction is off by up to sqrt(2^-22) = 5e-4 where it is nearest to an edge or a vertex
-// (tree_closest.glsl), else by 2.2e-6 L over its distance, which is at least 0.02 L; and so is its part of the flux. A
-// sample that lies on the medial surface or on the boundary of a fan to within rounding may count differently, and
-// changes the average by up to 2 / N; few do.
+// The error of a sample's direction is up to sqrt(2^-22) = 5e-4 where it is nearest to an edge or a vertex
+// (tree_closest.glsl), otherwise 2.2e-6 L over its distance, which is at least 0.02 L; and so is that of its part of
+// the flux. A sample that lies on the medial surface or on the boundary of a fan to within rounding may count
+// differently, and changes the average by up to 2 / N; there are few of these.
 TEST_F(TreeQueriesTest, Fluxes) {
   constexpr std::uint32_t kSamples = 50;
   for (const NamedSolid& solid : solids()) {
@@ -142,7 +142,7 @@ TEST_F(TreeQueriesTest, Fluxes) {
   }
 }
 
-// Every triangle is equally near: no box can be left out, and the walk gives up long before it has seen them all.
+// Every triangle is equally near: no box can be excluded, and the walk gives up long before it has visited them all.
 TEST_F(TreeQueriesTest, CentreOfASphere) {
   const Mesh mesh = test::make_sphere(1.0, 200000);
   const reference::Tree tree(test::to_reference(mesh));

@@ -1,4 +1,4 @@
-// What the tests of kernels that walk the tree share: solids, points, tolerances, a context.
+// Shared definitions of the tests of kernels that walk the tree: solids, points, tolerances, a context.
 //
 // Tolerances, for a mesh whose longest side is L and queries within its box, u = 2^-24. The device sees positions
 // scaled to the unit box and rounded to float: the query and a corner a are off by sqrt(3) u/2 each, an edge by as much
@@ -61,7 +61,7 @@ class TreeQueriesTest : public test::DeviceTest {
   }
 };
 
-/// Points spread over the mesh's box, the same every time.
+/// Points distributed over the mesh's box, the same in every run.
 inline std::vector<Point> points_in_box(const reference::Tree& tree, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);

@@ -63,7 +63,7 @@ reference::Result extract_with_reference(const Mesh& mesh, const ExtractionOptio
 
 using Voxel = std::array<int, 3>;
 
-/// Voxels that only one of both has got a point in.
+/// Voxels in which only one of the two has a point.
 int voxels_apart(const Extraction& device, const reference::Result& truth) {
   std::map<Voxel, int> seen;
   for (const MedialSphere& s : device.spheres) {
@@ -73,7 +73,7 @@ int voxels_apart(const Extraction& device, const reference::Result& truth) {
   return static_cast<int>(std::count_if(seen.begin(), seen.end(), [](const auto& voxel) { return voxel.second != 3; }));
 }
 
-/// Float decides otherwise than double where a number is within rounding of its threshold: a few of a thousand cells.
+/// Float and double decide differently if a number is within rounding of its threshold: for a few of a thousand cells.
 void expect_close(std::uint64_t device, std::uint64_t truth) {
   const auto larger = static_cast<double>(std::max(device, truth));
   EXPECT_LE(std::abs(static_cast<double>(device) - static_cast<double>(truth)), 1 + larger / 200);
@@ -163,7 +163,7 @@ TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
                                     &many = parts.measurements.counters.levels[level];
     EXPECT_EQ(one.node_tests, many.node_tests) << "level " << level;
     EXPECT_EQ(one.triangle_tests, many.triangle_tests) << "level " << level;
-    // Every cell that is visited asks for its nearest triangle, with a walk of its own.
+    // Every visited cell queries its nearest triangle, with a walk of its own.
     EXPECT_GE(one.node_tests, 2 * one.visited) << "level " << level;
     EXPECT_GE(one.triangle_tests, one.visited) << "level " << level;
   }
@@ -191,7 +191,7 @@ TEST_F(TreeThesisTest, CoarseGridsHaveFewerLevels) {
   }
 }
 
-// One face is missing: no side of a whole cell can be proved, but the points are where the winding number says inside.
+// One face is missing: the side of no whole cell can be proved, but points lie where the winding number means inside.
 TEST_F(TreeThesisTest, OpenMesh) {
   Solid solid = solids()[0];
   solid.mesh.triangles.pop_back();

@@ -1,5 +1,5 @@
-// A host's own allocator: the context, a job and what they made take their host memory from it and give it back, and
-// the validation layer sees no object that is destroyed with another one than it was made with.
+// A host's own allocator: the context, a job and their objects take their host memory from it and return it, and the
+// validation layer sees no object that is destroyed with another allocator than the one it was created with.
 #include <gtest/gtest.h>
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
@@ -35,7 +35,7 @@ class CountingAllocator {
   }
   const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
   std::size_t made() const { return made_; }
-  std::size_t foreign() const { return foreign_; }  ///< Blocks given back that were never taken.
+  std::size_t foreign() const { return foreign_; }  ///< Returned blocks that were never taken.
   std::size_t alive() const { return sizes_.size(); }
 
  private:

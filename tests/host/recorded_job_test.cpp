@@ -1,5 +1,5 @@
-// A host with a device of its own, under the validation layer where there is one: what it records gives the spheres of
-// extract_medial_spheres(), mesh after mesh, and leaves its device as it was.
+// A host with a device of its own, under the validation layer if it is installed: its recorded commands give the
+// spheres of extract_medial_spheres(), mesh after mesh, and leave its device unchanged.
 #include <gtest/gtest.h>
 #include <medial_vk/extraction_job.h>
 #include <medial_vk/host_device.h>
@@ -47,7 +47,7 @@ class Box {
   std::vector<std::uint8_t> flags_ = std::vector<std::uint8_t>(12, kTrustedNormal);
 };
 
-/// What came of a recorded sequence, copied to the host behind it in the same command buffer.
+/// The results of a recorded sequence, copied to the host behind it in the same command buffer.
 struct Recorded {
   RecordedCounts counts;
   std::vector<RecordedSphere> spheres;  // by voxel
@@ -105,7 +105,7 @@ class RecordedJob : public testing::Test {
     return to;
   }
 
-  /// Records, submits, waits, and compares what the job says of itself.
+  /// Records, submits, waits, and compares the job's report of itself.
   Recorded run(ExtractionJob& job) {
     const VkCommandBuffer commands = begin();
     const Status status = record(commands, job);
@@ -128,7 +128,7 @@ class RecordedJob : public testing::Test {
     return out;
   }
 
-  /// The same spheres as an extraction of its own finds, to the rounding of the change of units.
+  /// The same spheres as those of a separate extraction, to the rounding of the change of units.
   void expect_same(Context& context, const MeshView& mesh, const ExtractionOptions& parameters,
                    const Recorded& recorded, const Placement& placement) {
     const Result<Extraction> direct = test::extract_spheres(context, mesh, parameters);
@@ -178,8 +178,8 @@ TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
   expect_same(context, torus.view(), parameters, recorded, job.value().placement());
 }
 
-/// Centres inside and radii that are distances, as a scene of the mesh, which has a tree of its own, measures them:
-/// both are wrong by the bound of the device's rounding at most, 2e-6 of the longest side.
+/// Centres inside and radii that are distances, as measured by a scene of the mesh, which has a tree of its own: the
+/// error of both is at most the bound of the device's rounding, 2e-6 of the longest side.
 void expect_medial(Context& context, const MeshView& mesh, const Recorded& recorded, const Placement& placement) {
   EXPECT_EQ(recorded.counts.complete, 1u);
   ASSERT_GT(recorded.spheres.size(), 100u);
@@ -200,8 +200,8 @@ void expect_medial(Context& context, const MeshView& mesh, const Recorded& recor
   }
 }
 
-/// What was recorded before makes no difference: the last mesh of a sequence gives what it gives alone. (A mesh that
-/// was moved has the tree of the one before, so its spheres are not those of a new one to the last bit.)
+/// Earlier recordings make no difference: the last mesh of a sequence gives the same results as by itself. (A mesh that
+/// was moved has the tree of the previous one, so its spheres are not those of a new one to the last bit.)
 template <class Meshes>
 void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions& parameters) {
   Context context = adopt();
@@ -219,7 +219,7 @@ void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions&
     ASSERT_TRUE(test::move(alone, own, mesh.view()).ok());
     expect_equal(recorded, run(alone));
   }
-  // Without a move: the mesh as it was.
+  // Without a move: the mesh is unchanged.
   const Recorded last = run(job);
   expect_medial(context, meshes.back().view(), last, job.placement());
 }
@@ -271,7 +271,7 @@ TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
   EXPECT_EQ(recorded.counts.spheres, 0u);
 }
 
-// Lists longer than one round reads: the sequence says so, and the next one has more rounds.
+// Lists longer than one round reads: the sequence reports that, and the next one has more rounds.
 TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
   Context context = adopt();
   const DeformingTorus torus(200, 300);

@@ -22,7 +22,7 @@ import tempfile
 import threading
 import time
 
-# What a command begins with, and why it is not run.
+# The beginnings of commands that are not run, and the reasons.
 NOT_RUN = {
     r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
     r"build/release/bin/test_": "is a program of tests that ctest runs, too",
@@ -36,7 +36,7 @@ NOT_RUN = {
     r"medial-vk out/torus.ply": "wants a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
 }
-# What a reader puts in the place of a word, and how a command is run without what surrounds it.
+# Replacements for words of a reader's own, and the form in which a command is run without its surroundings.
 WORDS = [(r"\bMESH\b", "turtle.obj"), (r"\bFILE\b", "report.json"), (r"^perf record ", ""),
          (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", "")]
 CALLS = re.compile(r"(^|\s)(medial-vk|make_model|renderer|examples/robot_arm/make_arm.py|scripts/[\w-]+|bench/[\w-]+|cmake|ctest|node) \S")
@@ -210,7 +210,7 @@ class Folder:
         output = done.stdout + done.stderr
         if words[0] == "medial-vk" and done.returncode == 4 or "no device that draws" in output:
             raise Skip(f"there is no Vulkan device: {output}")
-        # Without npm at the build there is no page to be looked at; without Chromium nothing to look with.
+        # Without npm at the build there is no page to be examined; without Chromium no program to examine it.
         if "was built without its page" in output or (words[0] == "node" and done.returncode == 77):
             return None
         if done.returncode != 0:

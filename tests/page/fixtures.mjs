@@ -1,4 +1,4 @@
-// Solids, runs of the tool, and medial PLY files as the tests see them.
+// Solids, runs of the tool, and medial PLY files in the form that the tests use.
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';

@@ -1,4 +1,4 @@
-// Functions that run inside the page, sent there as text.
+// Functions that run inside the page, transferred as text.
 
 /** What is on the canvas: share of pixels that are drawn, number of colours, and a number that tells pictures apart. */
 export function look() {
@@ -39,7 +39,7 @@ export function modelBounds() {
 
 /** Contrast (WCAG 2) of every visible text with what is behind it; the worst first. */
 export function contrasts() {
-  // Through a canvas, which knows every way to write a colour.
+  // Through a canvas, which accepts every notation of a colour.
   const brush = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
   const parse = (text) => {
     brush.clearRect(0, 0, 1, 1);

@@ -1,4 +1,4 @@
-// A program with this in it is one whose build had no npm: it comes before the library's.
+// A program with this file behaves like one whose build had no npm: it precedes the library's definition.
 #include "output/page/embedded_page.h"
 
 namespace medial_vk::page {

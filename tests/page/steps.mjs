@@ -1,4 +1,4 @@
-// What the tests of the page do and ask again and again.
+// Actions and queries that the tests of the page repeat.
 import assert from 'node:assert/strict';
 
 import {lShape} from './fixtures.mjs';

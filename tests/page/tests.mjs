@@ -1,4 +1,4 @@
-// What the page promises, each as a test: run.mjs runs one of them.
+// The promises of the page, each as a test: run.mjs runs one of them.
 import assert from 'node:assert/strict';
 
 import {box, lShape, tetrahedron} from './fixtures.mjs';
@@ -27,7 +27,7 @@ export const tests = {
     await show(page, []);
     assert.equal((await look(page)).share, 0);
 
-    // All balls at once cover the picture a thousand times over; the page must still answer.
+    // All balls at once cover the picture a thousand times over; the page must still respond.
     await show(page, ['balls']);
     await focus(page, 'ball-count');
     await page.press('End');
@@ -208,7 +208,7 @@ export const tests = {
       [e.id, e.getBoundingClientRect().y])`;
     await show(page, ['balls']);
     const before = await page.evaluate(places);
-    // At once: the next frame says how many balls it has really drawn.
+    // Immediately: the next frame reports how many balls it has drawn.
     const [text, after] = await page.evaluate(`(() => {
       medialVk.viewer.drawnBalls = 1;
       medialVk.controls.sayBalls();

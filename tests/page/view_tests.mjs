@@ -1,4 +1,4 @@
-// From where the model is seen at first, and how it lies in the picture.
+// The initial direction of view, and the position of the model in the picture.
 import assert from 'node:assert/strict';
 
 import {lShape} from './fixtures.mjs';

@@ -1,5 +1,5 @@
-// Pictures look as they did: drawn on the CPU and on a device, against files in tests/golden. The files are made anew
-// by the CPU's way of drawing if MEDIAL_VK_UPDATE_GOLDEN is set; look at them before they are committed.
+// Pictures keep their appearance: drawn on the CPU and on a device, against files in tests/golden. The files are
+// redrawn by the CPU if MEDIAL_VK_UPDATE_GOLDEN is set; inspect them before they are committed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -190,7 +190,7 @@ Picture on_cpu_in_bands(const GoldenScene& scene, std::uint64_t samples_at_once)
   return out;
 }
 
-// What is drawn of a band differs by the rounding of places in it.
+// Drawings in a band differ by the rounding of positions in it.
 TEST(CpuPicture, BandsMeetWithoutASeam) {
   for (const GoldenScene& scene : {points_by_angle(), both_by_radius(), balls_by_sheet(), box_from_above()}) {
     const Picture at_once = on_cpu_in_bands(scene, std::uint64_t{1} << 40);

@@ -35,7 +35,7 @@ Vector3f to_lab(const Vector3f& light) {
   return {116 * lab_curve(y) - 16, 500 * (lab_curve(x) - lab_curve(y)), 200 * (lab_curve(y) - lab_curve(z))};
 }
 
-/// The mean light of the 5 x 5 pixels around one, as far as they are in the picture.
+/// The mean light of the 5 x 5 pixels around one, within the picture.
 Vector3f blurred(const std::vector<Vector3f>& light, int width, int height, int x, int y) {
   Vector3f sum = Vector3f::Zero();
   float count = 0;

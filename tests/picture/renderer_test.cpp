@@ -1,5 +1,5 @@
-// examples/renderer: its frames show a mesh that deforms with its spheres, and Vulkan has nothing to say against it.
-// host.renderer looks at the same numbers; this one at the pictures.
+// examples/renderer: its frames show a mesh that deforms with its spheres, without messages of Vulkan's validation.
+// host.renderer checks the same numbers; this test checks the pictures.
 #ifdef MEDIAL_VK_RENDERER
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ namespace {
 /// Shares of the pixels of a frame.
 struct Shares {
   double shape = 0;  ///< Not the background.
-  double beads = 0;  ///< Of the left half, what is coloured: the spheres, for glass is grey.
+  double beads = 0;  ///< Of the left half, the coloured pixels: the spheres, since glass is grey.
 };
 
 Shares shares_of(const Picture& frame) {

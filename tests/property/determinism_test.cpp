@@ -1,5 +1,5 @@
-// The same input, options and device give the same bytes, however the work is cut into chunks; and the validation layer
-// has nothing to say. In both modes.
+// The same input, options and device give the same bytes, for any division of the work into chunks, without messages of
+// the validation layer. In both modes.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -71,7 +71,7 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
   parameters_.memory_budget = 64ull << 20;
   const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters_);
   expect_same_bytes(roomy.extraction, tight.extraction);
-  // Less and less, until chunks overflow and run again in parts (mode thesis makes pieces that fit).
+  // Less and less, until chunks overflow and are run again in parts (mode thesis chooses chunks that fit).
   std::uint64_t retries = 0;
   for (std::uint64_t budget = 16ull << 20; retries == 0; budget = budget * 3 / 4) {
     ASSERT_GE(budget, 4ull << 20) << "no chunk has overflowed";
@@ -84,7 +84,7 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
   EXPECT_EQ(roomy.extraction.measurements.counters.retries, 0u);
 }
 
-// Pieces of few top cells, among them such as hold none but cells that are found empty when their lists are written.
+// Chunks of few top cells, among them some with only cells that are found empty when their lists are written.
 TEST(Determinism, SmallPiecesGiveTheSame) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_torus(1.0, 0.4, 80, 160, 0.5);

@@ -1,4 +1,4 @@
-// What the theorem of docs/theory.md promises: no voxel that holds a salient medial point is dismissed. Independent
+// The promise of the theorem of docs/theory.md: no voxel that holds a salient medial point is dismissed. Independent
 // samples of many solids, each of whose voxels must be found or undecided.
 #include <gtest/gtest.h>
 
@@ -68,8 +68,9 @@ void expect_none_lost_by_the_reference(const std::vector<MedialSample>& samples,
   expect_none_lost(samples, result.value().extraction);
 }
 
-/// Thresholds differ from solid to solid: low ones leave more voxels, high ones ask more of the proof. So do counts, as
-/// a sample takes more or less time: on faceted round solids it must climb far, at the centre of a sphere farthest.
+/// Thresholds differ from solid to solid: low ones leave more voxels, high ones require more of the proof. So do
+/// counts, as a sample takes more or less time: on faceted round solids it must climb far, at the centre of a sphere
+/// farthest.
 struct DismissalCase {
   std::string solid;
   double object_angle;
@@ -147,7 +148,7 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   EXPECT_LT(100 * extraction.measurements.counters.undecided, visited);
 }
 
-/// Numbers that every standard library draws alike.
+/// Numbers that are the same with every standard library.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -189,7 +190,7 @@ void add_fan(Mesh& mesh, const Point& at, std::size_t count, double flatness, Ra
   for (std::uint32_t i = 1; i <= count; ++i) mesh.triangles.push_back({middle, middle + i, middle + i + 1});
 }
 
-// Lemmas J and K: what leaves a vertex, and faces that are touched from outside.
+// Lemmas J and K: triangles that leave a vertex, and faces that are touched from outside.
 TEST(Dismissal, AtFinsAndFansLosesNoSalientSample) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Context context = test::make_context();
@@ -221,7 +222,7 @@ TEST(Dismissal, AtFinsAndFansLosesNoSalientSample) {
   }
 }
 
-// The sampler itself, where everything is known: in a box the distance to the boundary is the least distance to a face,
+// The sampler itself, where the result is known: in a box the distance to the boundary is the least distance to a face,
 // a point is medial where two of them tie, and object angles are pi/4 or pi/2.
 TEST(MedialSampler, SamplesOfABoxTieBetweenTwoFaces) {
   const Eigen::Array3d size(1, 0.7, 0.5);
@@ -265,7 +266,7 @@ TEST(MedialSampler, SamplesOfASphereClimbPastCornersToItsCentre) {
   EXPECT_GT(below, 0u);
 }
 
-// And nothing of a sample depends on the number of threads.
+// No property of a sample depends on the number of threads.
 TEST(MedialSampler, SamplesDoNotDependOnThreads) {
   const PreparedMesh torus = test::prepare(test::make_torus(1, 0.35, 16, 32));
   const reference::Tree tree(to_reference(torus));

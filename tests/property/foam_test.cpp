@@ -176,7 +176,7 @@ Case make_case(std::uint64_t seed) {
 
 double depth_of(const Ball& sphere, const Vector3d& m) { return sphere.radius - (m - to_eigen(sphere.centre)).norm(); }
 
-/// may_hold_contact() with balls left out, from what the foam shows of itself; of one site or of all.
+/// may_hold_contact() without some of the balls, from the public data of the foam; of one site or of all.
 bool in_foam(const Foam& foam, const Vector3d& x, const std::function<bool(const FoamBall&)>& wanted) {
   const auto holds = [&](const FoamBall& f) {
     return wanted(f) && (x - to_eigen(f.ball.centre)).norm() <= f.ball.radius + foam.slack();
@@ -228,7 +228,7 @@ TEST(Foam, HoldsTheContactsOfEveryMedialPointOfTheHull) {
             << ' ' << lost_without[3] << ' ' << lost_without[4] << '\n';
   EXPECT_GT(undetermined, 100);
   EXPECT_GT(missed, 1000);
-  // The check can fail: without any one of the types that the full foam needs, contacts are lost.
+  // The check can fail: without any one of the types that the full foam requires, contacts are lost.
   for (const int kind : {2, 3, 4}) EXPECT_GT(lost_without[kind], 0) << "type " << kind;
 }
 
@@ -327,7 +327,7 @@ TEST(Foam, BoundsWidthAndDepth) {
             << largest_share << ", mean " << sum_of_shares / spheres << " of " << spheres
             << "; deepest over its bound, largest " << deepest_share << "; depth bounds below the radius "
             << below_diameter << '\n';
-  EXPECT_GT(largest_share, 0.5);  // the bounds say something
+  EXPECT_GT(largest_share, 0.5);  // the bounds are meaningful
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionOption
 
 using VoxelMap = std::function<test::Voxel(const test::Voxel&)>;
 
-/// Clear points of `from` whose voxel, mapped, has no point in `to`.
+/// Clear points of `from` without a point of `to` in their mapped voxel.
 std::size_t clear_points_without_partner(const Extraction& from, const Extraction& to, const VoxelMap& map,
                                          const ExtractionOptions& parameters) {
   const test::SphereByVoxel found = test::spheres_by_voxel(to);
@@ -98,8 +98,8 @@ TEST_F(Invariance, FarFromTheOrigin) {
   expect_equal_up_to(base_, extract(moved), 1, Vector3d(far, -far, far), std::ldexp(1, -28));
 }
 
-// Powers of two scale without rounding; 1e6 and 1e-6 round each coordinate to 1e-16 of it, which may turn over the last
-// bit of one float in 1e9 only. Lengths agree to what the device's numbers are worth.
+// Powers of two scale without rounding; 1e6 and 1e-6 round each coordinate to 1e-16 of it, which may change the last
+// bit of one float in 1e9 only. Lengths agree to the accuracy of the device's numbers.
 TEST_F(Invariance, ScaledByPowersOfTwo) {
   for (const int exponent : {-20, 20}) {
     Mesh scaled = solid_;
@@ -117,7 +117,7 @@ TEST_F(Invariance, ScaledByMillions) {
   }
 }
 
-// The names of the vertices do not matter at all: the device gets corners, in the order of the faces.
+// The indices of the vertices do not matter: the device receives corners, in the order of the faces.
 TEST_F(Invariance, VerticesInAnotherOrder) {
   Mesh mixed = solid_;
   std::vector<std::uint32_t> place(mixed.vertices.size());

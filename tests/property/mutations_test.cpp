@@ -1,5 +1,4 @@
-// Meshes from the wild: seeded mutations of clean solids. scripts/soak goes on with other seeds for as long as one
-// likes.
+// Faulty meshes: seeded mutations of clean solids. scripts/soak continues with other seeds for an arbitrary time.
 #include <gtest/gtest.h>
 
 #include "support/device/device.h"

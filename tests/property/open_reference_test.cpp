@@ -1,4 +1,4 @@
-// The reference on meshes with holes: sides of balls and boxes by bounds on how fast the winding number can change.
+// The reference on meshes with holes: sides of balls and boxes by bounds on the change of the winding number.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Covers of many solids by few balls: proved twice, deterministic, and no larger than they need be. (bench/run_spheres
+// Covers of many solids by few balls: proved twice, deterministic, and no larger than necessary. (bench/run_spheres
 // covers models by hundreds, and fails if one is not proved.)
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(SphereCover, MoreBallsAreNeverWorse) {
   std::map<std::size_t, std::vector<Ball>> starts;
   double before = 1e300;
   for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 11u, 15u, 16u}) {
-    // Each asked for by itself, from no more than it needs.
+    // Each requested separately, with the least number that it needs.
     const std::size_t top = cover_top(count);
     if (starts.count(top) == 0) starts[top] = spread_balls(mesh, top);
     const SphereSet cover = std::move(cover_by_counts(solid, starts, {count}).value().front());
@@ -196,7 +196,7 @@ TEST(SphereCover, AnyBallsWillDoAndNoneWillNot) {
   EXPECT_EQ(cover_solid(solid, far, 0, stop).error().code, ErrorCode::kInterrupted);
   const std::map<std::size_t, std::vector<Ball>> starts = {{1, {far.balls[0]}}, {4, far.balls}};
   EXPECT_EQ(cover_by_counts(solid, starts, {4}, 0, stop).error().code, ErrorCode::kInterrupted);
-  // Fewer balls than wanted, one of them with nothing to do.
+  // Fewer balls than requested, one of them without a task.
   EXPECT_TRUE(prove_cover(solid, cover_by_counts(solid, starts, {4}).value().front().balls).value().proved());
 }
 

@@ -1,5 +1,5 @@
 // lavapipe ends an invocation's loops silently after 65,535 iterations. A finely faceted sphere is the worst case: near
-// its centre every triangle is a contact, and each must be looked at.
+// its centre every triangle is a contact, and each must be examined.
 #include <gtest/gtest.h>
 
 #include <algorithm>

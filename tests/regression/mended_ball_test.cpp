@@ -1,6 +1,6 @@
 // Next to the reflex edge of an L, a face and an edge lie almost in one plane as seen from the middle sheet: the
-// device's float took the wrong one for the second contact, the certificate dropped the ball, and a voxel whose sheet
-// has an object angle of 1.54 stayed without a point. Such balls are narrowed again in double.
+// device's float selected the wrong one as the second contact, the certificate dropped the ball, and a voxel whose
+// sheet has an object angle of 1.54 stayed without a point. Such balls are narrowed again in double.
 #include <gtest/gtest.h>
 
 #include <algorithm>

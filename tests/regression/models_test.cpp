@@ -62,7 +62,7 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
                                    [](const UndecidedVoxel& u) { return u.kind == UndecidedKind::kOther; });
   EXPECT_LT(static_cast<double>(c.undecided), 0.01 * visited);
   EXPECT_LT(static_cast<double>(other), 0.0005 * visited);
-  // Balls that the device believed in and double precision did not: rounding, so hardly any.
+  // Balls that the device accepted and double precision rejected: caused by rounding, so hardly any.
   EXPECT_LE(result.certificate.rejected, c.found / 100);
 }
 
@@ -92,9 +92,9 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   EXPECT_LT(medial_mesh.value().triangles.size(), 2.1 * static_cast<double>(extraction.spheres.size()));
 }
 
-/// Shares of which `--keep-volume` is asked, ascending.
+/// Shares requested with `--keep-volume`, ascending.
 constexpr std::array<double, 3> kKept = {0.8, 0.9, 0.95};
-constexpr std::size_t kCompared = 1;  // for 0.9 what is kept is compared, too
+constexpr std::size_t kCompared = 1;  // for 0.9 the kept sheets are compared, too
 
 struct Weighed {
   std::vector<double> significances;           // of all sheets, descending
@@ -135,8 +135,8 @@ std::size_t number_of_leading(const Weighed& weighed, double share) {
 
 /// The sheets that hold this share of the volume, and those that `--keep-volume 0.9` keeps, change by less than 5 %
 /// from resolution 120 to 240, each of itself; their numbers stay, as do those that `--keep-volume` keeps for other
-/// shares. That is so of the models as stored, on the device; docs/theory.md, "Sheets", has what holds of others, and
-/// what holds less.
+/// shares. This holds for the models as stored, on the device; docs/theory.md, "Sheets", states the results for others,
+/// and weaker results.
 struct Stability {
   const char* name;
   double share;

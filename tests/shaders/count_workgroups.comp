@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// For the tests of dispatches: how often each workgroup runs.
+// For the tests of dispatches: counts the runs of each workgroup.
 #include "lanes/workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;  // 1

@@ -1,6 +1,6 @@
 #version 450
-// For the test of an imitation: numbers that devices need not have. What it divides and multiplies it is given, so that
-// no compiler knows the results.
+// For the test of an imitation: numbers that devices need not support. Its operands are inputs, so that no compiler
+// knows the results.
 
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push {

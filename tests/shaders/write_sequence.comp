@@ -1,5 +1,5 @@
 #version 450
-// For the tests of the recorder: uses everything that a program can have, and tells by its output what it was given.
+// For the tests of the recorder: uses all resources that a program can have, and writes its inputs to its output.
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kFactor = 1;

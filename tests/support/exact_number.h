@@ -1,5 +1,5 @@
-// Numbers with a finite binary expansion, exactly, by long integers: an oracle for exact predicates, written to be
-// simple. Each is an integer of 4096 bits times a power of two; nothing checks for overflow.
+// Numbers with a finite binary expansion, exactly, by long integers: a deliberately simple oracle for exact predicates.
+// Each is an integer of 4096 bits times a power of two; nothing checks for overflow.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Extractions for tests: prepare a mesh, run it on the device or with the reference, ask for the certificate.
+// Extractions for tests: prepare a mesh, run it on the device or with the reference, evaluate the certificate.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace medial_vk::test {
 /// prepare_mesh() of a mesh that must be good; throws std::runtime_error (a test failure) if it is not.
 PreparedMesh prepare(Mesh mesh);
 
-/// A context that leaves the user's pipeline cache alone; throws without a device: ask no_device_reason() first.
+/// A context that leaves the user's pipeline cache alone; throws without a device: call no_device_reason() first.
 Context make_context(bool validation = false);
 
 /// extract_and_certify() on the device, on one host thread; throws with the error's message, or if two points share a
@@ -29,7 +29,7 @@ CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh
 /// The independent reference with the same parameters: double precision, certified inside.
 reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& parameters);
 
-/// Does every sphere pass every condition of the certificate, recomputed by the reference? The message names the
+/// Whether every sphere passes every condition of the certificate, recomputed by the reference. The message names the
 /// conditions that fail and the first sphere of each.
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
                                             const ExtractionOptions& parameters);

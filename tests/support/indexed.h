@@ -1,4 +1,4 @@
-// Meshes of tests as the library takes them: indexed on the way, with errors passed on.
+// Meshes of tests in the form that the library takes: they are indexed first, and errors are passed on.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace medial_vk::test {
 
-/// Throws std::runtime_error, a test failure, where there is an error.
+/// Throws std::runtime_error, a test failure, if there is an error.
 inline IndexedMesh indexed(const MeshView& mesh, unsigned threads = 0) {
   Result<IndexedMesh> made = IndexedMesh::create(mesh, threads);
   if (!made.ok()) throw std::runtime_error(made.error().message);

@@ -46,7 +46,7 @@ Vector3d random_point(const Tree& tree, Random& random) {
   return tree.lower() + Vector3d(x, y, z).cwiseProduct(tree.upper() - tree.lower());
 }
 
-/// In front of the face that is nearest: outside of a closed mesh. What this lets pass is asked again in the end.
+/// In front of the nearest face: outside of a closed mesh. Points that pass this test are tested again in the end.
 bool surely_outside(const Tree& tree, const Vector3d& p, const Closest& nearest) {
   return nearest.feature == Feature::kFace && (p - nearest.point).dot(tree.normal(nearest.triangle)) > 0;
 }
@@ -78,11 +78,11 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   Random random(seed_, index);
   const Vector3d p = random_point(tree_, random);
   const Closest nearest = tree_.closest(p);
-  // Close to the boundary the direction away from it is not worth much.
+  // Close to the boundary the direction away from it is inaccurate.
   if (nearest.distance < 1e-6 * tree_.longest_side() || surely_outside(tree_, p, nearest)) return std::nullopt;
   std::optional<Ball> ball = largest_at(nearest, (p - nearest.point) / nearest.distance);
   if (past_corners_) return on_the_way_up(ball, random.next());
-  // One of four climbs although it is salient: seams and corners of the medial surface are to be seen as well.
+  // One of four climbs although it is salient, so that seams and corners of the medial surface are sampled as well.
   std::uint64_t climbs = random.next() % 8;
   climbs = climbs < 2 ? climbs + 1 : 0;
   for (; ball; ball = climb(*ball)) {
@@ -97,7 +97,7 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   return std::nullopt;
 }
 
-// Any of the salient balls that are met as far as the way leads.
+// Any of the salient balls met along the whole way.
 std::optional<MedialSample> MedialSampler::on_the_way_up(std::optional<Ball> ball, std::uint64_t which) const {
   std::vector<MedialSample> salient;
   for (int climbs = 0; ball && climbs < kMostClimbs; ++climbs) {
@@ -119,7 +119,7 @@ std::optional<MedialSampler::Ball> MedialSampler::largest_at(const Closest& cont
     ball.centre = contact.point + ball.radius * away;
     const Closest inner = tree_.closest(ball.centre);
     if (inner.distance >= ball.radius - tolerance_) {
-      if (ball.triangles[1] < 0) return std::nullopt;  // no end of the solid in this direction: outside
+      if (ball.triangles[1] < 0) return std::nullopt;  // the solid has no end in this direction: outside
       ball.count = 2;
       ball.spokes[1] = (tree_.closest_on(ball.triangles[1], ball.centre).point - ball.centre).normalized();
       return ball;
@@ -160,8 +160,8 @@ std::optional<MedialSampler::Ball> MedialSampler::climb(const Ball& from) const 
   return std::nullopt;
 }
 
-// Of all threes of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest:
-// along the steepest of these seams. None is left where the distance has a maximum.
+// Of all triples of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest:
+// along the steepest of these seams. None remains where the distance has a maximum.
 std::optional<MedialSampler::Ball> MedialSampler::climb_from_corner(const Ball& corner) const {
   const std::vector<Contact> ties = contacts(corner);
   Ball seam = corner;
@@ -187,7 +187,7 @@ std::optional<MedialSampler::Ball> MedialSampler::climb_from_corner(const Ball& 
 }
 
 // Unknown: centre x and radius r. One equation dist(x, t) = r for each contact, whose gradient in x is minus the spoke;
-// a sheet's contacts and a third triangle leave one freedom, across both of its spokes: there x stays where it is.
+// a sheet's contacts and a third triangle leave one freedom, across both of its spokes, in which x is kept.
 std::optional<MedialSampler::Ball> MedialSampler::tie_with(const Ball& from, const Vector3d& up, int triangle) const {
   Ball ball = from;
   ball.triangles[ball.count++] = triangle;
@@ -211,7 +211,7 @@ std::optional<MedialSampler::Ball> MedialSampler::tie_with(const Ball& from, con
       return up.dot(ball.centre - from.centre) > 0 ? std::optional<Ball>(ball) : std::nullopt;
     }
     const Eigen::Vector4d change = matrix.partialPivLu().solve(rest);
-    if (!(change.norm() <= 10 * tree_.longest_side())) return std::nullopt;  // singular, or on its way to nowhere
+    if (!(change.norm() <= 10 * tree_.longest_side())) return std::nullopt;  // singular, or divergent
     ball.centre += change.head<3>();
     ball.radius += change[3];
   }
@@ -228,7 +228,7 @@ std::vector<MedialSampler::Contact> MedialSampler::contacts(const Ball& ball) co
 }
 
 // A triangle beside a contact ties within the tolerance with a point up to sqrt(2 tolerance / radius) away, as an
-// angle, from the contact: as much is taken off.
+// angle, from the contact: the angle is reduced by as much.
 double MedialSampler::object_angle(const Ball& ball) const {
   const std::vector<Contact> ties = contacts(ball);
   double largest = 0;
@@ -242,7 +242,7 @@ double MedialSampler::object_angle(const Ball& ball) const {
 
 namespace {
 
-/// Takes samples while they are wanted: until enough reach each angle, and no more than that between two angles.
+/// Takes samples while more are needed: until enough reach each angle, and no more than that between two angles.
 class Quota {
  public:
   Quota(const std::vector<double>& angles, std::size_t wanted)

@@ -1,5 +1,5 @@
-// Independent samples of the medial surface of a solid, by distances in double precision only: what the recall of an
-// extraction is measured against. Shares the closest-point queries with the CPU reference, and nothing else.
+// Independent samples of the medial surface of a solid, by distances in double precision only, against which the recall
+// of an extraction is measured. They share the closest-point queries with the CPU reference, and nothing else.
 //
 // A random point p of the solid has a nearest boundary point A. The largest ball that touches A and whose interior
 // holds no boundary point has its centre on the ray from A through p and touches the boundary elsewhere: its centre is
@@ -7,14 +7,14 @@
 // interior shrinks until it touches A and Q, |AQ|^2 / (2 n.AQ), and so on; every Q proves that the ball must not be
 // larger.
 //
-// On facets that stand for a smooth surface these balls mostly touch neighbouring facets, under a small object angle,
-// and the salient medial surface of a tube is a curve that no random ray meets. So a sample may climb: along the sheet
-// that its contacts share, until a third triangle ties; along that seam, until a fourth does. Ties are solved for by
-// Newton's method. Where all that is salient is next to one point, as in a sphere, it goes on along the steepest seam
-// from corner to corner.
+// On facets that represent a smooth surface these balls mostly touch neighbouring facets, under a small object angle,
+// and the salient medial surface of a tube is a curve that no random ray meets. A sample may therefore climb: along the
+// sheet of its contacts, until a third triangle ties; along that seam, until a fourth does. Ties are solved by Newton's
+// method. If all salient points are next to one point, as in a sphere, it continues along the steepest seam from corner
+// to corner.
 //
-// Whatever the way there, a sample is kept only after its ball has been looked at as a whole: its interior is empty but
-// for the tolerance, and its object angle is the largest between two triangles that tie within the tolerance.
+// On any path, a sample is kept only after its whole ball has been examined: its interior is empty up to the tolerance,
+// and its object angle is the largest between two triangles that tie within the tolerance.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,20 +31,20 @@ namespace medial_vk::test {
 struct MedialSample {
   Eigen::Vector3d centre;
   double radius;        ///< Distance to the boundary, exact to rounding.
-  double object_angle;  ///< Half the largest angle between spokes to contacts that tie, not above it by rounding.
+  double object_angle;  ///< Half the largest angle between spokes to contacts that tie, never too large by rounding.
 };
 
 /// Makes sample number `index` of the sequence that belongs to `seed`, independently of all others.
 class MedialSampler {
  public:
-  /// Samples below `least_angle` are of no interest: they climb on, and are dropped in the end. Keeps a reference.
+  /// Samples below `least_angle` are not used: they climb further, and are finally dropped. Keeps a reference.
   MedialSampler(const reference::Tree& tree, double least_angle, std::uint64_t seed, bool past_corners = false);
 
-  /// Nothing where the random point is outside, or the sample is not salient.
+  /// Nothing if the random point is outside, or the sample is not salient.
   std::optional<MedialSample> sample(std::uint64_t index) const;
 
-  /// How far contacts may differ in distance and still tie: 64 times the bound on the rounding of one distance, a few
-  /// 1e-13 of the longest side.
+  /// The greatest difference in distance between contacts that tie: 64 times the bound on the rounding of one distance,
+  /// a few 1e-13 of the longest side.
   double tolerance() const { return tolerance_; }
 
  private:
@@ -65,12 +65,12 @@ class MedialSampler {
 };
 
 struct SampleRequest {
-  std::vector<double> angles;    ///< Ascending: at least `wanted` samples reach each of them, as far as there are any.
+  std::vector<double> angles;    ///< Ascending: at least `wanted` samples reach each of them, as long as there are any.
   std::size_t wanted = 0;        ///< By angle; and no more than that between two of them.
   std::size_t most_tries = 100;  ///< Random points, as a multiple of `wanted`.
   std::uint64_t seed = 1;
   unsigned threads = 0;       ///< 0: all. The samples do not depend on it.
-  bool past_corners = false;  ///< Climb on where four contacts tie.
+  bool past_corners = false;  ///< Continue to climb where four contacts tie.
 };
 
 /// In the order of the sampler's sequence.

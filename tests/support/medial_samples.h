@@ -1,4 +1,4 @@
-// Independent medial samples of a solid: the shrinking-ball idea, by distances only. For recall tests.
+// Independent medial samples of a solid: the method of shrinking balls, by distances only. For recall tests.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ struct MedialSample {
   double radius, object_angle;
 };
 
-/// From a point inside, away from its nearest boundary point as far as that stays the nearest. Nothing if the sample
-/// point is outside.
+/// Moves from a point inside away from its nearest boundary point for as long as that remains the nearest. Nothing if
+/// the sample point is outside.
 inline std::optional<MedialSample> medial_sample(const reference::Tree& tree, const Eigen::Vector3d& start) {
   if (!reference::is_inside(tree, start)) return std::nullopt;
   const reference::Closest nearest = tree.closest(start);
@@ -46,7 +46,7 @@ struct Recall {
 };
 
 /// Share of `wanted` salient samples whose voxel holds a point. Samples within 5 % of a voxel from its faces are left
-/// out: there a sheet may pass by the voxel within rounding and epsilon. `salient` says which samples count.
+/// out: there a sheet may miss the voxel within rounding and epsilon. `salient` selects the samples that count.
 template <typename Salient>
 Recall recall_of(const reference::Tree& tree, const reference::Result& result, int wanted, const Salient& salient) {
   std::set<std::tuple<int, int, int>> found;

@@ -1,4 +1,4 @@
-// SPIR-V whose operations round otherwise: what Vulkan allows of devices, on one device.
+// SPIR-V whose operations round differently: the deviations that Vulkan allows to devices, on one device.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace medial_vk::test {
 
-/// How much larger results become, as a share of them.
+/// The relative increase of results.
 struct OtherRounding {
   float division = 0;      ///< a / b
   float root = 0;          ///< sqrt, inversesqrt, length, distance, normalize

@@ -49,7 +49,7 @@ class Replacer {
   }
 
  private:
-  /// Types may be there once only.
+  /// A type may be declared only once.
   void note_type(std::uint32_t code, std::span<const std::uint32_t> words) {
     if (code == spirv::kTypeFloat) shapes_[0].real = words[1];
     if (code == spirv::kTypeBool) shapes_[0].truth = words[1];
@@ -65,7 +65,7 @@ class Replacer {
     if (code == spirv::kFunction && !declared_) declare();
     const Shape* shape = is_arithmetic(code) ? shape_of(instruction[1]) : nullptr;
     if (shape == nullptr) return out_.copy(instruction);
-    // The result gets a new name, and what replaces it the old one.
+    // The result gets a new name, and its replacement the old one.
     replace(*shape, out_.copy_renamed(instruction), instruction[2]);
   }
 

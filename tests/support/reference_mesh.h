@@ -20,7 +20,7 @@ inline reference::Mesh to_reference(const Mesh& mesh) {
   return out;
 }
 
-/// The same as PreparedMesh says: its flags, its closedness.
+/// The same with the flags and the closedness of PreparedMesh.
 inline reference::Mesh to_reference(const PreparedMesh& prepared) {
   reference::Mesh out = to_reference(prepared.mesh);
   for (std::size_t t = 0; t < out.trusted.size(); ++t) {

@@ -1,24 +1,25 @@
-// Volume and surface of a ball of radius 1 in its power cell, in closed form, with bounds of the errors: docs/theory.md,
-// "Unions of balls" and "On the device". Include power_cell.glsl before.
+// Volume and surface of a ball of radius 1 in its power cell, in closed form and with error bounds (docs/theory.md,
+// "Unions of balls" and "On the device"). Include power_cell.glsl before.
 #ifndef MEDIAL_VK_BALL_IN_CELL_GLSL
 #define MEDIAL_VK_BALL_IN_CELL_GLSL
 #include "lanes/angle_of.glsl"
 
-// Roundings of heights, gaps and places along an edge, and of the terms made of them.
+// Roundings of heights, gaps and positions along an edge, and of the terms computed from them.
 const float kEdgeRounding = 24.0 * kRounding;
-// Of an edge this short, terms of its length squared are below a rounding.
+// For an edge this short, terms of its squared length are below one rounding.
 const float kShortEdge = 6.1035156e-5;  // 2^-14
-// What an arc may grow by at either end while the surface moves: more than sqrt(2 * displacement); and a face, per edge.
+// Greatest growth of an arc at either end while the surface moves, more than sqrt(2 * displacement), and of a face, per
+// edge.
 const float kArcGrowth = 0.0078125;
 const float kFaceGrowth = 0.00024414062;
 
-// Sums with what each addition loses (Knuth): x is the sum, y what is lost.
+// Compensated sums (Knuth): x is the sum, y the part that the additions lose.
 vec2 volume_sum;
 vec2 area_sum;
-float volume_doubt;  // sum of what a rounding of the terms does, in units of kEdgeRounding
+float volume_doubt;  // sum of the effect of one rounding on the terms, in units of kEdgeRounding
 float area_doubt;
-float flat_area;     // of the faces within the ball: how fast the volume changes if they move
-float arc_angles;    // of the arcs on the faces: the same for the surface
+float flat_area;     // of the faces within the ball: the rate at which the volume changes if they move
+float arc_angles;    // of the arcs on the faces: the same rate for the surface
 
 void add_to(inout vec2 sum, float term) {
   precise float total = sum.x + term;
@@ -27,7 +28,7 @@ void add_to(inout vec2 sum, float term) {
   sum = vec2(total, sum.y + lost);
 }
 
-// Part [a, b] of an edge in the ball, at gap g in a face at height h: a pyramid.
+// The part [a, b] of an edge inside the ball, at gap g in a face at height h, contributes a pyramid.
 void add_inside(float h, float g, float a, float b) {
   float size = max(b - a, 0.0);
   add_to(volume_sum, h * g * size / 6.0);
@@ -35,8 +36,8 @@ void add_inside(float h, float g, float a, float b) {
   flat_area += 0.5 * abs(g) * size;
 }
 
-// The integral of g / (rho (rho + h)) over [a, b], by three points of Gauss; b - a <= 1/8 and rho >= 1, so that what is
-// left out is below 2^-28 of it.
+// The integral of g / (rho (rho + h)) over [a, b], by the three-point rule of Gauss; since b - a <= 1/8 and rho >= 1,
+// the remainder is below 2^-28 of the integral.
 float short_integral(float h, float g, float f2, float a, float b) {
   float middle = 0.5 * (a + b), far = 0.38729833 * (b - a);
   vec3 t = vec3(middle - far, middle, middle + far);
@@ -45,19 +46,19 @@ float short_integral(float h, float g, float f2, float a, float b) {
   return (b - a) * dot(weights, vec3(g) / (rho * (rho + h)));
 }
 
-// Its antiderivative, 0 at 0.
+// Its antiderivative, which is 0 at 0.
 float long_integral(float h, float g, float t, float rho) {
   return angle_of((rho + h) * (g * g * rho + h * t * t), t * g * (g * g + t * t));
 }
 
-// psi(b) - psi(a), tan psi = h t / (g rho). Where a and b have one sign, b rho_a - a rho_b would cancel.
+// psi(b) - psi(a), with tan psi = h t / (g rho). If a and b have the same sign, b rho_a - a rho_b would cancel.
 float psi_of(float h, float g, float f2, float a, float b, float rho_a, float rho_b) {
   float sum = b * rho_a + a * rho_b;
   float difference = a * b > 0.0 ? (b - a) * (b + a) * f2 / sum : b * rho_a - a * rho_b;
   return angle_of(g * g * rho_a * rho_b + h * h * a * b, h * g * difference);
 }
 
-// Part [a, b] of an edge outside the ball; f2: squared distance of the edge's line.
+// The part [a, b] of an edge outside the ball; f2: squared distance of the edge's line from the centre.
 void add_outside(float height, float g, float f2, float a, float b) {
   float h = abs(height), size = b - a;
   float rho_a = sqrt(max(f2 + a * a, 1.0)), rho_b = sqrt(max(f2 + b * b, 1.0));
@@ -82,12 +83,12 @@ void add_outside(float height, float g, float f2, float a, float b) {
   volume_doubt += 0.5 * doubt;
   flat_area += abs(disk);
   arc_angles += arc;
-  // A plane that only just misses the ball may in truth cut a cap off it.
+  // A plane that barely misses the ball may in truth cut a cap off it.
   if (abs(h - 1.0) < kArcGrowth) arc_angles += 6.2831853;
 }
 
-// An edge so short that its direction says nothing: the integrands at its middle. `moment`: twice the area of the
-// triangle between the edge and the foot of the centre on the face's plane, times its sign.
+// An edge too short for a meaningful direction: the integrands are evaluated at its middle. `moment`: twice the signed
+// area of the triangle between the edge and the foot of the centre on the face's plane.
 void add_point(float height, float moment, float r2, float size) {
   float h = abs(height), low = min(h, 1.0), rho = sqrt(r2);
   float beyond_disk = max(r2 - h * h, 1e-12);  // squared distance from the foot
@@ -102,7 +103,7 @@ void add_point(float height, float moment, float r2, float size) {
 }
 
 void measure_side(vec3 normal, vec3 direction, vec3 foot, float from, float to, float sense) {
-  // A face is flat up to the displacement of its corners: take the plane through the edge that fits best.
+  // A face is flat up to the displacement of its corners, so the plane through the edge that fits best is used.
   float tilt = dot(normal, direction), scale = inversesqrt(1.0 - tilt * tilt);
   float h = scale * dot(normal, foot), g = scale * sense * dot(cross(direction, normal), foot);
   float f2 = dot(foot, foot), half_chord = sqrt(max(1.0 - f2, 0.0));

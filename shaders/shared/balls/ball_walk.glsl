@@ -1,13 +1,13 @@
-// Which balls cut the cell of one: neighbours in the order of the tree first, then the tree. Include
-// clip_power_cell.glsl before.
+// The balls that cut the cell of one ball: first its neighbours in the order of the tree, then those that the tree
+// yields. Include clip_power_cell.glsl before.
 #ifndef MEDIAL_VK_BALL_WALK_GLSL
 #define MEDIAL_VK_BALL_WALK_GLSL
 
 layout(set = 0, binding = 0) readonly buffer Balls { SplitBall balls[]; };
-layout(set = 0, binding = 1) readonly buffer Names { uint names[]; };  // of the balls on the host
+layout(set = 0, binding = 1) readonly buffer Names { uint names[]; };  // indices of the balls on the host
 layout(set = 0, binding = 2) readonly buffer Nodes { BallNode nodes[]; };
 
-const float kSplitRounding = 1.4210855e-14;  // 2^-46: of a difference of two numbers up to 1, from their two greater parts
+const float kSplitRounding = 1.4210855e-14;  // 2^-46: of a difference of two numbers up to 1, from two parts
 
 uint own;          // the cell's ball
 vec4 own_high, own_middle;
@@ -16,8 +16,8 @@ float own_unit;    // 1 / radius
 
 bool walk_is_over() { return cell_is_empty || cell_failed || spent > push.iterations; }
 
-// Balls with the same centre: the larger one keeps all, or the first of equals. Numbers are equal where all their parts
-// are, and compare as their parts do.
+// Of balls with the same centre the larger one keeps the whole cell, and of equal ones the first. Numbers are equal if
+// all their parts are equal, and compare as their parts do.
 void ask_concentric(uint j) {
   SplitBall mine = balls[own], other = balls[j];
   bool same = other.high.xyz == mine.high.xyz && other.middle.xyz == mine.middle.xyz && other.low.xyz == mine.low.xyz;
@@ -25,7 +25,7 @@ void ask_concentric(uint j) {
   bvec3 less = lessThan(of_mine, of_other), more = greaterThan(of_mine, of_other);
   bool is_less = more.x ? false : less.x ? true : more.y ? false : less.y ? true : less.z;
   bool is_equal = of_mine == of_other;
-  cell_failed = cell_failed || !same;  // too close for the parts that the other planes are made of
+  cell_failed = cell_failed || !same;  // too close for the parts from which the other planes are computed
   cell_is_empty = is_less || (is_equal && names[j] < names[own]);
   beyond = 3e38;
 }
@@ -49,7 +49,7 @@ void ask_ball(uint j) {
   clip_cell(vec4(difference.xyz * closeness, offset), error);
 }
 
-// Corner c's power to the cell's ball above which none of the node's balls takes it, less the node's `least`.
+// A power of corner c to the cell's ball above which no ball of the node takes the corner, less the node's `least`.
 float power_over(uint k, vec3 offset, uint c) {
   vec3 v = corner[c].xyz;
   vec3 x = v * own_radius + offset;
@@ -59,8 +59,8 @@ float power_over(uint k, vec3 offset, uint c) {
   return dot(x, x) - own_radius * own_radius * (dot(v, v) - 1.0) - dot(across, vec3(axis_0.w, axis_1.w, axis_2.w));
 }
 
-// The host's CellBuilder::may_cut(), with a margin for float: every term is at most scale^2, and fewer than 128 are
-// rounded.
+// The host's CellBuilder::may_cut(), with a margin for float: every term is at most scale^2, and fewer than 128 terms
+// are rounded.
 bool may_cut(uint k) {
   vec4 high = nodes[k].middle_high, low = nodes[k].middle_low;
   if (high.w < 0.0) return false;
@@ -95,10 +95,11 @@ void ask_leaf(uint k) {
   }
 }
 
-// From the ball's own leaf up: what is near comes first. No stack: the tree is complete. Counted from 1, the children of
-// m are 2 m and 2 m + 1, its sibling is m ^ 1, and the node after all of m's is m + 1 without the zeros at its end.
+// The walk goes from the ball's own leaf upwards, so that near balls come first. The tree is complete and needs no
+// stack: counted from 1, the children of m are 2 m and 2 m + 1, its sibling is m ^ 1, and the node after the subtree of
+// m is m + 1 without its trailing zeros.
 void walk_balls() {
-  uint up = own / kBallsPerLeaf + push.first_leaf + 1u;  // its leaf, whose balls are hints; then what has been walked
+  uint up = own / kBallsPerLeaf + push.first_leaf + 1u;  // its leaf, whose balls are hints; then its subtree
   uint root = up ^ 1u, m = root;
   while (up > 1u && !walk_is_over()) {
     ++spent;

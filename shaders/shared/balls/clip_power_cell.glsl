@@ -1,8 +1,8 @@
-// Cutting the cell of power_cell.glsl, which is included before.
+// Cutting of the cell of power_cell.glsl, which is included before.
 #ifndef MEDIAL_VK_CLIP_POWER_CELL_GLSL
 #define MEDIAL_VK_CLIP_POWER_CELL_GLSL
 
-uvec2 cut_corners;  // a bit for each that the plane cuts
+uvec2 cut_corners;  // one bit for each corner that the plane cuts
 
 float find_height(vec4 by, uint c) {
   float height = dot(by.xyz, corner[c].xyz) - by.w;
@@ -11,7 +11,8 @@ float find_height(vec4 by, uint c) {
   return height;
 }
 
-// Least and greatest height of a corner over the plane. Four at a time: iterations are counted.
+// Least and greatest height of a corner over the plane. Corners are taken four at a time, because iterations are
+// counted.
 vec2 find_heights(vec4 by) {
   vec2 range = vec2(3e38, -3e38);
   uint last = corner_count - 1u;
@@ -25,7 +26,8 @@ vec2 find_heights(vec4 by) {
   return range;
 }
 
-// Where the edge between a kept and a cut corner, at the latter opposite its plane `slot`, meets the new plane.
+// Adds the intersection of the new plane with the edge between a kept and a cut corner; at the cut corner, the edge is
+// opposite plane `slot`.
 void add_corner(uint cut, uint kept, uint slot, uint name_of_plane) {
   if (corner_count == kMostCorners) {
     cell_failed = true;
@@ -61,8 +63,8 @@ uint slot_of(uint c, uint p) {
   return byte_of(planes, 0u) == p ? 0u : byte_of(planes, 1u) == p ? 1u : 2u;
 }
 
-// Around the new face: in each old face that it cuts, one new corner leaves and one arrives. A face that is cut twice
-// shows that rounding made heights that no plane has.
+// Links the corners around the new face: in each old face that it cuts, one new corner leaves and one arrives. A face
+// that is cut twice shows that rounding has produced heights that no plane has.
 void link_new_corners(uint first, uint name_of_plane) {
   uint stamp = cuts << 16;
   for (uint c = first; c < corner_count; ++c) {
@@ -85,7 +87,7 @@ void link_new_corners(uint first, uint name_of_plane) {
   spent += 2u * (corner_count - first);
 }
 
-// Closes the gaps with the last corners, from the last gap on: then the last corner is none that is cut.
+// Closes the gaps with the last corners, beginning with the last gap, so that the last corner is never a cut one.
 void remove_cut_corners() {
   for (uvec2 left = cut_corners; (left.x | left.y) != 0u;) {
     uint gap = left.y != 0u ? 32u + findMSB(left.y) : findMSB(left.x);
@@ -105,7 +107,7 @@ void remove_cut_corners() {
   }
 }
 
-// `error`: how far rounding may have moved the plane within the ball.
+// `error`: bound of the displacement of the plane by rounding, within the ball.
 void clip_cell(vec4 by, float error) {
   vec2 range = find_heights(by);
   if (range.y <= -error - kHeightRounding) return;

@@ -1,8 +1,9 @@
-// A power cell in units of its ball's radius, relative to its centre: a box, cut by one plane after the other (the host's
-// runtime/src/balls/cells/power_cell.h). Three planes meet in every corner, as in N. Ray, D. Sokolov, S. Lefebvre, B. Levy,
-// "Meshless Voronoi on the GPU", 2018; but a new corner lies on the edge that is cut, between the ends of that edge.
-// So it is as close to the planes of the edge as the ends are, and one rounding: however the planes meet, no corner is
-// farther from its own planes, or beyond others, than its generation says (docs/theory.md, "On the device").
+// A power cell in units of its ball's radius, relative to its centre: a box, cut by one plane after the other (on the
+// host: runtime/src/balls/cells/power_cell.h). Three planes meet in every corner, as in N. Ray, D. Sokolov, S.
+// Lefebvre, B. Levy, "Meshless Voronoi on the GPU", 2018. In contrast to that paper, a new corner lies on the edge that
+// is cut, between the ends of that edge, and is therefore as close to the planes of the edge as these ends, up to one
+// rounding. Whatever the angles of the planes, no corner is farther from its own planes, or beyond other planes, than
+// its generation allows (docs/theory.md, "On the device").
 #ifndef MEDIAL_VK_POWER_CELL_GLSL
 #define MEDIAL_VK_POWER_CELL_GLSL
 
@@ -10,22 +11,22 @@ const float kRounding = 5.9604645e-8;   // 2^-24
 const float kTie = 8.0 * kRounding;     // corners no higher than this over a plane are kept
 const float kHeightRounding = 8.0 * kRounding;
 const float kCornerRounding = 6.0 * kRounding;  // per generation
-const float kBoxSide = 1.0625;          // the box's faces miss the ball whatever rounding does
+const float kBoxSide = 1.0625;          // the box's faces miss the ball despite rounding
 
-vec4 corner[kMostCorners];        // w: height over the plane that cuts
+vec4 corner[kMostCorners];        // w: height over the current cutting plane
 uint corner_planes[kMostCorners]; // bytes: three planes, with det(normals) > 0, and the generation
 uint corner_links[kMostCorners];  // bytes: byte k names the other end of the edge that is not in plane k
 uint corner_count;
 vec4 plane[kMostPlanes];          // normal . x <= w; the first six are the box's
-uint plane_edges[kMostPlanes];    // bytes: of a cut, the corners that leave and arrive; above: the cut's number
-uvec2 free_planes;     // a bit for each
+uint plane_edges[kMostPlanes];    // bytes: for a cut, the corners that leave and arrive; above: the number of the cut
+uvec2 free_planes;     // one bit for each
 uint cuts;
 float plane_error;     // greatest displacement of a plane by rounding
-uint generations;      // the greatest of a corner
+uint generations;      // greatest generation of a corner
 bool cell_is_empty;
-float beyond;          // of an empty cell: how far its last corners were outside
+float beyond;          // of an empty cell: distance of its last corners beyond the plane
 bool cell_failed;      // an array was too small, or rounding broke the cell
-uint spent;            // iterations of loops
+uint spent;            // iterations of loops so far
 
 uint byte_of(uint word, uint k) { return word >> (8u * k) & 255u; }
 uint with_byte(uint word, uint k, uint value) { return bitfieldInsert(word, value, int(8u * k), 8); }
@@ -47,7 +48,7 @@ uvec2 used_planes() {
   return used;
 }
 
-// A place in `plane`: no cell has more faces than corners.
+// Assigns a slot of `plane`: a cell has no more faces than corners.
 uint take_plane() {
   if ((free_planes.x | free_planes.y) == 0u) free_planes = ~used_planes();
   uint p = free_planes.x != 0u ? findLSB(free_planes.x) : 32u + findLSB(free_planes.y);
@@ -84,7 +85,7 @@ void start_cell() {
   spent += 14u;
 }
 
-// How far the cell's surface may lie from that of the true cell.
+// Bound of the distance between the cell's surface and that of the true cell.
 float displacement() {
   return kTie + kHeightRounding + plane_error + float(generations) * kCornerRounding;
 }

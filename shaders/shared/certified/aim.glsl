@@ -4,8 +4,9 @@
 
 const float kNoAim = 3e38;
 
-// Where the plane between two contacts, given by their directions and distances (w), crosses the cell (equation 2.11): at the point nearest to the centre, or, if
-// that is outside, towards the corner in its direction. Direction w is 0 where it does not cross.
+// The crossing of the cell by the plane between two contacts, given by their directions and distances (w) (equation
+// 2.11): the point nearest to the centre, or, if that point is outside, the point towards the corner in its direction.
+// The w of the direction is 0 if the plane does not cross the cell.
 Aim aim_between(vec4 a, vec4 b, float half_side) {
   vec3 across = b.xyz - a.xyz;
   float turn = length(across), offset = b.w - a.w;

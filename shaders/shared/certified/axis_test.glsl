@@ -8,7 +8,7 @@
 
 #include "certified/dismissal.glsl"
 
-// The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: none).
+// The two cones of axes that a contact obeys: by its normal and by its direction (half-angle below 0: no axis).
 struct Obedience {
   vec3 normal, direction;
   float by_normal, by_direction;
@@ -28,7 +28,7 @@ bool cones_meet(vec3 a, float half_a, vec3 b, float half_b) {
   return half_a > 0.0 && half_b > 0.0 && (sum >= 3.1 || dot(a, b) > cos(sum));
 }
 
-// No axis obeys both contacts: more sweeps are useless.
+// True if no axis obeys both contacts, so that further sweeps are useless.
 bool incompatible(Obedience a, Obedience b) {
   return !cones_meet(a.normal, a.by_normal, b.normal, b.by_normal) &&
          !cones_meet(a.normal, a.by_normal, b.direction, b.by_direction) &&

@@ -1,18 +1,18 @@
-// May two carriers hold two spokes of one salient point (docs/theory.md, Lemmas C to J)?
+// Decides whether two carriers may hold two spokes of one salient point (docs/theory.md, Lemmas C to J).
 #ifndef MEDIAL_VK_CARRIER_PAIRS_GLSL
 #define MEDIAL_VK_CARRIER_PAIRS_GLSL
 #include "certified/carriers.glsl"
 #include "certified/common_corner.glsl"
 
-const float kLeastCosPhi = 0.25;  // sharper edges are not asked for chords: docs/theory.md, "Rounding"
+const float kLeastCosPhi = 0.25;  // sharper edges are not tested for chords: docs/theory.md, "Rounding"
 
-// Lemmas C and D: can their spokes be 2 theta apart?
+// Lemmas C and D: true if their spokes can be 2 theta apart.
 bool can_turn(Carrier a, Carrier b, float theta) {
   float left = 2.0 * (theta - kAngleSlack) - a.spokes.w - b.spokes.w;
   return left <= 0.0 || dot(a.spokes.xyz, b.spokes.xyz) <= cosine(left) + kCosineSlack;
 }
 
-// The normals between which the spokes to a face or an edge lie.
+// The two normals between which the spokes to a face or an edge lie.
 void normals_of(uint name, out vec3 first, out vec3 second) {
   uint t = name / 8u, kind = name % 8u;
   first = triangle_texel(4u * t + 3u).xyz;
@@ -21,13 +21,13 @@ void normals_of(uint name, out vec3 first, out vec3 second) {
   if (kind < kFirstCorner) second = triangle_texel(4u * neighbour_of(t, kind - kFirstEdge) + 3u).xyz;
 }
 
-// Is it listed by an untrusted triangle, with spokes from both sides?
+// True if the carrier is listed by an untrusted triangle, with spokes from both sides.
 bool is_two_sided(uint name) {
   return kHasUntrusted && (corners_and_flags(name / 8u).w & kLinkBothSides) != 0u;
 }
 
-// The same without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two spokes on
-// two arcs differ by no more than some two ends, if those are closer than that.
+// The same test without a cap, for faces and edges: distances on the sphere are convex below a right angle, so two
+// spokes on two arcs differ by no more than some two ends of the arcs, if these are closer than a right angle.
 bool can_turn_between_normals(uint first, uint second, float theta) {
   if (first % 8u >= kFirstCorner || second % 8u >= kFirstCorner) return true;
   if (is_two_sided(first) || is_two_sided(second)) return true;
@@ -38,14 +38,14 @@ bool can_turn_between_normals(uint first, uint second, float theta) {
   return least <= max(0.0, cosine(2.0 * (theta - kAngleSlack))) + kCosineSlack;
 }
 
-// Where x goes when it is projected along with the centre.
+// Projects x together with the centre.
 vec3 project(vec4 span, vec3 x) {
   float along = dot(span.xyz, x);
   return span.w == kPlane ? x - along * span.xyz : span.w == kLine ? along * span.xyz : vec3(0.0);
 }
 
-// Lemma H: can the feet be as far apart as the object angle asks, 2 D sin(theta), anywhere in the box? D is bounded by
-// a mixture of the two distances: the one whose gradient cancels best that of the feet's distance.
+// Lemma H: true if the feet can be as far apart as the object angle requires, 2 D sin(theta), anywhere in the box. D is
+// bounded by the mixture of the two distances whose gradient best cancels that of the distance of the feet.
 bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   Feature at_a = feature_named(first.name, box), at_b = feature_named(second.name, box);
   vec4 span_a = at_a.span, span_b = at_b.span;
@@ -55,7 +55,7 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   vec3 pull = unit_or_zero(apart);
   pull = project(span_a, pull) - project(span_b, pull) + 2.0 * sine * a.xyz;
   float share = clamp(-dot(pull, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
-  // Outside [0, 1] one distance counts negatively: Lemma F's upper bound of it.
+  // Outside [0, 1] one distance has a negative weight: the upper bound of Lemma F applies to it.
   float excess = max(max(-share, share - 1.0), 0.0);
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
   float slack = 4.0 * (at_a.foot.w + at_b.foot.w) +
@@ -70,7 +70,7 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   return wide;
 }
 
-// Are the corners of a carrier, of this kind and of a triangle with these corners, corners of another triangle?
+// True if the corners of a carrier, of this kind and of a triangle with these corners, are corners of another triangle.
 bool holds(uvec3 other, uint kind, uvec3 corners) {
   bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kFront;
   uint k = is_edge ? kind - kFirstEdge : is_corner ? kind - kFirstCorner : 0u;
@@ -80,7 +80,7 @@ bool holds(uvec3 other, uint kind, uvec3 corners) {
   return held;
 }
 
-// Corners of a carrier: edges repeat one, vertices two.
+// Corners of a carrier: an edge repeats one of them, a vertex two.
 void corners_of(uint name, out vec3 p[3]) {
   TriangleTexels t = load_triangle(name / 8u);
   uint kind = name % 8u;
@@ -92,15 +92,15 @@ void corners_of(uint name, out vec3 p[3]) {
   p[2] = is_edge ? p[1] : is_corner ? p[0] : c;
 }
 
-// Is some point of the one and some point of the other in one triangle? It has one nearest point.
+// True if a point of one carrier and a point of the other lie in one triangle, which has one nearest point.
 bool share_triangle(uint first, uint second) {
   if (!is_two_sided(first) && !is_two_sided(second)) return false;
   uvec4 a = corners_and_flags(first / 8u), b = corners_and_flags(second / 8u);
   return holds(a.xyz, second % 8u, b.xyz) || holds(b.xyz, first % 8u, a.xyz);
 }
 
-// Lemma E at one end, if it is asked there: the normals, and what -n.c must reach for one of them; or the arc of spokes
-// to an edge (Lemma I), its middle in `normal`.
+// Lemma E at one end, if it is tested there: the normals, and the value that -n.c must reach for one of them; or the
+// arc of spokes to an edge (Lemma I), with its middle in `normal`.
 struct Facing {
   vec3 normal, other;
   float least;
@@ -132,7 +132,7 @@ Facing facing_of(uint name, float least_sine) {
     f.tilt = 1.2e-7 / size;
     return f;
   }
-  if (kind >= kFirstCorner) return f;  // vertices, and triangles as a whole
+  if (kind >= kFirstCorner) return f;  // vertices, and whole triangles
   normals_of(name, f.normal, f.other);
   float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(f.normal, f.other)));  // of the cap around both normals
   f.least = (least_sine - kCosineSlack) * cos_phi - kCosineSlack;
@@ -152,8 +152,8 @@ float depth_along(Facing f, vec3 d) {
   return depth;
 }
 
-// The next corner comes first. Loops over corners turn them, since an index that changes is slow, and code for every
-// pair of corners takes long to translate.
+// Moves the next corner to the front. Loops over corners rotate the array, since a varying index is slow and code for
+// every pair of corners takes long to translate.
 void rotate(inout vec3 p[3]) {
   vec3 first = p[0];
   p[0] = p[1];
@@ -161,7 +161,7 @@ void rotate(inout vec3 p[3]) {
   p[2] = first;
 }
 
-// Lemma E: may both face each other along some chord?
+// Lemma E: true if both may face each other along some chord.
 bool can_face(uint first, uint second, float sine) {
   Facing a = facing_of(first, sine), b = facing_of(second, sine);
   if (!a.asked && !b.asked) return true;
@@ -196,7 +196,8 @@ bool can_face(uint first, uint second, float sine) {
   return a_faces && b_faces;
 }
 
-// Lemma F: a third carrier is nearer wherever these two tie. Row 0 of carrier_order holds the ones that are tried.
+// Lemma F: a third carrier is nearer wherever the two are equally near. Row 0 of carrier_order holds the carriers that
+// are tried.
 bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
   vec3 ab = b.nearest.xyz - a.nearest.xyz;
   float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(error_of(a, box).x, error_of(b, box).x);
@@ -209,7 +210,7 @@ bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
   }
 }
 
-// May a pair that turns enough, and that no third carrier beats, hold the spokes?
+// True if a pair that turns enough, and that no third carrier beats, may hold the spokes.
 bool is_feasible_survivor(Carrier a, Carrier b, float theta, float sine, Box box) {
   return can_turn_between_normals(a.name, b.name, theta) && !share_triangle(a.name, b.name) &&
          can_be_wide(a, b, sine, box) && can_face(a.name, b.name, sine) &&

@@ -7,21 +7,21 @@
 
 const uint kMostCarriers = 128u;  // boxes with more are not decided
 const uint kMostEntries = 4096u;  // nor are those with more contacts
-// Contacts whose features are listed at a time, and features of a contact: at most two sides of a face, three edges,
-// three vertices.
+// Number of contacts whose features are listed at a time, and of features per contact: at most two sides of a face,
+// three edges, three vertices.
 const uint kEntriesAtOnce = 64u, kMostFeatures = 8u * kEntriesAtOnce;
-// What kind of carrier, in the low bits of its name: a face, touched from behind, an edge 1 to 3, a vertex 4 to 6 of
-// its triangle, or an untrusted face touched from the front, which also stands for a triangle without a good normal as a
-// whole.
+// The kind of a carrier, in the low bits of its name: a face touched from behind, an edge (1 to 3) or a vertex (4 to 6)
+// of its triangle, or an untrusted face touched from the front, which also represents a whole triangle without a good
+// normal.
 const uint kFace = 0u, kFirstEdge = 1u, kFirstCorner = 4u, kFront = 7u;
 
 const float kAngleSlack = 1e-5;   // of angles computed here
 const float kCosineSlack = 1e-6;  // of dot products of unit vectors
 
-// Some triangle of the mesh is not trusted. If none is, nothing is asked about that.
+// Some triangle of the mesh is not trusted. Otherwise the code for untrusted triangles is not translated.
 layout(constant_id = 1) const bool kHasUntrusted = true;
 
-// Which of kLinkWhole and kLinkBothSides the flags of a triangle have.
+// Those of the flags kLinkWhole and kLinkBothSides that a triangle has.
 uint distrust_of(uint flags) { return kHasUntrusted ? flags & (kLinkWhole | kLinkBothSides) : 0u; }
 
 struct Box {
@@ -35,8 +35,8 @@ shared uint carrier_count;
 shared uint carrier_name[kMostCarriers];
 shared vec4 carrier_nearest[kMostCarriers];  // g, D
 shared vec4 carrier_spokes[kMostCarriers];   // axis and half-angle of a cap
-// Nearest first, and by name where they tie: results do not depend on the order of the atomics. Then without those that
-// others beat everywhere.
+// Nearest first, and by name among equals, so that results do not depend on the order of the atomics; later without the
+// carriers that others beat everywhere.
 shared uint ranked[kMostCarriers];
 shared uint carrier_order[kMostCarriers];
 uint kept_count;  // of carrier_order; the same in all lanes
@@ -52,13 +52,13 @@ bool touches_box(vec3 v, float d, Box box) {
   return d - distance_slack(d, box.circumradius) <= most_at_corners(corner_distance, along);
 }
 
-// What may carry spokes, before it is a carrier.
+// A candidate for a carrier.
 struct Feature {
   vec3 nearest;  // vector from the centre of the box to its nearest point
   vec4 spokes;   // axis and half-angle of a cap
-  vec4 foot;     // projection of the centre on what it spans, from the centre; w: how wrong that may be
-  vec4 span;     // unit normal or direction of that; w: which
-  float tilt;    // how far rounding may turn it
+  vec4 foot;     // projection of the centre onto its span, from the centre; w: bound of its error
+  vec4 span;     // unit normal or direction of the span; w: its kind
+  float tilt;    // greatest turn of it by rounding
   bool meets;    // false: no point of the box projects into it, or lies on its side
 };
 
@@ -76,13 +76,13 @@ Feature face_feature(TriangleTexels texels, uint flags, bool front, Box box) {
 
 vec3 corner_of(TriangleTexels t, uint k) { return t.a.xyz + (k == 1u ? t.ab.xyz : k == 2u ? t.ac.xyz : vec3(0.0)); }
 
-// The spokes to an edge of a triangle with this normal: the middle of their arc and half of it. `neighbour`: the triangle
-// across it, or, with `has_arc`, the row of the arc.
+// The spokes to an edge of a triangle with this normal: the middle of their arc and half of it. `neighbour`: the
+// triangle across the edge, or, with `has_arc`, the row of the arc.
 vec4 edge_arc(vec3 normal, uint neighbour, bool has_arc) {
   vec3 other = has_arc ? normal : triangle_texel(4u * neighbour + 3u).xyz;
   vec3 sum = normal + other;
   float size = length(sum);
-  // Knife edges: the arc between opposite normals has no axis that float can tell.
+  // Knife edges: the arc between opposite normals has no axis that float can determine.
   vec4 arc = size > 0.05 ? vec4(sum / size, arcsine(min(1.0, 0.5 * length(normal - other))) + kAngleSlack)
                          : vec4(0.0, 0.0, 1.0, 4.0);
   if (has_arc) arc = corner_cap(neighbour);
@@ -106,7 +106,8 @@ Feature corner_feature(TriangleTexels texels, uint k, vec4 cone, Box box) {
   return Feature(v, cone, vec4(v, step.slack), vec4(kPoint), 0.0, true);
 }
 
-// All three kinds are computed and one is chosen: lanes hold different kinds, so every branch would be taken anyway.
+// All three kinds are computed and one is selected: lanes hold different kinds, so every branch would be executed
+// anyway.
 Feature feature_named(uint name, Box box) {
   uint t = name / 8u, kind = name % 8u;
   bool is_edge = kind >= kFirstEdge && kind < kFirstCorner, is_corner = kind >= kFirstCorner && kind < kFront;
@@ -144,7 +145,7 @@ void add_carrier(Feature f, uint name, Box box) {
   carrier_spokes[slot] = outside && wander < f.spokes.w ? vec4(g, wander) : f.spokes;
 }
 
-// Names the features of one contact that may carry spokes.
+// Names those features of one contact that may carry spokes.
 void list_features(uint t) {
   uint flags = corners_and_flags(t).w;
   uint kinds = 1u << kFace | (flags & 7u) << kFirstEdge | (flags >> 3u & 7u) << kFirstCorner;
@@ -167,8 +168,8 @@ Carrier load_carrier(uint slot) {
   return Carrier(carrier_name[slot], carrier_nearest[slot], carrier_spokes[slot]);
 }
 
-// Carriers go in rows of eight, one for each lane. Lane k's of `row`, whose slots are the `count` of `order` from `first`
-// on; beyond them, the last one.
+// Carriers are arranged in rows of eight, one for each lane. The carrier of lane k in `row`, whose slots are the
+// `count` entries of `order` from `first` on; beyond them, the last one.
 #ifdef LOCKSTEP
 #define CARRIER_OF_LANE(row, order, count, first, k) \
   Carrier(from_lane(row.name, k), from_lane(row.nearest, k), from_lane(row.spokes, k))
@@ -204,22 +205,23 @@ void rank_carriers(uint lane) {
   }
 }
 
-const uint kRivals = 4u, kPairRivals = 8u;  // the nearest carriers, tried as those that beat one other, or a pair
+const uint kRivals = 4u, kPairRivals = 8u;  // the nearest carriers, tried as rivals of one other, or of a pair
 
-// What its bound D - g.x may be wrong by: x for rounding; y for bending, where it bounds from above (Lemma F).
+// Bound of the error of the estimate D - g.x: x for rounding; y for bending, where it is an upper bound (Lemma F).
 vec2 error_of(Carrier c, Box box) {
   float rho = box.circumradius, d = c.nearest.w;
   return vec2(distance_slack(d, rho), 0.5 * rho * rho / max(d, 1e-30));
 }
 
-// Lemma F: is a rival nearer than the mixture of two others wherever these tie?
+// Lemma F: true if a rival is nearer than the mixture of two others wherever these are equally near.
 bool beats(Carrier rival, vec4 mixture, float slack, Box box) {
   vec4 ahead = mixture - rival.nearest;
   vec2 error = error_of(rival, box);
   return ahead.w - 3.0 * max(slack, error.x) > dot(box.half_sides, abs(ahead.xyz)) + error.y;
 }
 
-// All lanes. Lemma F with one carrier in place of a pair: where another is nearer everywhere in the box, it is left out.
+// For all lanes. Lemma F with one carrier instead of a pair: a carrier is omitted if another is nearer everywhere in
+// the box.
 void order_unbeaten(uint lane, Box box) {
   kept_count = 0u;
   Carrier nearest_row = load_carrier(ranked[min(lane, carrier_count - 1u)]);
@@ -239,8 +241,8 @@ void order_unbeaten(uint lane, Box box) {
   synchronize();
 }
 
-// Lists the features of the contacts that touch the cell (the first of its list), then those that carry spokes. In two
-// passes, so that all lanes have work in the second, which is dear.
+// Lists the features of those contacts that touch the cell (the first of its list), then the features that carry
+// spokes. The work is divided into two passes so that all lanes are busy in the second, expensive one.
 void list_carriers(uint lane, Cell cell, Box box) {
   uint begin = 0u;
   for (;;) {
@@ -269,7 +271,7 @@ void measure_corners(uint lane, TriangleTexels nearest, Box box) {
 #endif
 }
 
-// All lanes of the workgroup call this. False: too many.
+// For all lanes of the workgroup. False: there are too many.
 bool gather_carriers(Cell cell, Box box) {
   uint lane = gl_LocalInvocationID.x;
   TriangleTexels nearest = load_triangle(cell.nearest);
@@ -291,7 +293,7 @@ bool gather_carriers(Cell cell, Box box) {
   return true;
 }
 
-// Where a cell may hold a point that the radius threshold makes salient, smaller angles count too.
+// In a cell that may hold a point that the radius threshold makes salient, smaller angles count too.
 float threshold_angle(float nearest_distance, Box box) {
   bool deep = nearest_distance + box.circumradius + step.slack >= step.radius;
   return deep ? min(step.deep_angle, step.angle) : step.angle;

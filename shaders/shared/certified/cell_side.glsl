@@ -1,10 +1,12 @@
-// On which side of the boundary a whole cell lies that does not meet it. Include winding.glsl and closure.glsl before.
+// The side of the boundary on which a whole cell lies that does not meet it. Include winding.glsl and closure.glsl
+// before.
 //
-// On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than closure.glsl
-// says. Of meshes with too many open edges for that, only this is known: the winding number is harmonic on the ball,
-// and Harnack's inequality bounds it: a positive harmonic function on a ball of radius R around c is, within r of c, at
-// most R (R + r) / (R - r)^2 times its value at c. It is used for w + kSpill (outside) and 1 + kSpill - w (inside),
-// which are positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about such meshes (docs/theory.md).
+// On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than the bound of
+// closure.glsl. For meshes with too many open edges for that bound, the winding number is only known to be harmonic on
+// the ball, and Harnack's inequality applies: a positive harmonic function on a ball of radius R around c is, within r
+// of c, at most R (R + r) / (R - r)^2 times its value at c. It is applied to w + kSpill (outside) and 1 + kSpill - w
+// (inside), which are positive if winding numbers stay in [-kSpill, 1 + kSpill]: an assumption about such meshes
+// (docs/theory.md).
 #ifndef MEDIAL_VK_CELL_SIDE_GLSL
 #define MEDIAL_VK_CELL_SIDE_GLSL
 
@@ -16,7 +18,7 @@ uint side_by_harnack(vec3 centre, float radius, float clearance) {
   if (gap <= 0.0) return kSideUnknown;
   float harnack = clearance * (clearance + radius) / (gap * gap);
   for (float tolerance = 0.2; tolerance > 0.01; tolerance *= 0.2) {
-    // Not even a winding number of 0 or 1 could decide.
+    // Not even a winding number of 0 or 1 could decide the side.
     if ((tolerance + kSpill) * harnack >= 0.5 + kSpill) continue;
     Winding w = winding_number(centre, tolerance);
     if (!w.complete) return kSideUnknown;
@@ -27,16 +29,16 @@ uint side_by_harnack(vec3 centre, float radius, float clearance) {
   return kSideUnknown;
 }
 
-// How much the winding number changes within `radius` of the point where the closure was asked: by `along` as its
-// gradient says, and by what that changes; or no faster than it can anywhere. The gradient is right to a part of the
-// slope, and to what it changes over the slack of the points (docs/theory.md, "Rounding").
+// The change of the winding number within `radius` of the point at which the closure was evaluated: the change `along`
+// its gradient, plus the change of that gradient; or the greatest change that is possible anywhere. The gradient is
+// accurate to a part of the slope, and to its change over the slack of the points (docs/theory.md, "Rounding").
 float change_within(float radius, float along, Closure closure) {
   float by_gradient = along + radius * (2e-3 * closure.slope + (radius + 2.0 * step.slack) * closure.bend);
   return min(radius * closure.slope, by_gradient);
 }
 
-// `clearance`: a lower bound of the distance from the centre to the boundary. Outside: the cell; inside: what is within
-// epsilon of its ball, too, where its lines may end.
+// `clearance`: a lower bound of the distance from the centre to the boundary. Outside is decided for the cell; inside
+// is decided for everything within epsilon of its ball, where its lines may end.
 uint side_of_cell(vec3 centre, float clearance) {
   float radius = step.circumradius + step.epsilon;
   if (clearance <= step.circumradius) return kSideUnknown;

@@ -1,9 +1,9 @@
-// Which part of a line is asked. Include "step.glsl" before.
+// The part of a line that is examined. Include "step.glsl" before.
 #ifndef MEDIAL_VK_CLIP_LINE_GLSL
 #define MEDIAL_VK_CLIP_LINE_GLSL
 
 // The part of the line through centre + base that lies in the cell's ball and in the finest voxel, both enlarged by
-// epsilon: a point within epsilon of the medial surface may stand for a sheet that runs along a face of its voxel, just
+// epsilon: a point within epsilon of the medial surface may represent a sheet that runs along a face of its voxel, just
 // outside. Only ends inside the voxel are accepted (verify_line.glsl).
 bool clip_line(Cell cell, vec3 centre, vec3 base, vec3 direction, out float from, out float to) {
   vec3 lower = finest_voxel_corner(cell) - step.epsilon, upper = lower + step.voxel_size + 2.0 * step.epsilon;

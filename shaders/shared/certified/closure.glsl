@@ -1,28 +1,28 @@
-// Winding numbers of open meshes as exactly as float allows (docs/theory.md, "Outside"). With the triangles between its
-// open edges and their apexes a mesh is closed, and its winding numbers are whole; those triangles are few, and summed
-// one by one. So a rough winding number tells the whole one, and that less the sum is the number of the mesh itself.
-// Include winding.glsl before, and declare `open_edges`.
+// Winding numbers of open meshes as exactly as float allows (docs/theory.md, "Outside"). The triangles between the open
+// edges of a mesh and their apexes close it, and the winding numbers of the closed mesh are whole. Those triangles are
+// few and are summed one by one. A rough winding number thus determines the whole one, from which the sum is subtracted
+// to obtain the number of the mesh itself. Include winding.glsl before, and declare `open_edges`.
 #ifndef MEDIAL_VK_CLOSURE_GLSL
 #define MEDIAL_VK_CLOSURE_GLSL
 
 const float kSumRounding = 1e-4;  // of the sum of solid angles in a walk of the tree, over 4 pi
-// Of one solid angle over 4 pi (docs/theory.md, "Rounding"): where its tangent is ill-conditioned, and of atan itself,
-// which Vulkan allows 4096 units in the last place.
+// Of one solid angle over 4 pi (docs/theory.md, "Rounding"), where its tangent is ill-conditioned, and of atan itself,
+// for which Vulkan allows 4096 units in the last place.
 const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 
-// False: the mesh has no open edges, and a driver need not translate what is about them.
+// False: the mesh has no open edges, and a driver need not translate the code for them.
 layout(constant_id = 1) const bool kIsOpen = true;
 
 struct Closure {
   float number;  // winding number of the triangles that close the mesh
   float error;   // of it, up to a whole number
-  float slope;   // within the radius that was asked, the winding number of the mesh changes no faster
-  vec3 gradient;  // of that at the point, or its opposite
+  float slope;   // bound of the change of the mesh's winding number per length, within the given radius
+  vec3 gradient;  // of the number at the point, or its opposite
   float bend;     // half of the greatest second derivative within the radius
 };
 
-// The integral of r x dl / |r|^3 along an edge, r from p to l: in closed form, without cancellation where the edge is
-// seen under a large angle.
+// The integral of r x dl / |r|^3 along an edge, where r goes from p to l: in closed form, without cancellation if the
+// edge is seen under a large angle.
 vec3 pull_of_edge(vec3 a, vec3 b) {
   vec3 across = cross(a, b - a);
   float la = length(a), lb = length(b), along = dot(a, b);
@@ -31,8 +31,9 @@ vec3 pull_of_edge(vec3 a, vec3 b) {
   return across * ((la + lb) * inverse / max(la * lb, 1e-30));
 }
 
-// As winding_of_triangle, with a bound of its error. In the triangle's plane it is 0 or 1/2, and which of +1/2 and -1/2
-// does not matter here; on an edge, where all of it is lost, the bound is as large as that.
+// The same as winding_of_triangle, with a bound of its error. In the triangle's plane the value is 0 or 1/2, and the
+// choice between +1/2 and -1/2 does not matter here; on an edge, where all accuracy is lost, the bound is as large as
+// the value.
 vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
   vec3 a = e.from.xyz - p, b = e.to.xyz - p, c = e.apex.xyz - p;
   float la = length(a), lb = length(b), lc = length(c), product = la * lb * lc;
@@ -44,10 +45,10 @@ vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
   return vec2(number, abs(number) * kAtanRounding + min(kTangentRounding * scale / max(size, 1e-30), 1.0));
 }
 
-// The gradient of the solid angle of a surface depends on its boundary alone (the law of Biot and Savart): it is at most
-// the integral of 1 / |x - l|^2 along the boundary. Its derivatives are at most that of 2 / |x - l|^3: the matrix of
-// second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3. Of an edge at distance d that is longer than pi d, or
-// 2 d, no more than that counts (docs/theory.md, "Outside").
+// The gradient of the solid angle of a surface depends on its boundary alone (the law of Biot and Savart): it is at
+// most the integral of 1 / |x - l|^2 along the boundary. Its derivatives are at most the integral of 2 / |x - l|^3,
+// since the matrix of second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3. Of an edge at distance d that
+// is longer than pi d, or 2 d, no more than that length counts (docs/theory.md, "Outside").
 Closure closure_at(vec3 p, float radius) {
   Closure sum = Closure(0.0, 0.0, 0.0, vec3(0.0), 0.0);
   uint count = kIsOpen && step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
@@ -71,14 +72,15 @@ Closure closure_at(vec3 p, float radius) {
   return sum;
 }
 
-// The winding number of the mesh, from a rough one; `bound` is a large number if the two do not agree on a whole one.
+// The winding number of the mesh, from a rough one; `bound` is a large number if the two do not agree on a whole
+// number.
 Winding exact_winding_number(Winding rough, Closure closure) {
   float all = rough.number + closure.number, whole = round(all);
   bool agree = abs(all - whole) <= rough.bound + kSumRounding + closure.error;
   return Winding(whole - closure.number, agree ? closure.error : 1e3, rough.complete);
 }
 
-// Wrong by less than 1/4, so that an error of the sum by 1/2 is seen.
+// The error is below 1/4, so that an error of the sum by 1/2 is noticed.
 const float kRoughTolerance = 0.2;
 
 #endif

@@ -1,10 +1,10 @@
-// A cluster as the contact lists of large cells see it: a cylinder that holds its triangles, and a cone that holds
+// A cluster as contact lists of large cells represent it: a cylinder that holds its triangles, and a cone that holds
 // their normals (docs/theory.md, "Clusters"). Both are convex, so Lemma A holds for the cylinder as for a triangle.
 #ifndef MEDIAL_VK_CLUSTER_GLSL
 #define MEDIAL_VK_CLUSTER_GLSL
 #include "certified/cluster_texels.glsl"
 
-// What of a Cluster is asked again and again.
+// The parts of a Cluster that are read repeatedly.
 struct ClusterBounds {
   vec4 centre;  // w: radius
   vec4 axis;    // w: cosine of the tilt, or kNoCone
@@ -27,18 +27,19 @@ vec3 vector_to_cluster(vec3 p, ClusterBounds c) {
          c.axis.xyz * (sign(along) * max(abs(along) - c.rest.x, 0.0));
 }
 
-// Cosine of the angle between two unit vectors and another one, together; where they make more than two right angles it
-// is no more than 0. The sine of the first comes from the cross product: sqrt(1 - cosine^2) would lose half the digits.
+// Cosine of the sum of two angles: of that between two unit vectors, and of another one; if the sum exceeds two right
+// angles, the value is no more than 0. The sine of the first angle comes from the cross product: sqrt(1 - cosine^2)
+// would lose half the digits.
 float cosine_of_sum(vec3 a, vec3 b, float other_cosine, float other_sine) {
   return dot(a, b) * other_cosine - length(cross(a, b)) * other_sine;
 }
 
-// Cosine of the largest angle that a normal of the cluster may have with a unit vector; below -1 if nothing is known.
+// Cosine of the largest angle between a normal of the cluster and a unit vector; below -1 if nothing is known.
 float least_cosine_of_normals(vec3 direction, ClusterBounds c) {
   return c.axis.w == kNoCone ? -2.0 : cosine_of_sum(direction, c.axis.xyz, c.axis.w, c.rest.y);
 }
 
-// The same for a spoke that goes from a point of the cell around p to the cluster. `g`: the direction to its middle.
+// The same for a spoke from a point of the cell around p to the cluster. `g`: the direction to its middle.
 float least_cosine_of_directions(vec3 p, vec3 direction, ClusterBounds c, out vec3 g) {
   vec3 v = c.centre.xyz - p;
   float far = length(v);
@@ -47,9 +48,10 @@ float least_cosine_of_directions(vec3 p, vec3 direction, ClusterBounds c, out ve
   return sine >= 1.0 ? -2.0 : cosine_of_sum(direction, g, sqrt(1.0 - sine * sine), sine);
 }
 
-// +1 if p lies behind the planes of all triangles of the cluster, -1 if in front of all, else 0. From p, a point x of the
-// cylinder is at least H along the axis n and at most L across, and a normal is turned by at most the tilt from n: its
-// product with x - p is least where it is turned that far against the part across, cos(tilt) H - sin(tilt) L.
+// +1 if p lies behind the planes of all triangles of the cluster, -1 if it lies in front of all, else 0. From p, a
+// point x of the cylinder is at least H along the axis n and at most L across it, and a normal is turned by at most the
+// tilt from n: its product with x - p is least if the normal is turned by the full tilt against the part across:
+// cos(tilt) H - sin(tilt) L.
 float side_of_cluster(vec3 p, ClusterBounds c) {
   vec3 v = c.centre.xyz - p;
   float along = dot(v, c.axis.xyz);

@@ -1,5 +1,5 @@
-// Clusters from a uniform texel buffer: loads with per-lane addresses are gathered. There are so few of them
-// (DeviceMesh::kMostClusters) that every device allows the view.
+// Clusters in a uniform texel buffer: loads with per-lane addresses become gathers. The number of clusters
+// (DeviceMesh::kMostClusters) is small enough for every device to allow the view.
 // Before including, define CLUSTER_TEXEL_BINDING.
 #ifndef MEDIAL_VK_CLUSTER_TEXELS_GLSL
 #define MEDIAL_VK_CLUSTER_TEXELS_GLSL

@@ -1,7 +1,7 @@
-// Can a face or an edge and another one that leaves the same vertex both hold a foot of one salient point
-// (docs/theory.md, Lemma J)? However small a cell at the vertex is, it looks the same: only directions are asked here.
-// Each case comes down to unit vectors in a plane, and each condition holds on an arc of their circle. Include after
-// "carriers.glsl".
+// Decides whether a face or an edge and another one that leaves the same vertex can both hold a foot of one salient
+// point (docs/theory.md, Lemma J). The configuration is the same at every scale of a cell at the vertex, so only
+// directions are tested. Each case reduces to unit vectors in a plane, and each condition holds on an arc of their
+// circle. Include after "carriers.glsl".
 #ifndef MEDIAL_VK_COMMON_CORNER_GLSL
 #define MEDIAL_VK_COMMON_CORNER_GLSL
 
@@ -26,8 +26,9 @@ Circle circle_across(vec3 axis) {
 
 vec3 arc_where(Circle circle, vec3 v, float r) { return vec3(dot(v, circle.first), dot(v, circle.second), r); }
 
-// Is there a point of all arcs? If so, either all are the whole circle, or an end of one of them is in all others. An
-// end is wrong by as much as its cosine, 1e-6, over its sine, and by no more than the root of twice that.
+// True if all arcs have a common point. In that case either all are the whole circle, or an end of one of them is in
+// all others. The error of an end is that of its cosine, 1e-6, over its sine, and no more than the root of twice that
+// error.
 bool have_common_point(vec3 arcs[kMostArcs]) {
   bool free = true, found = false;
   for (uint i = 0u; i < kMostArcs; ++i) {
@@ -56,10 +57,10 @@ struct Leaving {
   vec3 walls[2];  // face: in its plane, unit, across the sides that leave the corner, into the triangle
   vec3 along;     // edge: unit, from the corner
   vec4 arc;       // edge: the spokes' middle and half-angle
-  float tilt;     // how far rounding may turn these
+  float tilt;     // greatest turn of these by rounding
 };
 
-// `k`: which corner of the carrier's triangle.
+// `k`: the index of the corner in the carrier's triangle.
 Leaving leaving(uint name, uint k) {
   uint t = name / 8u, kind = name % 8u;
   TriangleTexels texels = load_triangle(t);
@@ -79,10 +80,12 @@ Leaving leaving(uint name, uint k) {
   return l;
 }
 
-// What unit vectors and directions of spokes may be wrong by: faces hold the spokes to their flat edges, kAngleSlack off.
+// Bound of the errors of unit vectors and of directions of spokes; the flat edges of a face are assigned to the face,
+// with an error of kAngleSlack.
 float direction_error(Leaving a, Leaving b) { return a.tilt + b.tilt + kAngleSlack + kCosineSlack; }
 
-// Points as far from both faces, in front of both, within the walls of both: on the plane between them.
+// Points at equal distance from both faces, in front of both and within the walls of both: they lie on the plane
+// between the faces.
 bool can_meet_faces(Leaving a, Leaving b) {
   vec3 across = a.toward - b.toward;
   float error = direction_error(a, b), size = length(across);
@@ -115,13 +118,14 @@ bool can_meet_edge_and_face(Leaving edge, Leaving face, float sine) {
   return have_common_point(c.arcs);
 }
 
-// Both feet are as far along: t = -D s.v / (1 - u.v), s the spoke to the first, and the other one is s + (t/D) (v - u).
+// Both feet are at the same distance: t = -D s.v / (1 - u.v), where s is the spoke to the first; the other spoke is s +
+// (t/D) (v - u).
 bool can_meet_edges(Leaving a, Leaving b, float sine) {
   float error = direction_error(a, b), apart = max(0.0, 1.0 - dot(a.along, b.along));
   Circle c = circle_across(a.along);
   c.arcs[0] = arc_of_spokes(c, a, 2.0 * error);
   c.arcs[1] = arc_where(c, -b.along, sine * sqrt(2.0 * max(0.0, apart - 2.0 * error)) - 2.0 * error);
-  // Of an edge between two faces that nearly touch, nothing is known of the spokes: its arc has no middle across it.
+  // For an edge between two faces that nearly touch, nothing is known of the spokes: its arc has no middle across it.
   bool has_arc = b.arc.w < 3.1415926;
   vec3 condition = arc_where(c, apart * b.arc.xyz + dot(a.along, b.arc.xyz) * b.along,
                              apart * cosine(min(b.arc.w, 3.1415926)) - 10.0 * error);
@@ -135,7 +139,7 @@ bool is_corner_of(uint name, uint k) {
   return is_edge ? (k + 1u) % 3u != kind - kFirstEdge : kind == kFace || kind == kFront;
 }
 
-// True if they have no corner in common.
+// True if the carriers have no corner in common.
 bool can_meet_at_corner(uint first, uint second, float sine) {
   uvec4 a = corners_and_flags(first / 8u), b = corners_and_flags(second / 8u);
   if (((distrust_of(a.w) | distrust_of(b.w)) & kLinkWhole) != 0u) return true;

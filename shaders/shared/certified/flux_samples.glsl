@@ -1,5 +1,5 @@
 // The points at which the flux through the sphere around a found voxel is sampled, with the voxel's side as radius, and
-// what its kernels share. Include "step.glsl" before.
+// definitions that the kernels of the flux share. Include "step.glsl" before.
 #ifndef MEDIAL_VK_FLUX_SAMPLES_GLSL
 #define MEDIAL_VK_FLUX_SAMPLES_GLSL
 
@@ -16,11 +16,11 @@ vec3 spiral_direction(uint k) {
   return vec3(r * cos(azimuth), r * sin(azimuth), h);
 }
 
-// Of the centre of the voxel and sample k.
+// The centre of the voxel and its sample k.
 vec3 sample_point(vec3 centre, uint k) { return centre + step.voxel_size * spiral_direction(k); }
 
-// Eight groups of six samples that lie together, within 42 degrees of their mean: which one is number i of a group. A
-// byte for each group, since tables with an index for each lane are slow on lavapipe.
+// The samples form eight groups of six that lie together, within 42 degrees of their mean: the index of sample i of a
+// group. Each group is encoded in bytes, since tables with an index per lane are slow on lavapipe.
 const uvec2 kSampleOfGroup[kFluxGroup] = {
     uvec2(0x0d040200u, 0x2118170eu), uvec2(0x10090501u, 0x26201c13u), uvec2(0x150c0703u, 0x29251f16u),
     uvec2(0x1a110a06u, 0x2b28241bu), uvec2(0x1d140f08u, 0x2e2a271eu), uvec2(0x2219120bu, 0x2f2d2c23u)};
@@ -31,7 +31,8 @@ uint sample_of_group(uint group, uint i) {
   return four >> (8u * (group & 3u)) & 0xffu;
 }
 
-// The contacts that may be nearest to a sample: a mask of the list for each group, where those of children were.
+// The contacts that may be nearest to a sample: one mask of the list for each group, stored in the former masks of
+// children.
 uint sample_mask_begin(Cell cell, uint group) { return 8u * cell.word_begin + group * ((cell.list_count + 31u) / 32u); }
 
 #endif

@@ -1,16 +1,18 @@
-// Is it outside from which a medial point touches a face (docs/theory.md, Lemma K)? For cells in which measure_levels.comp
-// has noted a winding number. Include after "carriers.glsl".
+// Decides whether a medial point touches a face from outside (docs/theory.md, Lemma K). For cells in which
+// measure_levels.comp has stored a winding number. Include after "carriers.glsl".
 #ifndef MEDIAL_VK_FOOT_SIDES_GLSL
 #define MEDIAL_VK_FOOT_SIDES_GLSL
 
-// Of the entries that an invocation looks at here: lavapipe's loop budget (tree.glsl) is that of eight of them.
+// Number of entries that an invocation examines here: the loop budget of lavapipe (tree.glsl) is shared by eight of
+// them.
 const uint kMostCrossingTests = 1024u;
 uint crossing_tests = 0u;
 
 const int kUnclear = 2;
 
-// Where a segment from the origin to y crosses a triangle, given from there: how the winding number changes, -1 from
-// behind to in front; 0 if it does not cross. Unclear next to sides and ends.
+// The change of the winding number at the crossing of a triangle by the segment from the origin to y, with the triangle
+// relative to the same origin: -1 from behind to in front; 0 if the segment does not cross it. Unclear next to sides
+// and ends.
 int crossing(TriangleTexels t, vec3 p, vec3 y) {
   float size = length(y), clear = 4.0 * step.slack + tilt_of(t) * (length(p) + size);
   float before = dot(t.normal.xyz, p), after = dot(t.normal.xyz, p - y);

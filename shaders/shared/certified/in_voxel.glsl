@@ -1,8 +1,8 @@
-// Whether a point may stand for its voxel. Include "step.glsl" before.
+// Whether a point may represent its voxel. Include "step.glsl" before.
 #ifndef MEDIAL_VK_IN_VOXEL_GLSL
 #define MEDIAL_VK_IN_VOXEL_GLSL
 
-// By a hair, so that the point is in the voxel in double precision too.
+// With a small margin, so that the point is in the voxel in double precision too.
 bool is_in_voxel(vec3 p, Cell cell) {
   vec3 x = p - finest_voxel_corner(cell);
   float margin = 1e-4 * step.voxel_size + 0.25 * step.slack;

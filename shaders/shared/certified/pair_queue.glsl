@@ -1,8 +1,8 @@
-// The pairs of a cell's carriers, those of the nearest first, in an order that does not depend on the device. Pairs that
-// pass the cheap tests are queued, so that all lanes have work in the dear ones. All lanes call what is here.
+// The pairs of a cell's carriers, the nearest first, in an order that does not depend on the device. Pairs that pass
+// the cheap tests are queued, so that all lanes have work in the expensive ones. All lanes call these functions.
 //
-// Loops are tested at their ends where their bodies are dear: a CPU runs a body for all lanes before it asks whether any
-// of them wanted that.
+// Loops with expensive bodies are tested at their ends: a CPU runs a body for all lanes before it tests whether any of
+// them needed it.
 #ifndef MEDIAL_VK_PAIR_QUEUE_GLSL
 #define MEDIAL_VK_PAIR_QUEUE_GLSL
 #include "certified/aim.glsl"
@@ -10,11 +10,11 @@
 
 const uint kQueueSize = 256u;  // a power of two, above kLanes + 3 kLanes^2
 shared uint queue[kQueueSize];  // two slots of carriers, modulo its size
-// The same in all lanes: where the queue begins and ends, and the next block of pairs: of a row with an earlier one, or
-// with itself.
+// The same in all lanes: the begin and the end of the queue, and the next block of pairs: those of a row with an
+// earlier row, or within one row.
 uint queue_head, queue_tail, next_row, next_other_row;
 
-Aim best_aim;  // of the pairs that this lane has queued: the one that ties nearest to the boundary
+Aim best_aim;  // of the pairs that this lane has queued: the one with the tie closest to the boundary
 
 void start_pairs() {
   queue_head = 0u;
@@ -26,14 +26,14 @@ void start_pairs() {
 
 bool has_more_blocks() { return next_row < row_count(kept_count); }
 
-// The carriers of a row of carrier_order, one to each lane; lanes beyond the end hold the last one.
+// The carriers of a row of carrier_order, one per lane; lanes beyond the end hold the last one.
 Carrier load_row(uint row, out uint slot) {
   slot = carrier_order[min(kLanes * row + gl_LocalInvocationID.x, kept_count - 1u)];
   return load_carrier(slot);
 }
 
-// Which partners of this lane's carrier, (lane + r) % 8 of the other row for bit r, may turn enough with it? Within a
-// row each pair is met once: at distances 1 to 3, and at 4 from the first half.
+// The partners of this lane's carrier that may turn enough with it; bit r: partner (lane + r) % 8 of the other row.
+// Within a row each pair is met once: at distances 1 to 3, and at 4 from the first half.
 uint turning_partners(Carrier mine, Carrier row, float theta) {
   uint lane = gl_LocalInvocationID.x;
   bool is_same_row = next_row == next_other_row;
@@ -49,7 +49,7 @@ uint turning_partners(Carrier mine, Carrier row, float theta) {
   return mask;
 }
 
-// Those of them that no third carrier beats.
+// The partners among them that no third carrier beats.
 uint unbeaten_partners(uint mask, Carrier mine, Carrier row, Carrier nearest_row, Box box) {
   uint unbeaten = 0u;
   for (; mask != 0u; mask &= mask - 1u) {
@@ -82,8 +82,8 @@ void queue_block(Carrier nearest_row, float theta, Box box) {
   synchronize();
 }
 
-// Queues pairs until there is one for every lane, or there are no more. Below the finest level, where cells are few and
-// hard, until the sixteen nearest carriers have been paired too: the aims are the better.
+// Queues pairs until there is one for every lane or none is left. Below the finest level, where cells are few and hard,
+// it continues until the sixteen nearest carriers have been paired as well, which improves the aims.
 void fill_queue(float theta, Box box) {
   uint slot;
   Carrier nearest_row = load_row(0u, slot);
@@ -94,7 +94,7 @@ void fill_queue(float theta, Box box) {
   }
 }
 
-// Each lane takes a pair; false: there is none for it.
+// Each lane takes one pair; false: there is none for it.
 bool take_pair(out Carrier a, out Carrier b) {
   uint at = queue_head + gl_LocalInvocationID.x;
   bool exists = at < queue_tail;
@@ -105,7 +105,7 @@ bool take_pair(out Carrier a, out Carrier b) {
   return exists;
 }
 
-// Is it time to take pairs, rather than to queue more?
+// True if pairs should be taken now rather than more of them queued.
 bool has_enough_queued() {
   uint queued = queue_tail - queue_head;
   return queued >= kLanes || (queued > 0u && !has_more_blocks());

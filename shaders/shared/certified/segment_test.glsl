@@ -1,29 +1,29 @@
-// Which triangles may be the nearest of some point of a segment (docs/theory.md, "Segments"). Include step.glsl before.
+// The triangles that may be nearest to some point of a segment (docs/theory.md, "Segments"). Include step.glsl before.
 #ifndef MEDIAL_VK_SEGMENT_TEST_GLSL
 #define MEDIAL_VK_SEGMENT_TEST_GLSL
 
-// A segment from p to q, and how far its ends are from two triangles: along it, no farther than the chord.
+// A segment from p to q, and the distances of its ends from two triangles: along it, no distance exceeds the chord.
 struct Segment {
   vec3 along;  // unit, or 0 if p and q are one point
   float extent;
-  vec2 from_first, from_second;  // distances at p and q, with room for what is asked
+  vec2 from_first, from_second;  // distances at p and q, with a margin for the points that are queried
 };
 
 Segment segment_between(vec3 p, vec3 q, vec2 from_first, vec2 from_second) {
-  // Points within epsilon of the segment are asked too (growth test): both distances may differ by as much.
+  // Points within epsilon of the segment are queried too (growth test): both distances may differ by as much.
   float room = 2.0 * (step.epsilon + 4.0 * step.slack);
   return Segment(unit_or_zero(q - p), distance(p, q), from_first + room, from_second + room);
 }
 
-// Is offset + slope s <= 0 for some s between the bounds? Narrows them.
+// True if offset + slope s <= 0 for some s between the bounds, which it narrows.
 void narrow(float offset, float slope, inout vec2 bounds) {
   float root = -offset / (abs(slope) < 1e-12 ? 1e-12 : slope);
   bounds.y = slope > 0.0 || abs(slope) < 1e-12 ? min(bounds.y, root) : bounds.y;
   bounds.x = slope <= -1e-12 ? max(bounds.x, root) : bounds.x;
 }
 
-// v_p, v_q: from the ends to the triangle, d_p and d_q long. Between them it is no nearer than either tangent.
-// Directions are wrong by up to 2 slack / d.
+// v_p, v_q: vectors from the ends to the triangle, of lengths d_p and d_q. Between the ends the triangle is no nearer
+// than either tangent. The error of the directions is up to 2 slack / d.
 bool may_be_nearest_on(Segment s, vec3 v_p, float d_p, vec3 v_q, float d_q) {
   float per_p = 1.0 / max(d_p, 1e-30), per_q = 1.0 / max(d_q, 1e-30), per_length = 1.0 / max(s.extent, 1e-30);
   float slope_p = -dot(v_p, s.along) * per_p, slope_q = -dot(v_q, s.along) * per_q;

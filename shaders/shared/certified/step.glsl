@@ -1,4 +1,4 @@
-// What the kernels of the certified pipeline share: push constants, invocation index, geometry of cells.
+// Definitions that the kernels of the certified pipeline share: push constants, invocation index, geometry of cells.
 #ifndef MEDIAL_VK_STEP_GLSL
 #define MEDIAL_VK_STEP_GLSL
 #include "gpu_types.h"
@@ -19,16 +19,16 @@ uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_Loc
   }
 #define COUNT_TESTS(number) COUNT_LONG(kTestCount, number)
 
-// Between the directions at the ends of a line that is worth asking: twice the object angle, or,
-// where one of them is deep, what is asked there, if that is less.
+// The required turn between the directions at the ends of a line that is worth narrowing: twice the object angle, or,
+// if one of the ends is deep, the requirement for deep points, if that is less.
 float cosine_of_least_turn(bool deep) {
   return deep ? max(step.cos_twice_angle, step.cos_twice_deep_angle) : step.cos_twice_angle;
 }
 
-// Lines of a finest voxel stay where the contacts that touch it suffice (touch_half_side).
+// Lines of a finest voxel stay in the region for which the contacts that touch it suffice (touch_half_side).
 uint line_list_count(Cell cell) { return step.depth == 0u ? cell.touching : cell.list_count; }
 
-// Masks of a cell's list, one for each of its seeds of lines: where those of its children are later.
+// Masks of a cell's list, one for each of its seeds of lines, stored in the later masks of its children.
 uint line_mask_begin(Cell cell, uint seed) {
   return 8u * cell.word_begin + seed * ((line_list_count(cell) + 31u) / 32u);
 }
@@ -55,20 +55,20 @@ vec3 finest_voxel_corner(Cell cell) {
 // Corners are numbered like children.
 vec3 corner_sign(uint k) { return vec3(k & 1u, (k >> 1) & 1u, k >> 2) * 2.0 - 1.0; }
 
-// How far corners 7, 5, 3 and 1 of a cube lie along a direction, h: it times half the side. Corners 0, 2, 4 and 6 are
-// opposite.
+// The extents h of corners 7, 5, 3 and 1 of a cube along a direction, in units of half the side. Corners 0, 2, 4 and 6
+// are opposite.
 vec4 corners_along(vec3 h) {
   vec2 xy = vec2(h.x + h.y, h.x - h.y);
   return vec4(xy + h.z, xy - h.z);
 }
 
-// Of numbers: the built-in looks for NaNs, which costs lavapipe three instructions in place of one.
+// For numbers only: the built-in function handles NaN, which costs lavapipe three instructions instead of one.
 float greater(float a, float b) {
   precise float result = a > b ? a : b;
   return result;
 }
 
-// The most of what the eight corners have, and of how far they lie along a direction: both added up.
+// The greatest sum, over the eight corners, of a value of the corner and its extent along a direction.
 float most_at_corners(float corners[8], vec4 along) {
   vec4 forth = vec4(corners[7], corners[5], corners[3], corners[1]) + along;
   vec4 back = vec4(corners[0], corners[2], corners[4], corners[6]) - along;
@@ -76,16 +76,16 @@ float most_at_corners(float corners[8], vec4 along) {
   return greater(greater(most.x, most.y), greater(most.z, most.w));
 }
 
-// Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g is wrong by up
-// to 2 slack / D.
+// Rounding of Lemma A (docs/theory.md): two distances, and g.x with |x| up to the circumradius, where g has an error of
+// up to 2 slack / D.
 float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1.0 + circumradius / max(d, 1e-30)); }
 
-// Where the boundary itself passes through triangles whose normals prove nothing, a cell may hold medial points of either
-// side, and subdividing follows them to the boundary: five levels below the finest voxel are enough. What hides there has
-// a radius below sqrt(3) / 32 of the voxel side.
+// If the boundary itself passes through triangles whose normals prove nothing, a cell may hold medial points of either
+// side, and subdivision follows them to the boundary: five levels below the finest voxel are enough. Points hidden
+// there have a radius below sqrt(3) / 32 of the voxel side.
 bool is_hopeless(uint flags) { return step.depth >= kBoundaryDepth && (flags & kCellUntrusted) != 0u; }
 
-// A number that is not negative, as bits in the same order. Devices may give a zero either sign.
+// The bits of a non-negative number, which have the same order. Devices may give a zero either sign.
 uint ordered_bits(float x) { return floatBitsToUint(x) & 0x7fffffffu; }
 
 vec3 unit_or_zero(vec3 v) {

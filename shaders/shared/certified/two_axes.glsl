@@ -1,13 +1,13 @@
-// Dismissal while a list is written (docs/theory.md, "Clusters"): is one of two axes obeyed by all triangles that touch the
-// cube? They are the normal of the nearest triangle and the mean of the clusters' axes. Include lanes.glsl, step.glsl and
-// triangles.glsl before.
+// Dismissal while a list is written (docs/theory.md, "Clusters"): tests whether one of two axes is obeyed by all
+// triangles that touch the cube. The axes are the normal of the nearest triangle and the mean of the clusters' axes.
+// Include lanes.glsl, step.glsl and triangles.glsl before.
 #ifndef MEDIAL_VK_TWO_AXES_GLSL
 #define MEDIAL_VK_TWO_AXES_GLSL
 #include "certified/dismissal.glsl"
 
 struct Axes {
   vec3 front, mean;
-  vec2 least;  // of either, the cosine to the normal that is farthest from it
+  vec2 least;  // for each axis, the cosine to the normal that is farthest from it
 };
 
 Axes axes_of(uint nearest, uint packed_mean) {
@@ -19,7 +19,7 @@ vec2 cosines(Axes axes, vec4 normal) {
   return normal.w > 0.5 ? found : vec2(-2.0);  // not trusted
 }
 
-// All eight lanes call it.
+// For all eight lanes.
 bool is_obeyed(Axes axes, float theta) {
   return max(least_of_lanes(axes.least.x), least_of_lanes(axes.least.y)) > cosine(theta) + kAxisSlack;
 }

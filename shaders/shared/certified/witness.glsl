@@ -1,6 +1,6 @@
-// Lemma A (docs/theory.md): who may hold the nearest boundary point of some point of a cell? Whatever is compared with
-// is a witness: any part of the boundary will do. Good ones are near the centre of the cell, or near the point of its
-// ball opposite to that: where a sheet passes, the two lie on its two sides. Include step.glsl before.
+// Lemma A (docs/theory.md): the triangles that may hold the nearest boundary point of some point of a cell. A witness
+// is any part of the boundary with which they are compared. Good witnesses are near the centre of the cell, or near the
+// opposite point of its ball: where a sheet passes, the two lie on its two sides. Include step.glsl before.
 #ifndef MEDIAL_VK_WITNESS_GLSL
 #define MEDIAL_VK_WITNESS_GLSL
 
@@ -12,7 +12,7 @@ struct Witness {
   float distance;
   vec3 direction;
   float clear_distance, square_sum, square_slope;  // is_contact
-  float to_corner[8];  // distances from the corners of the cube, where the cube is asked
+  float to_corner[8];  // distances from the corners of the cube, if the cube is tested
 };
 
 // `v`: from the centre to its nearest point.
@@ -22,7 +22,7 @@ Witness witness_at(uint name, vec3 v) {
   w.distance = length(v);
   w.direction = unit_or_zero(v);
   float radius = step.list_radius;
-  // dist(m, w) <= D - g.x + |x|^2 / (2 D); D <= R: no bound but the plain one.
+  // dist(m, w) <= D - g.x + |x|^2 / (2 D); D <= R: only the plain bound holds.
   bool far = w.distance > radius;
   w.clear_distance = w.distance + 6.0 * step.slack + (far ? radius * radius / (2.0 * w.distance) : 0.0);
   w.square_sum = radius * radius * (far ? 2.0 + kTurnSlack : 4.0);
@@ -30,35 +30,35 @@ Witness witness_at(uint name, vec3 v) {
   return w;
 }
 
-// Lemma A for the ball of the list: may a convex set at distance d in direction g from the centre be nearest to a point
-// of it? Asked of squares: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
+// Lemma A for the ball of the list: true if a convex set at distance d in direction g from the centre may be nearest to
+// a point of the ball. Squares are compared: |g - g_w|^2 = 2 - 2 g.g_w (docs/theory.md, "Rounding").
 bool is_contact(Witness w, float d, vec3 g) {
   float excess = d - w.clear_distance;
   bool near = excess <= 0.0, turned = excess * excess <= w.square_sum - w.square_slope * dot(g, w.direction);
   return near || turned;
 }
 
-// Lemma A for the cube, whose corners lie so far along g: at some corner x_k, D - g.x_k <= dist(x_k, witness).
+// Lemma A for the cube, whose corners have these extents along g: at some corner x_k, D - g.x_k <= dist(x_k, witness).
 bool touches_cube(Witness w, float d, vec4 along) {
   return most_at_corners(w.to_corner, along) >= d - distance_slack(d, 1.7321 * step.touch_half_side);
 }
 
-// Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. Asked where the ball
-// of the list lies in the solid as a whole.
+// Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. It is applied if the
+// whole ball of the list lies in the solid.
 struct Prism {
   bool is_asked;
-  float spokes;  // no spoke of a point of the ball is longer, and some room
+  float spokes;  // bound of the length of the spokes of a point of the ball, with a margin
 };
 
-// `clearance`: the distance from the centre to the boundary, or less.
+// `clearance`: the distance from the centre to the boundary, or a lower bound.
 bool clears_boundary(float clearance) {
   return step.open_edges == 0u && clearance > step.list_radius + 2.0 * step.slack;
 }
 
-// `distance`: that, or more.
+// `distance`: that distance, or an upper bound.
 Prism prism_at(float distance, bool is_asked) { return Prism(is_asked, distance + 2.0 * step.list_radius); }
 
-// How far beside a triangle the points may be that have spokes to it.
+// Greatest distance beside a triangle of the points that have spokes to it.
 float room_beside(Prism prism, vec4 normal) {
   float room = 8.0 * step.slack + prism.spokes * (normal.w - 1.0);
   bool is_trusted = normal.w > 0.5;
@@ -74,7 +74,7 @@ bool is_contact(Prism prism, vec3 v, vec4 normal) {
   return dot(aside, aside) <= reach * reach;
 }
 
-// The cube reaches as far in direction `aside` as its half-sides, times the parts of that direction.
+// The cube extends in direction `aside` by its half-sides times the components of that direction.
 bool touches_cube(Prism prism, vec3 v, vec4 normal) {
   vec3 aside = beside(v, normal);
   float reach = length(aside) * room_beside(prism, normal) + step.touch_half_side * dot(abs(aside), vec3(1.0));

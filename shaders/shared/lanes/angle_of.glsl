@@ -1,10 +1,11 @@
-// The angle of a vector, for what is proved by it: Vulkan lets GLSL's atan be wrong by 4096 units in the last place.
-// Series for |tan| <= tan(pi / 8) from Cephes (S. L. Moshier, atanf), wrong by less than 2^-24 of the angle; with the
-// quotient (2.5 units) and the other roundings, 8 u of it, u = 2^-24. Read as C++ by tests/unit/device/angles_test.cpp.
+// The angle of a vector, for proofs that depend on it: Vulkan allows GLSL's atan an error of 4096 units in the last
+// place. The series for |tan| <= tan(pi / 8) is from Cephes (S. L. Moshier, atanf), with an error below 2^-24 of the
+// angle; with the quotient (2.5 units) and the other roundings the error is 8 u of the angle, u = 2^-24.
+// tests/unit/device/angles_test.cpp compiles this file as C++.
 #ifndef MEDIAL_VK_ANGLE_OF_GLSL
 #define MEDIAL_VK_ANGLE_OF_GLSL
 
-// From -pi to pi; 0 of the zero vector.
+// From -pi to pi; 0 for the zero vector.
 float angle_of(float x, float y) {
   float across = abs(x), up = abs(y);
   bool steep = up > across;

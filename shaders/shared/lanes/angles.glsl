@@ -1,5 +1,5 @@
-// Sine, cosine and arcsine as exactly as float allows, for what is proved by them: Vulkan lets those of GLSL be wrong by
-// 5e-4. Series, with what is left out below 2e-7 and no more than a few roundings: wrong by less than 1e-6
+// Sine, cosine and arcsine as exactly as float allows, for proofs that depend on them: Vulkan allows those of GLSL an
+// error of 5e-4. The series have a remainder below 2e-7 and few roundings: their error is below 1e-6
 // (tests/unit/device/angles_test.cpp, which compiles this file as C++).
 #ifndef MEDIAL_VK_ANGLES_GLSL
 #define MEDIAL_VK_ANGLES_GLSL
@@ -14,7 +14,7 @@ float sine(float x) {
 // From 0 to pi.
 float cosine(float x) { return sine(1.5707963f - x); }
 
-// From 0 to 1. Above 1/2 by way of the half of the other angle: cos(a) = 1 - 2 sin(a / 2)^2.
+// From 0 to 1. Above 1/2 by the half of the complementary angle: cos(a) = 1 - 2 sin(a / 2)^2.
 float arcsine(float x) {
   bool large = x > 0.5f;
   float y = large ? sqrt(0.5f - 0.5f * x) : x;

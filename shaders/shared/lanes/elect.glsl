@@ -1,5 +1,5 @@
-// One point per finest voxel: of the lines that find one at a level, the one with the largest turn, and of equal ones the
-// first. The result does not depend on the order of the atomics. Include after declaring `winners`.
+// One point per finest voxel: of the lines that find a point at a level, the one with the largest turn, and of equal
+// ones the first. The result does not depend on the order of the atomics. Include after declaring `winners`.
 #ifndef MEDIAL_VK_ELECT_GLSL
 #define MEDIAL_VK_ELECT_GLSL
 

@@ -12,7 +12,7 @@
 const uint kLanes = 8u;
 const uint kMostLanes = 256u;
 
-// Among the eight lanes of a cell, in workgroups of at most kMostLanes: all of them call these.
+// Among the eight lanes of a cell, in workgroups of at most kMostLanes; all eight lanes call these functions.
 //   from_lane (LOCKSTEP only)   the value that lane k holds
 //   sum_of_lanes, least_of_lanes, or_of_lanes, first_lane_with
 //   count_lanes                 the sum over the lanes before this one, and over all
@@ -21,7 +21,7 @@ const uint kMostLanes = 256u;
 
 void synchronize() { subgroupBarrier(); }
 
-// Lane k of my eight.
+// Index of lane k of the eight in the workgroup.
 uint lane_of_eight(uint k) { return (gl_SubgroupInvocationID & ~7u) + k; }
 
 float from_lane(float mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
@@ -62,7 +62,7 @@ vec4 sum_of_lanes(vec4 mine) {
   barrier();
   exchanged[slot] = mine;
   barrier();
-  // Added in the same order as by shuffles.
+  // The order of additions is that of the shuffles.
   vec4 sum[kLanes];
   [[unroll]] for (uint k = 0; k < kLanes; ++k) sum[k] = exchanged[(slot & ~7u) + k];
   [[unroll]] for (uint stride = 1; stride < kLanes; stride <<= 1)
@@ -100,7 +100,7 @@ uvec2 count_lanes(uint mine) {
 
 #endif
 
-// The first of the eight lanes that asks, or kLanes.
+// The first of the eight lanes with a true flag, or kLanes.
 uint first_lane_with(bool asks) {
   uint lanes = or_of_lanes(asks ? 1u << (gl_LocalInvocationID.x & 7u) : 0u);
   return lanes == 0u ? kLanes : uint(findLSB(lanes));

@@ -1,5 +1,6 @@
-// Turns counters into the group counts of indirect dispatches. A dispatch gets none after an overflow, after the host has
-// asked to stop, or in rounds that no list is long enough for. Include after declaring `counters`, `arguments` and `stop`.
+// Computes the group counts of indirect dispatches from counters. A dispatch gets none after an overflow, after a stop
+// request of the host, or in rounds for which no list is long enough. Include after declaring `counters`, `arguments`
+// and `stop`.
 #ifndef MEDIAL_VK_PREPARE_GLSL
 #define MEDIAL_VK_PREPARE_GLSL
 
@@ -12,9 +13,9 @@ void check_rounds(DispatchConstants d) {
   if (d.list_counter != kNoCounter && longest_list(d) > d.entry_limit) atomicOr(counters[kOverflow], kTooFewRounds);
 }
 
-// Into how many rows groups are put (workgroup_index.glsl). If they do not divide evenly, some are added, which find
-// nothing to do: not where they would find what comes after a limit. (Limits are of no more groups than one row holds, or
-// of powers of two.)
+// The number of rows into which groups are arranged (workgroup_index.glsl). If the groups do not divide evenly, some
+// are added, which find no work. None are added where they would find entries beyond a limit. (Limits are of no more
+// groups than one row holds, or of powers of two.)
 uint rows_of(uint groups, uint threads, bool is_limited) {
   uint least = max((groups + kGroupsInRow - 1u) / kGroupsInRow, 1u), rows = max(least, threads);
   bool divides = groups % (rows * kGroupsInRun) == 0u, deals = groups >= 2u * threads * kGroupsInRun;
@@ -32,7 +33,7 @@ void write_arguments(DispatchConstants d) {
   bool needed = counters[kOverflow] == 0u && stop == 0u && all >= d.least_items && longest_list(d) > d.first_entry;
   uint lanes = (items + d.items_divisor - 1u) / d.items_divisor;
   uint groups = needed ? (lanes + d.group_size - 1u) / d.group_size : 0u;
-  // Further rounds go on with the same queries.
+  // Further rounds continue with the same queries.
   if (needed && d.first_entry == 0u && d.queries_per_item > 0u)
     atomicAdd(counters[kQueries], items * d.queries_per_item);
   uint rows = rows_of(groups, d.threads, items < left);

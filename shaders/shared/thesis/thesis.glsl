@@ -1,4 +1,4 @@
-// What the kernels of the published method share. Binding 0 is always the counters.
+// Definitions that the kernels of the published method share. Binding 0 is always the counters.
 #ifndef MEDIAL_VK_THESIS_GLSL
 #define MEDIAL_VK_THESIS_GLSL
 #include "thesis_types.h"
@@ -21,7 +21,8 @@ vec3 unit_or_zero(vec3 v) {
 
 vec3 cell_centre(ThesisCell cell) { return (vec3(cell.x, cell.y, cell.z) + 0.5) * step.cell_size; }
 
-// The ball around m through a boundary point: is another one nearer to m? Made smaller by what rounding may do.
+// The ball around m through a boundary point, to test whether another one is nearer to m; reduced by a bound of the
+// rounding.
 vec4 ball_query(vec3 m, vec3 contact) {
   float r = max(distance(m, contact) - step.ball_margin, 0.0);
   return vec4(m, r * r);

@@ -1,14 +1,14 @@
 // Nearest point of a triangle, in float, safe for needles.
 //
-// The distance to a triangle is the distance to its plane where the foot of the perpendicular lies inside, and else
+// The distance to a triangle is the distance to its plane if the foot of the perpendicular lies inside, and otherwise
 // the smallest distance to its three edges. Both are computed without the differences of products of edge lengths
-// (Ericson 2005, 5.1.5) that cancel on needles. With coordinates in the unit box and u = 2^-24, an edge distance is
-// wrong by at most about 8 u (|p - a| + |edge|), the plane distance by 6 u |p - a|, and where rounding puts the
+// (Ericson 2005, 5.1.5) that cancel on needles. With coordinates in the unit box and u = 2^-24, the error of an edge
+// distance is at most about 8 u (|p - a| + |edge|), that of the plane distance 6 u |p - a|, and where rounding puts the
 // foot on the wrong side of an edge the two differ by no more than that: below 2e-6 for any query in the box.
 //
 // A triangle is four texels: (a, 1/|ab|^2) (b - a, 1/|ac|^2) (c - a, 1/|bc|^2) (unit normal, 0 if it is not trusted and
-// else 1 + the sine of how far spokes to the triangle may turn from it: Lemma L).
-// Inverse lengths of zero-length edges are 0.
+// otherwise 1 + the sine of the greatest turn of spokes to the triangle from it: Lemma L). Inverse lengths of
+// zero-length edges are 0.
 #ifndef MEDIAL_VK_CLOSEST_POINT_GLSL
 #define MEDIAL_VK_CLOSEST_POINT_GLSL
 
@@ -19,8 +19,8 @@ struct TriangleTexels {
   vec4 normal;
 };
 
-// Is the foot of the perpendicular on the right side of all edges? e and f: the point from a and from b. What only the
-// triangle has a part in comes first, for those who ask about several points.
+// True if the foot of the perpendicular is on the inner side of all edges. e and f: the point from a and from b.
+// Factors of the triangle alone come first, for callers that evaluate several points.
 bool projects_inside(vec3 e, vec3 f, vec3 bc, TriangleTexels t) {
   vec3 within_ab = cross(t.normal.xyz, t.ab.xyz), within_ac = cross(t.ac.xyz, t.normal.xyz);
   vec3 within_bc = cross(t.normal.xyz, bc);

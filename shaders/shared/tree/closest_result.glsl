@@ -1,4 +1,4 @@
-// The result of a closest-point query, as both its kernels write it. Include tree_query.glsl before.
+// The result of a closest-point query, as both of its kernels write it. Include tree_query.glsl before.
 #include "tree/triangle_feature.glsl"
 
 layout(set = 0, binding = 5) readonly buffer TriangleOrder { uint triangle_order[]; };  // leaf position to input index

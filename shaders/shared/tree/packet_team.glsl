@@ -1,6 +1,6 @@
-// A team is a workgroup of 4 to 64 invocations that walk the tree together (tree_packet.glsl): one subgroup, or, where
+// A team is a workgroup of 4 to 64 invocations that walk the tree together (tree_packet.glsl): one subgroup, or, if
 // PACKET_THROUGH_SHARED_MEMORY is defined, any invocations with barriers between them. The whole team makes each call.
-// Shuffles stand for broadcasts, ballots for votes: on lavapipe they take half the time.
+// Shuffles replace broadcasts, and ballots votes: on lavapipe they take half the time.
 #ifndef MEDIAL_VK_PACKET_TEAM_GLSL
 #define MEDIAL_VK_PACKET_TEAM_GLSL
 
@@ -47,7 +47,7 @@ float team_read(float x, uint lane) {
 #extension GL_KHR_shader_subgroup_shuffle : enable
 
 uint team_lane() { return gl_SubgroupInvocationID; }
-// A driver may cut the workgroup into smaller subgroups than it promised.
+// A driver may cut the workgroup into subgroups that are smaller than it reported.
 bool team_is_whole() { return gl_NumSubgroups == 1u && gl_SubgroupSize >= gl_WorkGroupSize.x; }
 void team_barrier() {
   subgroupMemoryBarrierShared();

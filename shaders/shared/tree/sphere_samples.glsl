@@ -1,4 +1,5 @@
-// What the kernels around the flux through spheres share: `samples` spiral points on each sphere (Section 2.3.2).
+// Definitions that the kernels of the flux through spheres share: `samples` spiral points on each sphere (Section
+// 2.3.2).
 #ifndef MEDIAL_VK_SPHERE_SAMPLES_GLSL
 #define MEDIAL_VK_SPHERE_SAMPLES_GLSL
 #include "tree_types.h"
@@ -8,7 +9,7 @@ layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { SampleConstants push; };
 
 layout(set = 0, binding = 0) readonly buffer Counters { uint counters[]; };
-layout(set = 0, binding = 1) readonly buffer Spheres { vec4 spheres[]; };  // centre, radius; negative: passed over
+layout(set = 0, binding = 1) readonly buffer Spheres { vec4 spheres[]; };  // centre, radius; negative: skipped
 
 const float kAnyDistance = 3.4e38;  // squared
 const float kPassOver = -1.0;

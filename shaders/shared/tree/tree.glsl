@@ -1,9 +1,9 @@
 // The tree over the triangles. Before including, define TREE_STORAGE_BINDING and TREE_TEXEL_BINDING, and include
 // triangles.glsl.
 //
-// An inner node is 4 texels, two for each child: lower corner and where it starts, upper corner and its number of
-// triangles. A child with 0 triangles is the inner node where it starts; else a leaf of the triangles from there on.
-// After all nodes follow 8 texels for each with the moments of the children (winding.glsl).
+// An inner node is 4 texels, two for each child: lower corner and start, upper corner and number of triangles. A child
+// with 0 triangles is the inner node at its start; otherwise it is a leaf of the triangles from there on. After all
+// nodes, 8 texels follow for each with the moments of the children (winding.glsl).
 #ifndef MEDIAL_VK_TREE_GLSL
 #define MEDIAL_VK_TREE_GLSL
 #include "tree_types.h"
@@ -14,10 +14,10 @@ layout(set = 0, binding = TREE_TEXEL_BINDING) uniform samplerBuffer tree_texels;
 vec4 tree_texel(uint i) { return kUseTexels ? texelFetch(tree_texels, int(i)) : tree_storage[i]; }
 uint tree_node_count() { return (kUseTexels ? uint(textureSize(tree_texels)) : uint(tree_storage.length())) / 12u; }
 
-// A place in the tree: an inner node, or (count << 24 | first) of a leaf.
+// A position in the tree: an inner node, or (count << 24 | first) of a leaf.
 const uint kLeaf = 1u << 24;
 const uint kFirstMask = kLeaf - 1u;
-const uint kSkipped = 0xfffffffeu;   // nothing here, more on the stack
+const uint kSkipped = 0xfffffffeu;   // no node here, more on the stack
 const uint kFinished = 0xffffffffu;  // nothing left
 
 uint tree_place(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }
@@ -28,15 +28,16 @@ float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
   return dot(outside, outside);
 }
 
-// What the walks of an invocation have tested: boxes or moments of the tree's nodes, and triangles.
+// Counts of the tests that the walks of an invocation have made: boxes or moments of the tree's nodes, and triangles.
 uint tested_nodes = 0u, tested_triangles = 0u;
 
 // Every walk goes in rounds: down at most kDescents nodes, through one leaf, back over at most kPops entries of the
 // stack. lavapipe ends all loops of an invocation silently after 65,535 iterations, and it counts for eight invocations
-// together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum, whatever
-// the neighbours do: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more rounds says
-// so, and its query is answered by looking at all triangles (resolve_*.comp).
-// Loops are tested at the bottom and conditions are selects: untaken branches and masked loop bodies cost full price.
+// together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum for any
+// behaviour of the neighbours: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more
+// rounds reports that, and all triangles are examined for its query (resolve_*.comp).
+// Loops are tested at the bottom and conditions are selects: untaken branches and masked loop bodies cost their full
+// time.
 const uint kDescents = 8u;
 const uint kPops = 4u;
 const uint kRounds = 60000u / (kDescents + kMostLeafTriangles + kPops + 1u);

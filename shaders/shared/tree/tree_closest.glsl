@@ -1,22 +1,22 @@
-// The triangle nearest to a point, and whether a ball is empty, by one invocation: near child first, far child to the
-// stack. Include tree.glsl before.
+// The triangle nearest to a point, and the emptiness of a ball, by one invocation: the near child first, the far child
+// to the stack. Include tree.glsl before.
 #ifndef MEDIAL_VK_TREE_CLOSEST_GLSL
 #define MEDIAL_VK_TREE_CLOSEST_GLSL
 #include "tree/triangle_feature.glsl"
 
-// Where the foot of the perpendicular lies in a face, but close to an edge, the neighbour's edge is as near in float:
-// squares that differ by less than a rounding of the height h, points up to sqrt(2^-22) h = 5e-4 h apart. So a face is
-// taken to be nearer by a little more than that rounding. It costs 2^-21 of the distance.
+// If the foot of the perpendicular lies in a face, but close to an edge, the neighbour's edge is equally near in float:
+// the squares differ by less than a rounding of the height h, while the points are up to sqrt(2^-22) h = 5e-4 h apart.
+// A face is therefore preferred by a little more than that rounding, which costs 2^-21 of the distance.
 const float kPreferFaces = 1.0 - 9.5367e-7;  // 2^-20
 
 struct TreeHit {
-  float squared_distance;  // the bound that was given if there is no nearer triangle
+  float squared_distance;  // the given bound if there is no nearer triangle
   uint triangle;           // leaf position, 0xffffffff if there is none
-  bool complete;           // false: the walk was too long, ask all triangles
+  bool complete;           // false: the walk was too long, examine all triangles
 };
 
-// Among exact ties the smallest index of the input wins (triangle_order: leaf position to index), which costs a seventh
-// more; else the smallest leaf position.
+// Among exact ties the smallest index of the input wins (triangle_order: leaf position to index), at the cost of a
+// seventh more time; otherwise the smallest leaf position.
 layout(constant_id = 1) const bool kSmallestIndex = false;
 
 // Nearest triangle closer than sqrt(bound); if `any`, the first one that is found.
@@ -25,7 +25,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
   float distances[kStackSize];
   uint size = 0u, place = 0u, rounds = 0u;
   TreeHit hit = TreeHit(bound, 0xffffffffu, false);
-  uint best_index = 0u;  // a point at the bound itself is no hit
+  uint best_index = 0u;  // a point at exactly the bound is no hit
   for (;;) {
     uint descents = 0u;
     for (;;) {

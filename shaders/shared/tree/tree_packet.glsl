@@ -1,7 +1,7 @@
 // Nearest triangles of a packet of points near each other, by one team (packet_team.glsl) in one walk of the wide tree:
 // every node and triangle is loaded once for all points. A lane keeps kPerLane points. Lanes test the children of a
-// node, or the triangles of a leaf, against the ball around the packet; what is left is tested against every point.
-// Include tree_query.glsl, closest_result.glsl and triangle_frame.glsl before.
+// node, or the triangles of a leaf, against the ball around the packet; the remaining ones are tested against every
+// point. Include tree_query.glsl, closest_result.glsl and triangle_frame.glsl before.
 //
 // A node of the wide tree is two texels for each of kArity children, as in tree.glsl; a count of -1: no child.
 #include "tree/packet_team.glsl"
@@ -13,25 +13,25 @@ layout(constant_id = 3) const uint kArity = 8u;
 const float kPreferFaces = 1.0 - 9.5367e-7;  // as in tree_closest.glsl
 // A level leaves at most kArity - 1 children behind, and no tree is deeper than kStackSize.
 const uint kPacketStack = 7u * kStackSize + 8u;
-// Loop iterations after which the packet gives up; between two looks at the count the stack may be emptied once.
+// Loop iterations after which the packet gives up; between two checks of the count the stack may be emptied once.
 const uint kMostIterations = 64000u - 2u * kPacketStack;
 
-shared uvec2 stack[kPacketStack];  // child (kArity * node + place in it), squared distance from the packet's centre
+shared uvec2 stack[kPacketStack];  // child (kArity * node + its number), squared distance from the packet's centre
 
 #define FOR_EACH_POINT [[unroll]] for (uint k = 0u; k < kPerLane; ++k)
 
 vec3 points[kPerLane];
-float best[kPerLane];  // squared distances; negative: no point here, nothing is nearer
-uint found[kPerLane];  // rank + 1; 0: none yet. Ranks are leaf positions, or indices of the input if ties go by them
+float best[kPerLane];  // squared distances; negative: no point here, so that nothing is nearer
+uint found[kPerLane];  // rank + 1; 0: none yet. Ranks are leaf positions, or input indices if these decide ties
 vec3 centre;
 float radius;
-float bound;  // squared: nothing further from the centre is of interest to any point
+float bound;  // squared: beyond it from the centre, nothing can be nearest to any point
 uint stack_size;
 uint iterations;
 // Tested against the ball around the packet, and against every point.
 uint triangles_for_packet = 0u, triangles_for_points = 0u;
 
-// Of the ball around the packet with which it meets everything that a point may be nearest to. 1e-6: the bound and the
+// Radius of the ball around the packet that meets everything that may be nearest to a point. 1e-6: the bound and the
 // distances compared with it are rounded some ten times.
 void update_bound() {
   float greatest = best[0];
@@ -46,14 +46,14 @@ float squared_distance_to_box_fast(vec3 p, vec3 lower, vec3 upper) {
   return dot(d, d);
 }
 
-// May a point of this lane be nearest to something in a box?
+// True if a point of this lane may be nearest to something in a box.
 bool box_is_near(vec3 lower, vec3 upper) {
   bool near = false;
   FOR_EACH_POINT near = near || squared_distance_to_box_fast(points[k], lower, upper) <= best[k];
   return near;
 }
 
-// Takes the next place from the stack that any point is interested in.
+// Takes the next position from the stack that is relevant to any point.
 uint pop_place() {
   uint place = kFinished;
   for (;;) {
@@ -76,7 +76,7 @@ uint pop_place() {
   return place;
 }
 
-// Children of a node that the packet's ball meets go to the stack, the nearest last.
+// Children of a node that the packet's ball meets are pushed onto the stack, the nearest last.
 void push_children(uint node) {
   uint lane = team_lane(), child = kArity * node + lane % kArity;
   vec4 lower = tree_texel(2u * child), upper = tree_texel(2u * child + 1u);
@@ -115,7 +115,7 @@ void test_leaf(uint place) {
     uint waiting = team_ballot(lane <= last && lane < kArity && d <= bound);
     triangles_for_packet += last + 1u;
     for (;;) {
-      uint i = min(uint(findLSB(waiting)), last);  // none: one test for nothing
+      uint i = min(uint(findLSB(waiting)), last);  // if none is left: one useless test
       waiting &= waiting - 1u;
       ++triangles_for_points;
       TriangleFrame frame =
@@ -135,7 +135,7 @@ void test_leaf(uint place) {
 // False if the budget was spent first.
 bool walk_packet() {
   stack_size = 0u;
-  iterations = 100u;  // of the loops that are not counted
+  iterations = 100u;  // for the loops that are not counted
   uint place = 0u;
   for (;;) {
     for (;;) {
@@ -155,7 +155,7 @@ bool walk_packet() {
   return place == kFinished;
 }
 
-// The smallest box around the points, as a ball. Lanes without points take part with those of others.
+// The smallest box around the points, as a ball. Lanes without points use those of others.
 void enclose_packet() {
   const float kInfinity = 3e38;
   vec3 lower = vec3(kInfinity), upper = vec3(-kInfinity);

@@ -38,7 +38,7 @@ void main() {
   enclose_packet();
   update_bound();
   bool complete = team_is_whole() && walk_packet();
-  // One lane speaks for all about nodes and balls around packets, each about its own points.
+  // One lane reports for all about nodes and balls around packets, and each lane about its own points.
   uint points_asked = 0u;
   FOR_EACH_POINT points_asked += uint(asked[k] != 0u);
   tested_triangles = points_asked * triangles_for_points + (team_lane() == 0u ? triangles_for_packet : 0u);

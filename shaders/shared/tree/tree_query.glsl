@@ -1,5 +1,6 @@
-// What the kernels that answer queries by walking the tree share: bindings, counts, the list of those that gave up.
-// Bindings from 5 on are the kernel's own. Specialization constant COUNTS_CONSTANT says whether tests are counted.
+// Definitions that the kernels that answer queries by walking the tree share: bindings, counts, the list of abandoned
+// queries. Bindings from 5 on are the kernel's own. Specialization constant COUNTS_CONSTANT enables the counts of
+// tests.
 #ifndef MEDIAL_VK_TREE_QUERY_GLSL
 #define MEDIAL_VK_TREE_QUERY_GLSL
 #include "tree_types.h"
@@ -37,7 +38,7 @@ void add_tests(uint word, uint tests) {
   if (before + tests < before) atomicAdd(unresolved[word + 1u], 1u);
 }
 
-// At the end of an invocation.
+// Called at the end of an invocation.
 void count_tests() {
   if (!kCountsTests) return;
   add_tests(kNodeTests, tested_nodes);

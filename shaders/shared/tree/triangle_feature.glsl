@@ -1,4 +1,4 @@
-// Which part of a triangle is nearest to a point: 0 the face, 1 an edge, 2 a vertex. The same arithmetic as
+// The feature of a triangle that is nearest to a point: 0 the face, 1 an edge, 2 a vertex. The arithmetic is that of
 // vector_to_triangle() in closest_point.glsl.
 #ifndef MEDIAL_VK_TRIANGLE_FEATURE_GLSL
 #define MEDIAL_VK_TRIANGLE_FEATURE_GLSL

@@ -1,12 +1,12 @@
 // Distance to a triangle in its own frame: the origin is the rounded corner a, n the unit normal of the exact triangle,
-// t the direction of ab in its plane, and s = n x t, on the side of c. Five texels: (a, |ab|) (t, |ac|) (s, |bc|)
-// (n, index in the input) (unit vectors of ac and bc in t and s). 40 % less arithmetic than closest_point.glsl for
-// whoever asks one triangle many times.
+// t the direction of ab in its plane, and s = n x t, on the side of c. Five texels: (a, |ab|) (t, |ac|) (s, |bc|) (n,
+// index in the input) (unit vectors of ac and bc in t and s). This takes 40 % less arithmetic than closest_point.glsl
+// if one triangle is tested many times.
 //
-// With u = 2^-24: e = p - a is off by u/2 a coordinate, the unit vectors by as much, a dot product by 3 u |e|; so x, y
-// and h by 5 u |e|. Products of them with unit vectors of the plane add 3 u |e|. Nothing cancels, however thin the
-// triangle is. The distance is off by less than 15 u (|p - a| + |edge|), and by 1.2e-7 for rounded corners that are not
-// in the plane: 3e-6 for a query in the unit box.
+// With u = 2^-24: the error of e = p - a is u/2 per coordinate, that of the unit vectors the same, that of a dot
+// product 3 u |e|; so that of x, y and h is 5 u |e|. Their products with unit vectors of the plane add 3 u |e|. Nothing
+// cancels, however thin the triangle is. The error of the distance is less than 15 u (|p - a| + |edge|), plus 1.2e-7
+// for rounded corners that are not in the plane: 3e-6 for a query in the unit box.
 #ifndef MEDIAL_VK_TRIANGLE_FRAME_GLSL
 #define MEDIAL_VK_TRIANGLE_FRAME_GLSL
 
@@ -28,7 +28,7 @@ TriangleFrame load_frame(uint t) {
                        frame_texel(5u * t + 3u), frame_texel(5u * t + 4u));
 }
 
-// The built-in functions look for NaNs, which costs lavapipe three instructions in place of one.
+// The built-in functions handle NaN, which costs lavapipe three instructions instead of one.
 float lesser(float a, float b) {
   precise float result = a < b ? a : b;
   return result;
@@ -38,7 +38,7 @@ float greater(float a, float b) {
   return result;
 }
 
-// How far beyond the ends of [0, size]; the sign is of no interest.
+// Distance beyond the ends of [0, size]; its sign is not used.
 float beyond(float x, float size) { return x - lesser(greater(x, 0.0), size); }
 
 // Squared; times `prefer` where the foot of the perpendicular lies inside.

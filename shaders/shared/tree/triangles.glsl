@@ -1,5 +1,5 @@
-// Triangle data from a uniform texel buffer (much faster on lavapipe: loads with per-lane addresses are gathered) or
-// from a storage buffer, where the mesh has more texels than the device allows in a view: kernels that include this are
+// Triangle data from a uniform texel buffer (much faster on lavapipe: loads with per-lane addresses become gathers) or
+// from a storage buffer, if the mesh has more texels than the device allows in a view: kernels that include this are
 // compiled twice, the second time with STORAGE.
 // Before including, define TRIANGLE_STORAGE_BINDING and TRIANGLE_TEXEL_BINDING.
 #include "tree/closest_point.glsl"
@@ -14,7 +14,7 @@ layout(set = 0, binding = TRIANGLE_TEXEL_BINDING) uniform samplerBuffer triangle
 
 vec4 triangle_texel(uint i) { return kUseTexels ? texelFetch(triangle_texels, int(i)) : triangle_storage[i]; }
 
-// How far the rounding of its corners (6e-8 each) can turn a triangle, at most: docs/theory.md, "Rounding".
+// Greatest turn of a triangle by the rounding of its corners (6e-8 each): docs/theory.md, "Rounding".
 float tilt_of(TriangleTexels t) {
   vec3 bc = t.ac.xyz - t.ab.xyz;
   float longest = max(dot(bc, bc), max(dot(t.ab.xyz, t.ab.xyz), dot(t.ac.xyz, t.ac.xyz)));

@@ -4,17 +4,17 @@
 // w(p) is the integral over the mesh of n . K(x) / 4 pi with K(x) = (x - p) / |x - p|^3. A part with area A, area
 // centroid c at distance d from p, no point further than r < d from c, is replaced by the first two terms of Taylor's
 // series around c. K is minus the gradient of 1/|x - p|, a harmonic function whose third derivative, as a symmetric
-// form, is at most 3! / |x - p|^4 (Banach: such forms are largest on the diagonal, there it is 6 |P3| / |x - p|^4). So
-// what is left out is at most 1/2 * 6 / (4 pi (d - r)^4) times the integral of |x - c|^2: texel 1's w over (d - r)^4.
-// The bounds of all parts that are used add up to less than the tolerance: half of it is shared out by area, the other
-// half goes to whoever comes first and takes no more than 1/64 of the tolerance.
+// form, is at most 3! / |x - p|^4 (Banach: such forms are largest on the diagonal, there it is 6 |P3| / |x - p|^4). The
+// remainder is thus at most 1/2 * 6 / (4 pi (d - r)^4) times the integral of |x - c|^2: texel 1's w over (d - r)^4. The
+// bounds of all parts that are used add up to less than the tolerance: half of it is shared out by area, the other half
+// is spent by the first parts that need no more than 1/64 of the tolerance.
 #ifndef MEDIAL_VK_WINDING_GLSL
 #define MEDIAL_VK_WINDING_GLSL
 
 struct Winding {
   float number;
   float bound;    // of the error of the expansions; rounding adds about 1e-5
-  bool complete;  // false: the walk was too long, ask all triangles
+  bool complete;  // false: the walk was too long, sum all triangles
 };
 
 const float kFourPi = 12.566370614;
@@ -26,11 +26,11 @@ float winding_of_triangle(vec3 p, TriangleTexels t) {
   float la = length(a), lb = length(b), lc = length(c);
   float volume = dot(a, cross(t.ab.xyz, t.ac.xyz));  // a . (b x c) without its cancellation
   float spread = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  // On the triangle's plane outside of it the angle is 0; atan(0, 0) would be undefined at a corner.
+  // On the triangle's plane outside the triangle the angle is 0; atan(0, 0) would be undefined at a corner.
   return volume == 0.0 ? 0.0 : 2.0 * atan(volume, spread) / kFourPi;
 }
 
-// An invocation may ask three times (decide_line_side.comp): each walk takes at most a third of its loop budget.
+// An invocation may make three walks (decide_line_side.comp): each takes at most a third of its loop budget.
 const uint kWindingRounds = kRounds / 3u;
 
 struct Expansion {
@@ -52,7 +52,7 @@ Expansion expand_child(vec3 p, uint texel) {
   return Expansion(square * (dot(u, normal.xyz) + second / max(d, 1e-15)), bound, diagonal.w);
 }
 
-// Adds the expansion of a child if its bound fits the tolerance, and returns kSkipped; else the child's place.
+// Adds the expansion of a child if its bound fits the tolerance, and returns kSkipped; otherwise the child's position.
 uint use_or_open(vec3 p, uint moments, uint node, uint side, bool inner, float tolerance, inout float free,
                  inout Winding winding) {
   Expansion e = expand_child(p, moments + 8u * node + 4u * side);

@@ -15,9 +15,10 @@ struct SplitBall {
   vec4 low;
 };
 
-// A node of the host's BallTree, rounded so that it promises no more than the host's (docs/theory.md, "On the device").
+// A node of the host's BallTree, with bounds rounded so that they hold if the host's do (docs/theory.md, "On the
+// device").
 struct BallNode {
-  vec4 middle_high;  // w: how far its balls reach from the middle; below 0 in an empty node
+  vec4 middle_high;  // w: radius around the middle that holds its balls; below 0 in an empty node
   vec4 middle_low;   // w: least
   vec4 axis_0;       // w: half extent of the centres along it
   vec4 axis_1;
@@ -25,7 +26,7 @@ struct BallNode {
   vec4 slope;  // along the axes
 };
 
-// What the kernel finds of one ball, in units of its radius.
+// The kernel's results for one ball, in units of its radius.
 struct MeasuredBall {
   float volume;
   float area;
@@ -43,13 +44,13 @@ struct BallConstants {
 };
 
 MEDIAL_VK_GPU_CONSTANT kBallsPerLeaf = 4u;
-// Neighbours in the order of the tree that are asked before the tree is: on both sides this many.
+// Neighbours in the order of the tree that are tested before the tree: this many on both sides.
 MEDIAL_VK_GPU_CONSTANT kBallHints = 8u;
-// Of a cell while it is cut. Corners and planes are named by bytes.
+// Limits of a cell while it is cut. Corners and planes are named by bytes.
 MEDIAL_VK_GPU_CONSTANT kMostCorners = 64u;
 MEDIAL_VK_GPU_CONSTANT kMostPlanes = 64u;
 
-// Smaller balls, with the largest coordinate or radius below 1, are left to the host: squares would underflow.
+// Balls that are smaller, with the largest coordinate or radius below 1, are left to the host: squares would underflow.
 MEDIAL_VK_GPU_CONSTANT_FLOAT kLeastRadius = 5.9604645e-8f;  // 2^-24
 
 #ifdef __cplusplus

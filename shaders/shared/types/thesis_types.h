@@ -14,20 +14,20 @@ struct ThesisCell {
   uint flags;      // kThesis* below
   float distance;  // from the centre to the boundary
   float flux;
-  uint sphere;  // its place among the spheres whose flux was measured
+  uint sphere;  // its index among the spheres whose flux was measured
   uint padding;
 };
 MEDIAL_VK_GPU_CONSTANT kThesisPresent = 1u;    // in the grid, and not wholly outside the solid
-MEDIAL_VK_GPU_CONSTANT kThesisSideKnown = 2u;  // kThesisInside says where the centre lies
+MEDIAL_VK_GPU_CONSTANT kThesisSideKnown = 2u;  // kThesisInside gives the side of the centre
 MEDIAL_VK_GPU_CONSTANT kThesisInside = 4u;
 
 // A segment that Algorithm 1 narrows: B(p) is `contact`, B(q) is another point.
 struct Retraction {
-  vec4 p;  // w: 1 while it is of interest
+  vec4 p;  // w: 1 while the segment is active
   vec4 q;  // after the last step: the direction from q to B(q); w: object angle
   vec4 contact;
   uint voxel;   // slot of its finest voxel
-  uint source;  // voxel's place in this round * kRetractionsPerRound + sample
+  uint source;  // index of the voxel in this round * kRetractionsPerRound + sample
   uint padding_0, padding_1;
 };
 MEDIAL_VK_GPU_CONSTANT kRetractionsPerRound = 10u;  // samples of a voxel that are tried at a time
@@ -64,7 +64,7 @@ MEDIAL_VK_GPU_CONSTANT kThesisActive = 23u;       // finest voxels without a poi
 MEDIAL_VK_GPU_CONSTANT kThesisStillActive = 24u;
 MEDIAL_VK_GPU_CONSTANT kThesisRetractions = 25u;
 MEDIAL_VK_GPU_CONSTANT kThesisFound = 26u;
-MEDIAL_VK_GPU_CONSTANT kThesisQueries = 27u;      // asked one by one; those of the flux follow from the spheres
+MEDIAL_VK_GPU_CONSTANT kThesisQueries = 27u;      // made one by one; those of the flux follow from the spheres
 MEDIAL_VK_GPU_CONSTANT kThesisLevels = 28u;       // per level: visited, kept, spheres, and kThesisTests
 MEDIAL_VK_GPU_CONSTANT kThesisCountsPerLevel = 11u;
 // Up to the end of the level: kNodeTests and kTriangleTests (tree_types.h) of walks for one query, then those of packets.

@@ -22,9 +22,9 @@ struct QueryConstants {
 };
 
 // Words of the list of queries that gave up; their indices follow from kUnresolvedFirst on.
-MEDIAL_VK_GPU_CONSTANT kUnresolvedWaiting = 0u;  // how many, while the list grows
+MEDIAL_VK_GPU_CONSTANT kUnresolvedWaiting = 0u;  // their number, while the list grows
 MEDIAL_VK_GPU_CONSTANT kUnresolvedGroups = 1u;   // three group counts, one workgroup for each
-MEDIAL_VK_GPU_CONSTANT kUnresolvedCount = 4u;    // how many, once it has been prepared
+MEDIAL_VK_GPU_CONSTANT kUnresolvedCount = 4u;    // their number, once it has been prepared
 MEDIAL_VK_GPU_CONSTANT kUnresolvedTotal = 5u;    // since creation
 MEDIAL_VK_GPU_CONSTANT kNodeTests = 6u;          // since creation, where tests are counted: low word, high word
 MEDIAL_VK_GPU_CONSTANT kTriangleTests = 8u;      // likewise

@@ -1,4 +1,4 @@
-// Contexts for tests: skip where there is no Vulkan device, never touch the user's pipeline cache.
+// Contexts for tests, which are skipped without a Vulkan device and never touch the user's pipeline cache.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -58,8 +58,8 @@ class ScopedEnvironment {
   bool had_ = false;
 };
 
-/// Why a context with or without validation cannot be opened here; empty: it can. To know that takes a context, so
-/// each program asks once.
+/// The reason why a context with or without validation cannot be opened here; empty: it can. The test opens a context,
+/// so each program makes it once.
 inline const std::string& no_device_reason() {
   static const std::string reason = [] {
     const Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});

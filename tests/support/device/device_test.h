@@ -11,7 +11,7 @@
 
 namespace medial_vk::test {
 
-/// What the tests of a program share: one context. It ends with the last test, before the driver is unloaded.
+/// The context that all tests of a program share. It ends with the last test, before the driver is unloaded.
 class SharedContext : public testing::Environment {
  public:
   /// With validation where the layer is installed.
@@ -36,15 +36,15 @@ class SharedContext : public testing::Environment {
   std::unique_ptr<Context> context_;
 };
 
-/// GoogleTest owns it.
+/// Owned by GoogleTest.
 inline SharedContext* const shared_context = [] {
   auto* const shared = new SharedContext;
   testing::AddGlobalTestEnvironment(shared);
   return shared;
 }();
 
-/// Uses the context that all tests of the program share; no message of the validation layer may come. Skipped without a
-/// device.
+/// Uses the context that all tests of the program share; messages of the validation layer are failures. Skipped without
+/// a device.
 class DeviceTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -57,7 +57,8 @@ class DeviceTest : public testing::Test {
       EXPECT_EQ(context_->validation_messages(), messages_before_);
     }
   }
-  /// Before a test alters its context, which others must not see: from now on it has one of its own.
+  /// Called before a test alters its context, a change that others must not see: the test then has a context of its
+  /// own.
   void use_own_context() {
     Result<Context> made = SharedContext::open();
     ASSERT_TRUE(made.ok()) << made.error().message;

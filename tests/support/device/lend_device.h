@@ -1,4 +1,4 @@
-// The device of a context, as a host lends its own.
+// The device of a context, lent in the way of a host.
 #pragma once
 
 #include "device/context_impl.h"

@@ -1,4 +1,5 @@
-// Reads the memory layout of structures out of SPIR-V modules: what a shader compiler made of shared declarations.
+// Reads the memory layout of structures from SPIR-V modules: the layout that a shader compiler gave to shared
+// declarations.
 #pragma once
 
 #include <cstdint>

@@ -70,7 +70,7 @@ class Writer {
   void copy(std::span<const std::uint32_t> instruction) {
     words_.insert(words_.end(), instruction.begin(), instruction.end());
   }
-  /// With a new name for its result, which is returned: what is written next may give the old name to another result.
+  /// With a new name for its result, which is returned: the next instruction may give the old name to another result.
   std::uint32_t copy_renamed(std::span<const std::uint32_t> instruction) {
     const std::size_t begin = words_.size();
     copy(instruction);

@@ -1,4 +1,4 @@
-// Sets of balls for tests and measurements of unions: random ones, and those that are hard.
+// Sets of balls for tests and measurements of unions: random sets, and difficult ones.
 #pragma once
 
 #include <cstddef>

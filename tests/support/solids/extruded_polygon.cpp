@@ -44,8 +44,8 @@ ExtrudedPolygon::MedialPoint ExtrudedPolygon::medial_point_behind(const Vector3d
   const Vector3d contact = nearest(p);
   const double distance = (contact - p).norm();
   const Vector3d away = (p - contact) / distance;
-  // The ball touches its contact at distance + s; it has met something else as soon as the boundary is closer.
-  // Distances of coordinates near 1 are right to a few 1e-16.
+  // The ball touches its contact at distance + s; it has met another part as soon as the boundary is closer. Distances
+  // of coordinates near 1 are accurate to a few 1e-16.
   const auto grows = [&](double s) {
     const Vector3d m = p + s * away;
     return contains(m) && (nearest(m) - m).norm() >= distance + s - 1e-13;
@@ -53,7 +53,7 @@ ExtrudedPolygon::MedialPoint ExtrudedPolygon::medial_point_behind(const Vector3d
   double low = 0, high = height_;  // no ball in the prism is wider
   for (int i = 0; i < 44; ++i) (grows((low + high) / 2) ? low : high) = (low + high) / 2;
   const Vector3d centre = p + low * away;
-  // Just beyond, the other contact is the nearest.
+  // Slightly beyond, the other contact is the nearest.
   const Vector3d beyond = p + (low + 1e-7) * away;
   const Vector3d other = nearest(beyond);
   return {centre, distance + low, reference::half_angle(-away, (other - centre).normalized()), low};

@@ -21,8 +21,8 @@ class ExtrudedPolygon {
     double object_angle;
     double travelled;  ///< From the point that it was found from.
   };
-  /// Where the ball that touches the boundary at nearest(p) stops growing when its centre moves from p away from that
-  /// contact: the first point on the way with a second nearest point.
+  /// The centre of the ball that touches the boundary at nearest(p) and stops growing while its centre moves from p
+  /// away from that contact: the first point on the way with a second nearest point.
   MedialPoint medial_point_behind(const Eigen::Vector3d& p) const;
 
   /// Points just inside the boundary, `step` apart on every face. Every medial point has a contact on the boundary, so

@@ -1,4 +1,4 @@
-// Mesh files in memory, for the tests of the readers: every format, written plainly.
+// Mesh files in memory, for the tests of the readers: every format, in its plain form.
 #pragma once
 
 #include <string>

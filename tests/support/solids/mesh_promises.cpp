@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where the mesh has a medial point near a smooth one, and contacts of it.
+/// The position of a medial point of the mesh near a smooth one, and its contacts.
 struct Neighbourhood {
   double reach = 0;  // s above
   std::vector<int> contacts;

@@ -13,11 +13,11 @@ namespace medial_vk::test {
 namespace {
 
 constexpr double kAngleMargin = 0.05;  // near the threshold the two may differ (theory.md, "What undecided means")
-// What the device says is said of the mesh with vertices in float; balls smaller than this share of the longest side
-// are noise to it (theory.md, "Rounding": 8 times 2e-6).
+// The device's statements concern the mesh with vertices in float; balls smaller than this share of the longest side
+// are within its rounding (theory.md, "Rounding": 8 times 2e-6).
 constexpr double kLeastRadius = 1.6e-5;
 
-// Everything that one side leaves open or fills: a voxel that is neither is proved empty.
+// All voxels that one side leaves open or fills: a voxel that is neither is proved empty.
 class Answers {
  public:
   void add(const Voxel& v) { voxels_.insert(v); }

@@ -1,4 +1,4 @@
-// What must hold for any mesh whatsoever (docs/reliability.md, "Messy meshes").
+// The promises that hold for any mesh (docs/reliability.md, "Messy meshes").
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,17 @@ namespace medial_vk::test {
 
 struct MutationOutcome {
   std::string description;
-  bool rejected = false;  ///< prepare_mesh() refused it, with a sentence.
+  bool rejected = false;  ///< prepare_mesh() refused it, with a message.
   bool closed = false;
   std::uint64_t points = 0, undecided = 0;
-  std::vector<std::string> faults;  ///< Sentences; none if all is well.
+  std::vector<std::string> faults;  ///< Sentences; empty without a fault.
 };
 
 /// Makes the mutation of a seed, extracts it on the device and by the reference, and compares:
 ///   * it is refused as an invalid mesh, with a message, or both extractions finish;
-///   * every ball passes every condition of the certificate, asked by the reference;
-///   * where the mesh is closed, neither finds a clearly salient point, of a radius that float can tell from none, in
-///   the
-///     middle of voxels that the other has proved empty. (Of open meshes the two decide sides differently:
+///   * every ball passes every condition of the certificate, evaluated by the reference;
+///   * if the mesh is closed, neither finds a clearly salient point, of a radius that float can distinguish from 0, in
+///     the middle of voxels that the other has proved empty. (On open meshes the two decide sides differently:
 ///     docs/decisions.md.)
 MutationOutcome check_mutation(Context& context, std::uint64_t seed);
 

@@ -11,7 +11,7 @@
 namespace medial_vk::test {
 namespace {
 
-// The engine is specified by the standard; its distributions are not, so numbers are made here.
+// The engine is specified by the standard; its distributions are not, so numbers are computed here.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -58,7 +58,7 @@ void move_vertices(Mesh& mesh, Random& random) {
   }
 }
 
-// Two corners of a face at one place: it has no area, and its neighbours fold.
+// Two corners of a face at one point: it has no area, and its neighbours fold.
 void collapse_edges(Mesh& mesh, Random& random) {
   for (std::uint32_t i = 1 + random.below(3); i > 0; --i) {
     const Triangle t = mesh.triangles[some_face(mesh, random)];

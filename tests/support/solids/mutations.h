@@ -1,4 +1,4 @@
-// Clean solids made dirty, by seed: what files from the wild hold. The same seed gives the same mesh on every machine.
+// Clean solids with faults, by seed, as files of users have them. The same seed gives the same mesh on every machine.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 namespace medial_vk::test {
 
 struct Mutation {
-  std::string description;  ///< The solid, and what was done to it in which order.
+  std::string description;  ///< The solid, and the mutations in their order.
   Mesh mesh;
 };
 
-/// One of a few small solids after one to three mutations. Seeds go through all mutations in turn.
+/// One of a few small solids after one to three mutations. Seeds select all mutations in turn.
 Mutation make_mutation(std::uint64_t seed);
-/// How many mutations there are.
+/// The number of mutations.
 std::size_t mutation_count();
 
 }  // namespace medial_vk::test

@@ -59,9 +59,9 @@ class Torus : public SmoothSolid {
   double major_, minor_;
 };
 
-// Why the segment is the whole medial surface: balls of radius r(z) centred on the axis have an envelope with one ring
-// per z, at height z - r r' and distance r sqrt(1 - r'^2) from the axis, if |r'| < 1. The height grows with z if
-// 1 - r'^2 - r r'' > 0, so that the envelope is a graph over the axis, does not cross itself, and is the boundary of
+// Proof that the segment is the whole medial surface: balls of radius r(z) centred on the axis have an envelope with
+// one ring per z, at height z - r r' and distance r sqrt(1 - r'^2) from the axis, if |r'| < 1. The height grows with z
+// if 1 - r'^2 - r r'' > 0, so that the envelope is a graph over the axis, does not cross itself, and is the boundary of
 // the union. Each of its points touches the ball of its own z, which lies in the union. A smooth boundary point touches
 // only one largest ball: there are no others.
 class Pear : public SmoothSolid {
@@ -258,8 +258,8 @@ std::map<Edge, std::vector<Side>> sides_of_edges(const Mesh& mesh) {
   return sides;
 }
 
-/// Every triangle takes part in one flip at most: the table of edges stays good for the others. A flip must not turn
-/// faces farther from the surface than the worst face is already, which keeps folds out.
+/// Every triangle takes part in at most one flip: the table of edges stays valid for the others. A flip must not turn
+/// faces farther from the surface than the worst face is already, which prevents folds.
 void flip_edges(const SmoothSolid& solid, Mesh& mesh, std::mt19937_64& random) {
   const double worst = normal_deviation(solid, mesh);
   const auto sides = sides_of_edges(mesh);

@@ -1,5 +1,5 @@
 // Smooth solids whose medial surfaces are known in closed form, and many meshes of each: coarse or fine, regular or
-// not, with or without noise. For tests that results do not depend on how a solid is cut into triangles.
+// not, with or without noise. For tests that results do not depend on the triangulation of a solid.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The analytic solids by name, each in a generic position: what recall is measured on, and dismissal tested on.
+// The analytic solids by name, each in a generic position, on which recall is measured and dismissal is tested.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace medial_vk::test {
 struct NamedSolid {
   std::string name;
   Mesh (*make)();  ///< Turned, so that no face of it is parallel to a face of a voxel.
-  /// All that is salient is next to one point, as in a sphere: samples climb past corners to get there.
+  /// All salient points are next to one point, as in a sphere: samples must climb past corners to reach them.
   bool salient_at_a_point = false;
 };
 

@@ -53,8 +53,8 @@ Mesh revolve(const std::vector<std::array<double, 2>>& profile, std::uint32_t se
   return mesh;
 }
 
-/// The geodesic sphere of radius 1: every face of an icosahedron cut into frequency^2 triangles and blown up.
-/// Vertices on shared edges are made once, so that the surface is watertight.
+/// The geodesic sphere of radius 1: every face of an icosahedron cut into frequency^2 triangles and projected onto the
+/// sphere. Vertices on shared edges are created once, so that the surface is watertight.
 Mesh make_geodesic(std::uint32_t frequency) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   const std::array<Point, 12> corners = {{{-1, g, 0},
@@ -80,7 +80,7 @@ Mesh make_geodesic(std::uint32_t frequency) {
   };
   for (const Point& corner : corners) add_on_sphere(corner);
 
-  // The frequency - 1 vertices inside edge {a, b}, a < b, from a to b; -1 while they are not made.
+  // The frequency - 1 vertices inside edge {a, b}, a < b, from a to b; -1 until they are created.
   std::array<std::array<std::int64_t, 12>, 12> edge_start;
   for (auto& row : edge_start) row.fill(-1);
   const auto on_edge = [&](std::uint32_t a, std::uint32_t b, std::uint32_t step) {  // step / frequency from a to b

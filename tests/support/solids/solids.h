@@ -1,5 +1,5 @@
-// Closed triangle meshes of known solids, made in place, for every test and benchmark.
-// All are counter-clockwise from outside, watertight, in a generic position only after rotate().
+// Closed triangle meshes of known solids, generated for every test and benchmark. All are counter-clockwise from
+// outside, watertight, in a generic position only after rotate().
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,10 @@ Mesh make_plate_with_two_holes(double a, double thickness);
 /// A torus of radii 1 and 0.4 in a generic position.
 Mesh make_turned_torus(std::uint32_t around = 60, std::uint32_t along = 30);
 
-/// As the runtime takes it, without a trusted normal.
+/// In the form that the runtime takes, without a trusted normal.
 MeshView view_of(const Mesh& mesh, bool closed = true);
 
-/// Bent about x, stretched and moved away: another box, another unit, no part where it was.
+/// Bent about x, stretched and moved away: another box, another unit, and every part in another position.
 Mesh bent(Mesh mesh);
 /// Rigid motions and scalings, in place.
 void rotate(Mesh& mesh, Point axis, double angle);

@@ -19,17 +19,17 @@ namespace medial_vk {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kExact = 1e-12;  // relative, what the project promises of closed forms
+constexpr double kExact = 1e-12;  // relative, as the project promises for closed forms
 
 double ball_volume(double radius) { return 4 * kPi / 3 * radius * radius * radius; }
 
-/// What a plane at distance `height` from the centre cuts off.
+/// The part that a plane at distance `height` from the centre cuts off.
 double cap_volume(double radius, double height) {
   const double rise = radius - height;
   return kPi * rise * rise * (3 * radius - rise) / 3;
 }
 
-/// What two balls have in common, neither inside the other.
+/// The intersection of two balls, neither inside the other.
 double lens_volume(double a, double b, double distance) {
   const double height = (distance * distance + a * a - b * b) / (2 * distance);
   return cap_volume(a, height) + cap_volume(b, distance - height);
@@ -89,7 +89,7 @@ TEST(BallUnion, OfBallsThatTouchIsConnected) {
   EXPECT_EQ(betti({{{0, 0, 0}, 1}, {{2.25, 0, 0}, 1.25}}), (BettiNumbers{1, 0, 0}));
 }
 
-/// Equal balls in a row, evenly spaced, all overlapping: what two have in common lies in those between them.
+/// Equal balls in a row, evenly spaced, all overlapping: the intersection of two lies in those between them.
 TEST(BallUnion, OfThreeAndFourThatAllOverlap) {
   for (const int count : {3, 4}) {
     std::vector<Ball> balls;
@@ -236,7 +236,7 @@ TEST(BallUnion, AreaIsTheDerivativeOfVolume) {
   EXPECT_NEAR(found.area, slope, 1e-5 * found.area);
 }
 
-/// Each ball's share is what samples in its power cell say, within five standard errors.
+/// Each ball's share agrees with samples in its power cell, within five standard errors.
 TEST(BallUnion, SharesAgainstSamples) {
   const auto balls = random_balls(30, 11, 0.1, 0.3);
   const BallUnion found = measure(balls);
@@ -303,7 +303,7 @@ TEST(BallUnion, HoldsInAllUnits) {
 }
 
 TEST(BallUnion, HoldsFarAway) {
-  // Multiples of 2^-20, so that moving costs no rounding.
+  // Multiples of 2^-20, so that moving causes no rounding.
   auto balls = random_balls(40, 19);
   for (auto& [c, r] : balls) {
     for (double& x : c) x = std::round(x * 0x1p20) * 0x1p-20;

@@ -1,4 +1,4 @@
-// Homology of complexes made by hand, and of parts of dual complexes against plain ranks of boundary matrices.
+// Homology of complexes built by hand, and of parts of dual complexes against plain ranks of boundary matrices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ TEST(BettiNumbersOf, Spheres) {
   EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 1}));
   add_sphere(triangles, {3, 4, 5, 6});  // they share a vertex
   EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 2}));
-  add_sphere(triangles, {4, 5, 6, 7});  // and these a triangle, which makes two rooms
+  add_sphere(triangles, {4, 5, 6, 7});  // and these a triangle, which creates two cavities
   EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{1, 0, 3}));
   add_sphere(triangles, {10, 11, 12, 13});
   EXPECT_EQ(betti_numbers(of_triangles(triangles)).value(), (BettiNumbers{2, 0, 4}));
@@ -77,7 +77,7 @@ TEST(BettiNumbersOf, FullAndHalfFullSpheres) {
   EXPECT_EQ(betti_numbers(complete(complex)).value(), (BettiNumbers{1, 1, 0}));
 }
 
-/// Seven vertices, every two of them joined (Csaszar's polyhedron).
+/// Seven vertices, each pair of them joined (Csaszar's polyhedron).
 TEST(BettiNumbersOf, ATorus) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t i = 0; i < 7; ++i) {

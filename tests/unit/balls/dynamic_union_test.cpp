@@ -1,4 +1,4 @@
-// A union of balls that come, go and move, against the same balls measured at once.
+// A union of balls that are added, removed and moved, against the same balls measured at once.
 #include "medial_vk/dynamic_union.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace medial_vk {
 namespace {
 
-// Both sum up at most 40 volumes of at most 0.4, each with some hundred roundings.
+// Both sum at most 40 volumes of at most 0.4, each with some hundred roundings.
 constexpr double kTolerance = 1e-11;
 
 double volume_at_once(const DynamicUnion& balls) {
@@ -24,7 +24,7 @@ double volume_at_once(const DynamicUnion& balls) {
   return measure_ball_union(all).value().volume;
 }
 
-/// Random changes, most of them kept and some taken back.
+/// Random changes, most of them kept and some undone.
 class Sequence {
  public:
   Sequence(unsigned seed, bool on_a_grid)
@@ -84,7 +84,7 @@ class Sequence {
 TEST(DynamicUnion, IsTheUnionOfWhatIsThere) {
   for (unsigned seed = 0; seed < 40 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
-    // On a grid balls coincide, contain each other, and meet by fours and more.
+    // On a grid balls coincide, contain each other, and meet in groups of four and more.
     Sequence sequence(seed, seed % 2 == 1);
     for (int n = 0; n < 200 && !testing::Test::HasFailure(); ++n) sequence.step();
   }
@@ -95,7 +95,7 @@ TEST(DynamicUnion, ExposureIsTheDerivativeOfTheVolume) {
   const std::vector<Ball> some = {
       {{0, 0, 0}, 0.5}, {{0.4, 0.1, 0}, 0.4}, {{0.1, 0.5, 0.2}, 0.45}, {{0.2, 0.2, 0.5}, 0.3}};
   for (const Ball& ball : some) ASSERT_TRUE(balls.add(ball).ok());
-  const double h = 1e-5;  // the second derivative is of order 1: central differences err by 1e-10, rounding by 1e-11
+  const double h = 1e-5;  // second derivative of order 1: central differences err by 1e-10, rounding by 1e-11
   for (std::uint32_t i = 0; i < 4; ++i) {
     const Exposure exposure = balls.exposure(i);
     const Ball ball = balls.ball(i);

@@ -129,7 +129,7 @@ TEST(Expansion, TakesMoreMemoryThanABlock) {
   }
 }
 
-/// What is called certain is right; what is far from zero always is.
+/// A result reported as certain is right; a result far from zero always is certain.
 TEST(DoubleDouble, IsNeverWronglyCertain) {
   RandomNumbers random(3);
   int certain = 0, near = 0;
@@ -156,7 +156,7 @@ TEST(DoubleDouble, IsNeverWronglyCertain) {
     certain += found.has_value();
     near += truth != 0;
   }
-  EXPECT_GT(certain, near / 4);  // it is of some use
+  EXPECT_GT(certain, near / 4);  // it is useful
 }
 
 /// Numbers with few digits lose nothing, so that ties of balls on a grid need no longer arithmetic.

@@ -1,4 +1,4 @@
-// The triangulation is regular, whatever is tied or hidden, and its cells are those that are cut ball by ball.
+// The triangulation is regular, with any ties and hidden balls, and its cells are those that are cut ball by ball.
 #include "balls/triangulation/regular_triangulation.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace {
 struct Family {
   std::string name;
   std::vector<Ball> balls;
-  bool is_decided = true;  ///< Whether a face meets a ball does not hang on a rounding.
+  bool is_decided = true;  ///< No rounding decides whether a face meets a ball.
 };
 
 std::vector<Ball> duplicated(std::vector<Ball> balls) {
@@ -41,8 +41,8 @@ std::vector<Ball> one_far_away(std::size_t count) {
   return balls;
 }
 
-/// Few places for many balls, moved a little or not at all, some of them twice; in one to three dimensions, anywhere,
-/// of any size; radii alike, of four kinds, of all sizes, or such that spheres meet in a point.
+/// Few positions for many balls, moved a little or not at all, some of them twice; in one to three dimensions,
+/// anywhere, of any size; radii alike, of four kinds, of all sizes, or such that spheres meet in a point.
 std::vector<Ball> difficult(unsigned seed) {
   std::mt19937_64 engine(seed);
   const auto below = [&](unsigned count) { return static_cast<unsigned>(engine() % count); };
@@ -102,8 +102,8 @@ std::vector<Family> families() {
   });
 }
 
-/// Which edges of which cells end in a vertex where many spheres meet is rounding, but not where the vertex is. Spheres
-/// within 2^-36 touch, so it may move by the root of that along a sphere.
+/// At a vertex where many spheres meet, rounding decides which edges of which cells end in it, but not the position of
+/// the vertex. Spheres within 2^-36 touch, so it may move by the root of that along a sphere.
 bool all_near(const std::vector<EnvelopeVertex>& vertices, const std::vector<EnvelopeVertex>& others) {
   return std::all_of(vertices.begin(), vertices.end(), [&](const EnvelopeVertex& vertex) {
     return std::any_of(others.begin(), others.end(),
@@ -146,7 +146,7 @@ TEST_P(RegularTriangulationOf, IsAComplexOfTetrahedraTheRightWayRound) {
   EXPECT_EQ(outer_faces, 4u);  // of the four far points
 }
 
-/// Locally, which is enough: the lifted faces are then a convex surface.
+/// Locally, which suffices: the lifted faces are then a convex surface.
 TEST_P(RegularTriangulationOf, IsRegular) {
   const auto tetrahedra = triangulation_.tetrahedra();
   for (const auto& tetrahedron : tetrahedra) {
@@ -162,7 +162,7 @@ TEST_P(RegularTriangulationOf, IsRegular) {
   }
 }
 
-/// Of the cell and of its part in the ball nothing is missing and nothing is too much: hidden balls included.
+/// Nothing is missing from the cell and from its part in the ball, and nothing is added: hidden balls included.
 TEST_P(RegularTriangulationOf, HasTheCellsThatAreCutBallByBall) {
   const BallTree tree(balls_, 2);
   CellBuilder builder(balls_, tree);
@@ -177,8 +177,8 @@ TEST_P(RegularTriangulationOf, HasTheCellsThatAreCutBallByBall) {
     cell.sharpen();
     const PowerCell& expected = builder.build(i);
     const BallInCell a = measure_ball_in_cell(cell, ball.radius), b = measure_ball_in_cell(expected, ball.radius);
-    // Both are wrong by roundings of a few dozen terms of at most 4 pi r^3 / 3 and 4 pi r^2 (ball_in_cell.cpp), and
-    // corners that may be off by 2^-40 r.
+    // The errors of both are roundings of a few dozen terms of at most 4 pi r^3 / 3 and 4 pi r^2 (ball_in_cell.cpp),
+    // and displacements of corners by up to 2^-40 r.
     EXPECT_NEAR(a.volume, b.volume, 0x1p-38 * std::pow(ball.radius, 3)) << "ball " << i;
     EXPECT_NEAR(a.area, b.area, 0x1p-36 * std::pow(ball.radius, 2)) << "ball " << i;
     collector.collect(cell, ball, here, vertices_here);
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RegularTriangulationOf, testing::ValuesIn(fam
   return name;
 });
 
-/// Balls in general position: another order of insertion, and the same tetrahedra.
+/// Balls in general position: another order of insertion gives the same tetrahedra.
 TEST(RegularTriangulation, DoesNotDependOnTheOrderOfBalls) {
   const auto balls = test::random_balls(500, 9, 0.05, 0.2);
   std::vector<std::uint32_t> order(balls.size());

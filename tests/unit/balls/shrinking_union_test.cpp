@@ -1,4 +1,4 @@
-// A union that shrinks says at every step what a new measurement says.
+// A union that shrinks agrees at every step with a new measurement.
 #include "medial_vk/shrinking_union.h"
 
 #include <gmock/gmock.h>
@@ -93,7 +93,7 @@ TEST(ShrinkingUnion, OfEqualBallsKeepsOne) {
 }
 
 /// The cell of the first ball reaches into a corner of its box, outside the ball, and borders there on a ball whose own
-/// box does not reach as far. The first ball comes back all the same.
+/// box does not reach as far. The first ball is nevertheless found.
 TEST(ShrinkingUnion, MeasuresABallThatWasCovered) {
   const double radius = std::sqrt(15.92);
   const std::vector<Ball> balls = {

@@ -1,4 +1,4 @@
-// The certificate in double: what passes, what is repaired, what is dropped.
+// The certificate in double: balls that pass, are repaired, and are dropped.
 #include "medial_vk/certify.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST_P(CertifyTest, LetsOneSphereOfAVoxelPass) {
   EXPECT_EQ(report.rejected, 1u);
 }
 
-// The device takes the upper face for the nearest; the lower one is, by a hair.
+// The device takes the upper face for the nearest; the lower one is nearer by a rounding.
 TEST_P(CertifyTest, SwapsTheSpokesOfATie) {
   MedialSphere s = sphere_at(2.03, 1.97, 0.5 - 1e-4 * epsilon());
   std::swap(s.spoke_a, s.spoke_b);

@@ -1,5 +1,5 @@
-// On which side of a bisector three others meet: against long integers, and the five decisions about five balls against
-// each other.
+// The side of a bisector on which three others meet: against long integers, and the five decisions about five balls
+// against each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ TEST(ExactSide, AgreesWithLongIntegersOnWalls) {
   }
 }
 
-/// Where plain double is sure, so are the others, and of the same.
+/// If plain double is certain, so are the others, with the same result.
 TEST(ExactSide, AgreesWithDouble) {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> place(-1, 1), radius(0, 1);
@@ -139,9 +139,9 @@ TEST(ExactSide, AgreesWithDouble) {
   EXPECT_GT(sure, 4900);
 }
 
-/// Does ball m take the point where the cells of four others meet? All four cells say the same, in any order of planes;
-/// and the five answers for five balls are those of one of the two triangulations that five points have: the sign of
-/// one determinant, by the orientation of the four and the parity of the fifth.
+/// Does ball m take the point where the cells of four others meet? All four cells agree, in any order of planes; and
+/// the five decisions for five balls are those of one of the two triangulations that five points have: the sign of one
+/// determinant, by the orientation of the four and the parity of the fifth.
 void expect_one_triangulation(const std::vector<Ball>& balls, int n) {
   const std::vector<Wall> no_walls;
   ExactSide exact(balls, no_walls);
@@ -194,8 +194,8 @@ TEST(ExactSide, DecidesTheSameForAllCellsOfFourCoplanarBalls) {
   }
 }
 
-/// However flat a corner is, it is found to a few units in the last place: put into the planes' equations, multiplied
-/// out exactly, it leaves no more than its slack allows.
+/// For any flat corner, its computed position is accurate to a few units in the last place: the residual in the planes'
+/// equations, multiplied out exactly, is within its slack.
 TEST(ExactSide, MeetsWithinItsSlack) {
   std::mt19937 random(7);
   const std::vector<Wall> no_walls;

@@ -1,4 +1,4 @@
-// What the certificate asks of triangles near a ball, against all triangles.
+// The certificate's queries of triangles near a ball, against all triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST(NearTriangles, NoneIsMissingFarFromTheOrigin) {
   expect_no_triangle_missing(tree_of(test::make_turned_torus(24, 12), 1, {1e6, -3e6, 2e5}), 2);
 }
 
-// Ties and near-ties: along the axis of a capsule all faces around are at one distance, but for rounding.
+// Ties and near-ties: along the axis of a capsule all faces around are at one distance, up to rounding.
 TEST(NearTriangles, TheClosestIsThatOfAllInDouble) {
   const Bvh bvh = tree_of(test::make_capsule(0.5, 2.0, 40), 1, {0.1, 0.2, 0.3});
   const NearTriangles triangles(bvh);

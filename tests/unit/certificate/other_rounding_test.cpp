@@ -1,7 +1,7 @@
-// Devices may round divisions, roots and angles otherwise than lavapipe, and need not have denormal numbers,
-// infinities, NaN and a sign of zero. Kernels whose SPIR-V is rewritten so that results are off by what Vulkan allows,
-// or so that these numbers do not come up, still prove and find the same: slacks are made for the first
-// (docs/theory.md, "Rounding"), and nothing may rest on the second.
+// Devices may round divisions, roots and angles differently from lavapipe, and need not support denormal numbers,
+// infinities, NaN and signed zeros. Kernels whose SPIR-V is rewritten so that results have the errors that Vulkan
+// allows, or so that these numbers do not occur, still prove and find the same: slacks account for the former
+// (docs/theory.md, "Rounding"), and nothing may depend on the latter.
 #include "support/other_rounding.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ class OtherKernels {
 };
 
 // Clearly salient points of `here` in voxels that `there` has dismissed. (A point nearer to a face, or to the
-// threshold, may stand for a medial point in the next voxel, or for one below the threshold.)
+// threshold, may represent a medial point in the next voxel, or one below the threshold.)
 std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionOptions& parameters) {
   std::set<std::array<std::uint32_t, 3>> kept;
   for (const MedialSphere& s : there.spheres) kept.insert(s.voxel);
@@ -61,7 +61,7 @@ bool same_bytes(const Extraction& a, const Extraction& b) {
          std::memcmp(a.spheres.data(), b.spheres.data(), a.spheres.size() * sizeof(MedialSphere)) == 0;
 }
 
-// Extracts by the kernels as they are and rewritten. True if both gave the same bytes.
+// Extracts with the original and the rewritten kernels. True if both gave the same bytes.
 bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewrite) {
   const PreparedMesh mesh = test::prepare(std::move(solid));
   Context context = test::make_context();
@@ -75,7 +75,7 @@ bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewri
   EXPECT_LE(other.certificate.rejected, plain.spheres.size() / 100);
   EXPECT_EQ(count_lost(plain, other.extraction, parameters), 0u);
   EXPECT_EQ(count_lost(other.extraction, plain, parameters), 0u);
-  // No more voxels stay undecided than a handful at thresholds.
+  // Except for a few at thresholds, no more voxels stay undecided.
   EXPECT_LE(other.extraction.undecided.size(), plain.undecided.size() + plain.spheres.size() / 100);
   return same_bytes(plain, other.extraction);
 }
@@ -122,7 +122,7 @@ TEST_P(OtherRoundingTest, AnOpenMesh) {
 INSTANTIATE_TEST_SUITE_P(BothWays, OtherRoundingTest, testing::Values(1.0f, -1.0f),
                          [](const auto& sign) { return sign.param > 0 ? "larger" : "smaller"; });
 
-// ---- Numbers that devices need not have
+// ---- Numbers that devices need not support
 
 using MakeSpecials = test::DeviceTest;
 

@@ -1,4 +1,4 @@
-// The command line as a struct: defaults, every option, ranges, and messages that help.
+// The command line as a struct: defaults, every option, ranges, and helpful messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Of every command line of this file, also by a parser that has seen those before.
+/// For every command line of this file, also with a parser that has parsed the previous ones.
 Result<Options> parse_twice(const std::vector<std::string>& arguments) {
   static OptionParser used;
   const Result<Options> options = parse_options(arguments), again = used.parse(arguments);
@@ -66,7 +66,7 @@ TEST(Options, AParserForgetsEarlierLines) {
   const std::vector<std::vector<std::string>> lines = {
       {"b.obj", "-q", "--ascii", "--check", "--resolution", "7", "--mode", "thesis", "-o", "b.csv", "--memory", "64"},
       {"--help"},
-      {"b.obj", "--resolution", "8", "--resolution"},  // errors leave at different places
+      {"b.obj", "--resolution", "8", "--resolution"},  // errors leave at different positions
       {"b.obj", "--resolution", "none", "--seed", "3"},
       {"b.obj", "--simplify", "--seed=3", "--no-such-option", "c.obj", "--", "-d"}};
   for (const std::vector<std::string>& line : lines) {
@@ -92,7 +92,7 @@ TEST(Options, ThePictureLooksAsAskedFor) {
   EXPECT_EQ(look({"--colour", "radius"}).colour, PictureColour::kRadius);
 }
 
-/// Sides follow what is up, numbers are about the mesh; the order of the two options does not matter.
+/// Sides follow the up axis, numbers concern the mesh; the order of the two options does not matter.
 TEST(Options, WhatIsUpDecidesWhereTheSidesAre) {
   const auto view = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"a.obj", "--picture", "a.png"});

@@ -1,4 +1,4 @@
-// What a terminal shows of the progress, and that nothing else ever sees it.
+// The display of progress on a terminal, which appears nowhere else.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Standard error is a terminal of its own as long as this lives.
+/// Standard error is a terminal of its own during the life of this object.
 class Terminal {
  public:
   Terminal() : screen_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)), before_(::dup(STDERR_FILENO)) {
@@ -36,7 +36,7 @@ class Terminal {
 
   bool is_open() const { return is_open_; }
 
-  /// What was written since the last call.
+  /// The output since the last call.
   std::string shown() const {
     std::string text(4096, '\0');
     const ssize_t got = ::read(screen_, text.data(), text.size());

@@ -1,4 +1,4 @@
-// The command line of `medial-vk spheres`: defaults, goals, formats, and messages that help.
+// The command line of `medial-vk spheres`: defaults, goals, formats, and helpful messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

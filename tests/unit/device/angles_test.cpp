@@ -1,4 +1,4 @@
-// Trigonometry of the kernels, compiled as C++: what is proved by it allows errors of 1e-6 to 1e-5.
+// Trigonometry of the kernels, compiled as C++: the proofs that depend on it allow errors of 1e-6 to 1e-5.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using std::sqrt;
 }  // namespace gpu_angles
 
 constexpr int kSteps = 200000;
-constexpr double kError = 1e-6;  // as angles.glsl says
+constexpr double kError = 1e-6;  // the bound stated in angles.glsl
 
 TEST(Angles, SineIsRight) {
   for (int i = -kSteps; i <= kSteps; ++i) {

@@ -38,7 +38,7 @@ class ContextTest : public testing::Test {
 
   ContextOptions options() const { return {.device = "", .validation = false, .cache_folder = folder_.path()}; }
 
-  /// Opens a context, makes a program, closes it; returns the cache file, empty if there is none.
+  /// Opens a context, creates a program, closes it; returns the cache file, empty if there is none.
   fs::path use_cache(const ContextOptions& options) {
     Result<Context> context = Context::create(options);
     EXPECT_TRUE(context.ok()) << context.error().message;
@@ -115,7 +115,7 @@ TEST_F(ContextTest, OpensByEnvironmentUnlessToldOtherwise) {
   EXPECT_EQ(refused.error().code, ErrorCode::kNoDevice);
   EXPECT_THAT(refused.error().message, HasSubstr("MEDIAL_VK_DEVICE"));
 
-  const auto devices = Context::list_devices();  // lists all, whatever the variable
+  const auto devices = Context::list_devices();  // lists all, for any value of the variable
   ASSERT_TRUE(devices.ok());
   const auto usable = std::find_if(devices.value().begin(), devices.value().end(),
                                    [](const DeviceDescription& device) { return device.usable; });

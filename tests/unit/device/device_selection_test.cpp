@@ -1,4 +1,4 @@
-// Which device a choice means; needs no Vulkan.
+// The device that a choice selects; needs no Vulkan.
 #include "device/device_selection.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Dispatches that a processor with several threads runs (prepare.glsl, workgroup_index.glsl): each workgroup runs once,
-// neighbours by different threads, and results do not depend on how many threads there are.
+// neighbours run on different threads, and results do not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -25,7 +25,7 @@ constexpr EmbeddedShader kTestShaders[] = {{"count_workgroups", kCountWorkgroups
 
 struct Dispatched {
   VkDispatchIndirectCommand command = {};
-  std::vector<std::uint32_t> runs;  // of each workgroup; the last one stands for all beyond
+  std::vector<std::uint32_t> runs;  // of each workgroup; the last entry counts all beyond
 };
 
 class DispatchRowsTest : public testing::Test {
@@ -105,7 +105,7 @@ TEST_F(DispatchRowsTest, EachGroupRunsOnce) {
       SCOPED_TRACE(testing::Message() << threads << " threads, " << groups << " groups");
       const Dispatched dispatched = dispatch(groups * kGroupSize - 3, threads);
       expect_each_once(dispatched, groups);
-      // Those that are added are fewer than would fill a run in each row.
+      // The added groups are fewer than would fill a run in each row.
       const std::uint32_t all = dispatched.command.x * dispatched.command.y;
       EXPECT_GE(all, groups);
       EXPECT_LT(all, groups + gpu::kGroupsInRun * dispatched.command.y);
@@ -145,7 +145,7 @@ TEST_F(DispatchRowsTest, WhatTheHostSizesGoesToRowsToo) {
   for (std::uint32_t group = 0; group < kGroups; ++group) ASSERT_EQ(words[group], 1u) << "group " << group;
 }
 
-// The device goes along rows: a thread of two takes one row.
+// The device proceeds along rows: one of two threads takes one row.
 TEST_F(DispatchRowsTest, ThereIsARowForEachThread) {
   EXPECT_EQ(dispatch(1000 * kGroupSize, 1).command.y, 1u);
   EXPECT_EQ(dispatch(1000 * kGroupSize, 2).command.y, 2u);

@@ -1,5 +1,5 @@
-// Variants of kernels whose constants the build has set (cmake/EmbedShaders.cmake): they are what an extraction asks
-// for, and they compute what the kernels do whose constants the driver sets.
+// Variants of kernels whose constants the build has set (cmake/EmbedShaders.cmake): an extraction requests them, and
+// they compute the same as the kernels whose constants the driver sets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::vector<EmbeddedShader> frozen_shaders() {
   return frozen;
 }
 
-// What the extraction from a mesh whose normals can all be trusted asks for, as the frozen variants are named.
+// The requests of an extraction from a mesh with trusted normals only, in the names of the frozen variants.
 std::set<std::string> names_asked(Context::Impl& context, const PreparedMesh& mesh,
                                   const ExtractionOptions& parameters) {
   Result<DeviceMesh> device = test::upload_mesh(context, mesh.view());
@@ -95,7 +95,7 @@ TEST_F(FrozenShadersTest, ComputeTheSame) {
   }
 }
 
-// What is left to the driver.
+// The constants that are left to the driver.
 std::set<std::uint32_t> specialization_ids(const EmbeddedShader& shader) {
   constexpr std::uint32_t kHeaderWords = 5, kOpDecorate = 71, kSpecId = 1;
   std::set<std::uint32_t> ids;

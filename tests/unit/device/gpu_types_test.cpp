@@ -1,5 +1,5 @@
-// The structures that C++ and GLSL share (shaders/shared/types/gpu_types.h): what the C++ compiler made of them against
-// what the shader compiler did, member by member, in every embedded kernel that uses them.
+// The structures that C++ and GLSL share (shaders/shared/types/gpu_types.h): the layout of the C++ compiler against
+// that of the shader compiler, member by member, in every embedded kernel that uses them.
 #include "gpu_types.h"
 
 #include <gtest/gtest.h>
@@ -196,7 +196,7 @@ TEST(GpuTypes, PushConstantsFitEveryDevice) {
   EXPECT_LE(sizeof(gpu::PrepareConstants), 128u);
 }
 
-// Structures in storage buffers that the table above forgets.
+// Structures in storage buffers that are missing from the table above.
 TEST(GpuTypes, EveryStructureInAStorageBufferIsCompared) {
   for (const EmbeddedShader& shader : embedded_shaders()) {
     for (const test::SpirvStruct& glsl : test::read_spirv_structs(shader.words)) {

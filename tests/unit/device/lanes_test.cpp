@@ -1,5 +1,5 @@
 // The two variants of the kernels in which eight lanes work on one cell (shaders/shared/lanes/lanes.glsl): with
-// shuffles, and through shared memory, as devices need that promise no lockstep.
+// shuffles, and through shared memory, for devices without lockstep.
 #include <gtest/gtest.h>
 
 #include <cstring>

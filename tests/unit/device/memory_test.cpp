@@ -120,7 +120,7 @@ TEST_F(MemoryTest, TexelViewsCoverAWholeBuffer) {
   EXPECT_EQ(refused.error().code, ErrorCode::kOutOfMemory);
 }
 
-/// Bytes go up, across two buffers of the device, and come back.
+/// Bytes are uploaded, copied between two buffers of the device, and downloaded.
 void expect_round_trip(Context::Impl& impl, bool through_staging) {
   Arena arena(impl);
   std::vector<std::uint32_t> words(100'003);

@@ -35,7 +35,7 @@ ProgramKey sequence_program(std::uint32_t workgroup_size, std::uint32_t factor) 
           .constants = {factor, 3}};
 }
 
-/// Every test runs under the validation layer where it is installed, and no message may come.
+/// Every test runs under the validation layer if it is installed, and messages are failures.
 class RecorderTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -67,7 +67,7 @@ class RecorderTest : public testing::Test {
     return ran.ok() ? ran.value() : std::vector<StageTime>();
   }
 
-  /// What the test shader writes.
+  /// The output of the test shader.
   static std::uint32_t expected(std::uint32_t i, std::uint32_t factor, std::uint32_t offset) {
     return factor * i + offset + 100 * ((i & 3) + 1);
   }
@@ -243,7 +243,7 @@ TEST_F(RecorderTest, BadArgumentsAreErrorsAndNeverReachTheDriver) {
     const Record& record = bad_call;  // a structured binding cannot be captured
     const auto ran = run_commands(impl(), [&record](Recorder& recorder) {
       record(recorder);
-      recorder.barrier();  // recording goes on after an error
+      recorder.barrier();  // recording continues after an error
       return recorder.status();
     });
     ASSERT_FALSE(ran.ok()) << name;

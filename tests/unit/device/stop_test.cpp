@@ -1,5 +1,5 @@
-// Stopping an extraction, from another thread or by the callback: it ends with kInterrupted, and the context is as
-// before.
+// Stopping an extraction, from another thread or by the callback: it ends with kInterrupted, and the context remains
+// usable.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -33,7 +33,7 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::kInterrupted) << result.error().message;
   }
-  /// The context still gives what a fresh one gives.
+  /// The context still gives the results of a fresh one.
   void expect_usable() {
     const auto spheres_of = [&](Context& context) {
       const Result<Extraction> e = test::extract_spheres(context, mesh_.view(), parameters(12));
@@ -72,8 +72,8 @@ TEST_P(Stop, RequestedByAnotherThreadWhileTheDeviceComputes) {
   expect_usable();
 }
 
-// Within 200 ms once the driver has compiled the kernels, on a machine that has nothing else to do: docs/reliability.md
-// has figures. Here it may be busy. Whoever waits for the end of the run, or of a level, takes longer.
+// Within 200 ms once the driver has compiled the kernels, on an otherwise idle machine: docs/reliability.md has
+// figures. Here it may be busy. A stop that waited for the end of the run, or of a level, would take longer.
 TEST_P(Stop, TakesEffectSoon) {
   using Clock = std::chrono::steady_clock;
   expect_usable();  // compiles
@@ -98,7 +98,7 @@ TEST_P(Stop, TakesEffectSoon) {
   EXPECT_LT(median, std::chrono::seconds(1));
 }
 
-// The callback is called while the device computes, too: this one never requests a stop between two chunks.
+// The callback is also called while the device computes: this one never requests a stop between two chunks.
 TEST_P(Stop, ByTheCallback) {
   int calls = 0;
   std::stop_source source;

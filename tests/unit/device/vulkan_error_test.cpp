@@ -1,4 +1,4 @@
-// What Vulkan's results come to: the code of the kind, and words instead of numbers.
+// The conversion of Vulkan's results: the error code, and words instead of numbers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// The order in which lines and flux samples are asked (shaders/certified/sort_by_work.comp): all of them, and
-// neighbours with about as many contacts.
+// The order in which lines and flux samples are processed (shaders/certified/sort_by_work.comp): all of them occur, and
+// neighbours have similar numbers of contacts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ void expect_sorted(const std::vector<std::uint32_t>& work, std::uint32_t first_i
   EXPECT_TRUE(std::all_of(order.begin() + work.size(), order.end(), [](std::uint32_t i) { return i == kUntouched; }));
 }
 
-// Powers of ten, and some that ask nothing.
+// Powers of ten, and some items without work.
 std::vector<std::uint32_t> works(std::size_t count, double largest) {
   std::mt19937 random(static_cast<unsigned>(count));
   std::uniform_real_distribution<double> exponent(-0.5, std::log10(largest));

@@ -1,4 +1,4 @@
-// Polygons become triangles that cover them once, whatever their shape, and use all their corners.
+// Polygons become triangles that cover them once, for any shape, and use all their corners.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ double area_of(const Outline& outline) {
   return twice / 2;
 }
 
-/// Area kept, n - 2 triangles (so every corner is used), all turned the polygon's way: they cover it once. And no side
-/// inside is used other than once in each direction.
+/// Area kept, n - 2 triangles (so every corner is used), all oriented as the polygon: they cover it once. And every
+/// inner side is used exactly once in each direction.
 void expect_covered(const Outline& outline, double tilt, std::size_t repeated = 0) {
   const std::vector<Point> points = lift(outline, tilt);
   std::vector<std::uint32_t> corners(points.size());
@@ -129,7 +129,7 @@ TEST(Polygon, WildOnesEndAndStayInRange) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
     std::vector<Point> points(3 + random() % 80);
-    for (Point& p : points) {  // few places: many coincide, lie on lines, cross
+    for (Point& p : points) {  // few positions: many coincide, lie on lines, cross
       for (double& x : p) x = static_cast<double>(random() % 5);
     }
     if (i % 10 == 0) points[0] = {1e300, -1e308, 1e308};

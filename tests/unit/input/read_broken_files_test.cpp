@@ -1,4 +1,4 @@
-// Files that were cut, altered or lie about their size: a mesh or a message, never a crash, a hang or a huge
+// Files that are truncated, altered or have a false size: a mesh or a message, never a crash, a hang or a huge
 // allocation.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Every format gives back the mesh that was written; and what real files do beyond the plain form: OBJ and PLY.
+// Every format gives back the mesh that was written; and features of real files beyond the plain form: OBJ and PLY.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ void expect_same_corners(const Mesh& a, const Mesh& b) {
   }
 }
 
-/// Through memory: g++ 12 at -O3 leaves out the rounding of the last elements of a loop over x = float(x).
+/// Through memory: g++ 12 at -O3 omits the rounding of the last elements of a loop over x = float(x).
 double round_to_float(double x) {
   const volatile float rounded = static_cast<float>(x);
   return static_cast<double>(rounded);

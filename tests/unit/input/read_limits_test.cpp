@@ -1,5 +1,5 @@
-// Input that is built to keep a program busy or to fill its memory: read in time that grows with its size, or refused
-// at once.
+// Input that is designed to keep a program busy or to fill its memory: read in time that grows with its size, or
+// refused at once.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace test;
 
-/// Fails if a scope takes longer than any machine needs for what is linear in its input, a sanitizer included.
+/// Fails if a scope takes longer than any machine needs for linear work on its input, a sanitizer included.
 class Promptly {
  public:
   Promptly() = default;
@@ -38,12 +38,12 @@ class Promptly {
 
 Mesh box() { return make_box({1, 2, 3}); }
 
-/// `text` with `line` put in before the first `where`.
+/// `text` with `line` inserted before the first `where`.
 std::string with_line(std::string text, const std::string& where, const std::string& line) {
   return text.insert(text.find(where), line);
 }
 
-// ---- Long lines: nothing keeps a line, so there is no limit to its length.
+// ---- Long lines: no line is stored, so there is no limit to its length.
 
 constexpr std::size_t kLong = 100'000'000;
 
@@ -107,7 +107,7 @@ TEST(ReadLimits, ListsOfAnyLengthThatTheFileDoesNotHold) {
     ASSERT_FALSE(mesh.ok()) << length;
     EXPECT_NE(mesh.error().message.find("a list "), std::string::npos) << mesh.error().message;
   }
-  // Elements without properties take no room: any number of them is there.
+  // Elements without properties occupy no bytes: any number of them is present.
   const std::string nothing = with_line(to_ascii_ply(box()), "element", "element nothing 9223372036854775807\n");
   EXPECT_TRUE(parse_mesh(nothing, "a.ply").ok());
 }
@@ -128,7 +128,7 @@ TEST(ReadLimits, FilesUpToTheLimitAreRead) {
   EXPECT_TRUE(read_mesh(path).ok());
   EXPECT_TRUE(read_mesh(path, bytes.size()).ok());
   EXPECT_FALSE(read_mesh(path, bytes.size() - 1).ok());
-  std::filesystem::resize_file(path, kMostFileBytes + 1);  // takes no room; refused before a byte is read
+  std::filesystem::resize_file(path, kMostFileBytes + 1);  // occupies no blocks; refused before a byte is read
   const Result<Mesh> mesh = read_mesh(path);
   ASSERT_FALSE(mesh.ok());
   EXPECT_EQ(mesh.error().message, path + ": longer than 4096 MiB, the most that is read");
@@ -149,7 +149,7 @@ std::string tangled_polygon(int corners) {
   return vertices + face + "\n";
 }
 
-// Took the cube of its length: 12 s for 8000 corners.
+// Formerly cubic in its length: 12 s for 8000 corners.
 TEST(ReadLimits, ATangledPolygonBecomesAFan) {
   const Promptly promptly;
   const Result<Mesh> mesh = parse_mesh(tangled_polygon(50'000), "a.obj");
@@ -173,7 +173,7 @@ Mesh open_book(int pages, bool back_to_back) {
   return mesh;
 }
 
-// Took the square of their number.
+// Formerly quadratic in their number.
 TEST(ReadLimits, FourHundredThousandFacesAroundOneSide) {
   for (const bool back_to_back : {false, true}) {
     const Promptly promptly;
@@ -187,7 +187,7 @@ TEST(ReadLimits, FourHundredThousandFacesAroundOneSide) {
   }
 }
 
-// Took the square of their number, a look at every face from every other: 9 s for 10,000.
+// Formerly quadratic in their number, since every face was examined from every other: 9 s for 10,000.
 TEST(ReadLimits, AHundredThousandFacesThatAreAllClose) {
   const Promptly promptly;
   const Result<PreparedMesh> prepared = prepare_mesh(open_book(100'000, false));

@@ -1,4 +1,4 @@
-// What real files of STL and OFF do beyond the plain form.
+// Features of real files of STL and OFF beyond the plain form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A mesh from the bytes of a file, or what is said against them.
+// A mesh from the bytes of a file, or the error.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -78,7 +78,7 @@ TEST(BvhRefit, FitsTheLeastBoxes) {
   }
 }
 
-// A tree of one triangle finds the distance to that triangle, so all of them together are the slow truth.
+// A tree of one triangle gives the distance to that triangle, so all of them together are a slow reference.
 TEST(BvhRefit, FindsTheNearestPoint) {
   Mesh mesh = test::make_torus(1.0, 0.4, 24, 16);
   Bvh bvh = Bvh::build(test::view_of(mesh)).value();

@@ -13,7 +13,7 @@
 namespace medial_vk {
 namespace {
 
-/// Nearest point by Ericson's regions, in long double: slow, and sharing nothing with the code under test.
+/// Nearest point by Ericson's regions, in long double: slow, and independent of the code under test.
 long double distance_by_regions(const Point& p, const Mesh& mesh, const Triangle& t) {
   using Real = long double;
   std::array<Real, 3> ab, ac, ap;
@@ -137,7 +137,7 @@ TEST(Bvh, HandlesManyTrianglesInOnePlace) {
   EXPECT_DOUBLE_EQ(hit.squared_distance, 0.25);
 }
 
-// Both evaluations are within a few units in the last place of coordinates of size about 2: far below 1e-14.
+// The error of both evaluations is a few units in the last place of coordinates of size about 2: far below 1e-14.
 TEST(Bvh, FindsTheNearestPoint) {
   const Mesh mesh = test::make_turned_torus();
   const auto bvh = Bvh::build(test::view_of(mesh));
@@ -166,7 +166,7 @@ TEST(Bvh, BreaksTiesByTheSmallestIndex) {
 }
 
 // Triangles of length 1 and width 10^-k. Away from the plane's line the long-double formula of regions is itself
-// ill-conditioned, so the truth is a dense search over the (nearly one-dimensional) triangle's long edges.
+// ill-conditioned, so the reference is a dense search over the (nearly one-dimensional) triangle's long edges.
 TEST(Bvh, IsAccurateOnNeedles) {
   for (int k = 1; k <= 15; ++k) {
     const double width = std::pow(10.0, -k);

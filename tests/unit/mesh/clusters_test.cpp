@@ -1,4 +1,4 @@
-// Clusters of triangles: they part the leaf order, and their bounds hold, also of a mesh that has moved.
+// Clusters of triangles: they partition the leaf order, and their bounds hold, also for a mesh that has moved.
 #include "device_mesh/clusters.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ UnitTransform unit_box_of(const Bvh& bvh) {
 
 Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-// Of float numbers that stand for double ones in the unit box.
+// Of float numbers that represent double ones in the unit box.
 constexpr double kRounding = 1e-7;
 
 void expect_holds(const gpu::Cluster& c, const std::array<Point, 3>& corners) {
@@ -91,7 +91,7 @@ TEST(Clusters, AnUntrustedNormalFitsNoCone) {
   for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), {}, 16, 8192)) EXPECT_EQ(c.axis.w, gpu::kNoCone);
 }
 
-// +1 or -1 as shaders/shared/certified/cluster.glsl has it: by the cylinder and the tilt.
+// +1 or -1 as in shaders/shared/certified/cluster.glsl: by the cylinder and the tilt.
 int side_by_cylinder(const gpu::Cluster& c, const Point& p) {
   const Point v = xyz(c.centre) - p, axis = xyz(c.axis);
   const double along = dot(v, axis), most_across = length(v - along * axis) + double{c.centre.w};

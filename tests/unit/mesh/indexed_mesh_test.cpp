@@ -1,4 +1,4 @@
-// A mesh with its index: what is made of it, and how it follows vertices that move.
+// A mesh with its index: its contents, and its updates for vertices that move.
 #include "medial_vk/indexed_mesh.h"
 
 #include <gtest/gtest.h>

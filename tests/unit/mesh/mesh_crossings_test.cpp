@@ -30,7 +30,7 @@ TEST(Crossings, NoneOnCleanSolids) {
 }
 
 TEST(Crossings, NoneOnAFlatGrid) {
-  // All in one plane, all vertices on lines: nothing to separate triangles by but those lines.
+  // All in one plane, all vertices on lines: only those lines separate the triangles.
   for (const double angle : {0.0, 0.3}) {
     Mesh mesh;
     const std::uint32_t n = 20;
@@ -94,7 +94,7 @@ TEST(Crossings, NeighboursThatFoldOrPierce) {
   EXPECT_FALSE(certainly_meet_at_apex(o, x, y, x, {1, -1, 0}));              // share a direction
 }
 
-/// Against the definition: do two segments' planes cut? By a dense sampling of random pairs.
+/// Against the definition: do two segments' planes cut? By dense sampling of random pairs.
 TEST(Crossings, AgreeWithSegmentTests) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -1,4 +1,4 @@
-// How far spokes turn from the normals of the triangles that they end on (docs/theory.md, Lemma L).
+// The turn of spokes from the normals of the triangles that they end on (docs/theory.md, Lemma L).
 #include "device_mesh/mesh_links.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ double winding_number(const Mesh& mesh, const Point& p) {
 
 struct Turns {
   int slanted = 0;          // spokes that are no normals
-  double closest_call = 0;  // greatest turn of one of them, over what its triangle allows, both as sines
+  double closest_call = 0;  // greatest turn of one of them, over the bound of its triangle, both as sines
 };
 
 /// Of random points inside.
@@ -86,7 +86,7 @@ TEST(MeshLinks, NoSpokeTurnsFartherThanItsTriangleAllows) {
        {test::make_turned_torus(12, 9), test::bent(test::make_turned_torus(16, 11)), make_box_with_cavity()}) {
     const Turns turns = expect_spokes_within_spreads(mesh);
     EXPECT_GT(turns.slanted, 50);
-    EXPECT_GT(turns.closest_call, 0.8);  // what it allows is not idle
+    EXPECT_GT(turns.closest_call, 0.8);  // the bound is nearly attained
     EXPECT_LE(turns.closest_call, 1);
   }
 }

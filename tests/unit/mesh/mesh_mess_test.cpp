@@ -1,4 +1,4 @@
-// What prepare_mesh() makes of open meshes and of mess, and what it refuses.
+// The results of prepare_mesh() for open and faulty meshes, and the meshes that it refuses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(Prepare, NothingEnclosedIsRefused) {
   EXPECT_EQ(refusal(flat), "the mesh encloses nothing: it is closed, but its volume is 0");
   rotate(flat, {1, 2, 3}, 0.5);
   EXPECT_THAT(refusal(flat), HasSubstr("encloses nothing"));
-  // But thin is not nothing.
+  // A thin solid, in contrast, is accepted.
   EXPECT_TRUE(prepare_mesh(make_box({1, 1, 1e-9})).ok());
 }
 

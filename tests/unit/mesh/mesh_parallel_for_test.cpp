@@ -1,4 +1,5 @@
-// Loops on several threads: everything once, on as many threads as wanted, and what a body throws ends them in order.
+// Loops on several threads: every item once, on the requested number of threads, and an exception of a body ends them
+// in order.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// The noise against degenerate positions is the same everywhere and no larger than asked for.
+// The noise against degenerate positions is the same everywhere and no larger than requested.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Clean, oriented, with a defined inside: what prepare_mesh() makes of meshes that enclose a solid, and what it says.
+// Clean, oriented, with a defined inside: the results of prepare_mesh() for meshes that enclose a solid, and its
+// messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -95,7 +96,7 @@ TEST(Prepare, EqualVerticesBecomeOne) {
   EXPECT_EQ(prepared.mesh.vertices.size(), 8u);
   EXPECT_EQ(prepared.vertex_of_input.size(), 36u);
   EXPECT_THAT(prepared.report.assumptions, Contains("28 vertices at exactly the same place as another: taken as one."));
-  // 0 and -0 are one place; anything else is not.
+  // 0 and -0 are one coordinate; all other values differ.
   Mesh zero = exploded(make_box({1, 2, 3}));
   for (std::size_t i = 0; i < zero.vertices.size(); i += 2) {
     for (double& x : zero.vertices[i]) x = x == 0 ? -0.0 : x;
@@ -202,7 +203,7 @@ TEST(Prepare, EverythingTwice) {
   EXPECT_GT(prepared.report.signed_volume, 0);
 }
 
-// Other triangles in the same place: they are no duplicates, and stay.
+// Other triangles at the same position: they are no duplicates, and are kept.
 TEST(Prepare, FacesThatOverlapAreNotTrusted) {
   const Mesh box = make_box({1, 1, 1});
   Mesh half = make_box({0.5, 0.5, 0.5});  // within the box, three of its sides on the box's

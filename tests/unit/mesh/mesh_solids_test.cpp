@@ -1,4 +1,4 @@
-// The solids that all other tests stand on: watertight, oriented, of the volume that a formula gives.
+// The solids on which all other tests depend: watertight, oriented, of the volume that a formula gives.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -104,7 +104,7 @@ Mesh shells(int count) {
   return mesh;
 }
 
-// Boxes whose sides lie in the same planes: no straight way between two that leaves either.
+// Boxes whose sides lie in the same planes: no straight path between two that leaves either.
 Mesh rows_of_boxes(int side) {
   Mesh mesh;
   for (int i = 0; i < side * side; ++i) {
@@ -142,7 +142,7 @@ TEST(WindingStep, IsTheDifferenceOfTwoValues) {
   }
 }
 
-// Where a face lies within rounding of another no way is without doubt; and nothing is said.
+// If a face lies within rounding of another, every path is doubtful, and no result is given.
 TEST(WindingStep, SaysNothingInDoubt) {
   Mesh mesh = make_box({1, 1, 1});
   Mesh same = mesh;
@@ -154,7 +154,7 @@ TEST(WindingStep, SaysNothingInDoubt) {
   EXPECT_EQ(decided, 0u);
 }
 
-// Took the square of their number: a value from the tree looks at every plate.
+// Formerly quadratic in their number: a value from the tree examines every plate.
 TEST(WindingStep, CostsTheSameInALargerStack) {
   const auto cost_of_one = [](int plates) {
     const Mesh mesh = stack_of_plates(plates);
@@ -170,7 +170,7 @@ TEST(WindingStep, CostsTheSameInALargerStack) {
     }
     return static_cast<double>(cost) / plates;
   };
-  // The tree is deeper by log2(16) = 4 levels; a tenfold of that for boxes that touch the way.
+  // The tree is deeper by log2(16) = 4 levels; a tenfold of that for boxes that touch the path.
   EXPECT_LT(cost_of_one(1600), cost_of_one(100) + 40);
 }
 

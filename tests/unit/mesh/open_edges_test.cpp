@@ -35,7 +35,7 @@ double closed_winding_number(const Mesh& mesh, const std::vector<gpu::OpenEdge>&
   return sum / (4 * std::numbers::pi);
 }
 
-// Vertices on a grid that float holds exactly, so that the mesh and what closes it fit without a gap.
+// Vertices on a grid that float represents exactly, so that the mesh and its closing triangles fit without a gap.
 Mesh box() { return test::make_box({1, 0.5, 0.25}); }
 
 void expect_whole(const Mesh& mesh) {

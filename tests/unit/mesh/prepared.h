@@ -1,4 +1,4 @@
-// What tests of prepare_mesh() share: meshes put together, prepared, or refused.
+// Shared definitions of the tests of prepare_mesh(): meshes combined, prepared, or refused.
 #pragma once
 
 #include <gtest/gtest.h>

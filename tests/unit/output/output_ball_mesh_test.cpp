@@ -35,7 +35,7 @@ TEST(OutputIcosphere, IsClosedAndOnTheUnitSphere) {
   }
 }
 
-// The numbers of docs/formats.md. A positive depth also says that the triangles face outwards.
+// The numbers of docs/formats.md. A positive depth also implies that the triangles face outwards.
 TEST(OutputIcosphere, FacetsAreAsDeepAsTheManualSays) {
   const double expected[] = {0.205, 0.066, 0.0177, 0.0045, 0.00113, 0.000283};
   for (std::uint32_t detail = 0; detail <= kGreatestSphereDetail; ++detail) {
@@ -58,7 +58,7 @@ TEST(OutputBallMesh, HeaderSaysWhatFollows) {
   EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 126 * 39 + 240 * 13);
 }
 
-// In long double, which has eleven bits more: as good as exact here.
+// In long double, which has eleven bits more: practically exact here.
 TEST(OutputBallMesh, NoVertexIsOutsideOfItsBall) {
   const std::vector<MedialSphere> spheres = some_spheres();
   std::istringstream body(encode_ball_mesh_ply(some_header(), spheres, true, 2).value());

@@ -66,7 +66,7 @@ std::vector<std::array<float, 3>> vectors(const Glb& glb, std::size_t accessor) 
   return out;
 }
 
-/// Of a point, given from the root, to the centre of a sphere.
+/// From a point, given relative to the root, to the centre of a sphere.
 long double distance(const MedialSphere& sphere, const json& root, const std::array<float, 3>& point) {
   long double squared = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,7 +76,7 @@ long double distance(const MedialSphere& sphere, const json& root, const std::ar
   return std::sqrt(squared);
 }
 
-/// Inside of the sphere, by no more than floats miss.
+/// Inside the sphere, up to the rounding of floats.
 void expect_ball(const MedialSphere& sphere, const json& root, const std::array<float, 3>& centre, float radius) {
   EXPECT_LE(distance(sphere, root, centre) + radius, static_cast<long double>(sphere.radius));
   EXPECT_NEAR(radius, sphere.radius, 1e-6);

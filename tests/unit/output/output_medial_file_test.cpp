@@ -93,7 +93,7 @@ TEST(OutputMedialFile, TextHoldsTheSameNumbersAsBinary) {
     std::string word;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       ASSERT_TRUE(words >> word);
-      // Floats are read as floats: the file says that they are.
+      // Floats are read as floats, as the file declares them.
       const double read = i < 4 ? std::stod(word) : i < 12 ? static_cast<double>(std::stof(word)) : std::stoi(word);
       EXPECT_EQ(read, wanted[i]) << "number " << i;
     }
@@ -157,7 +157,7 @@ TEST(OutputMedialFile, ReaderRefusesForeignHeadersAndWildCounts) {
   EXPECT_FALSE(decode_ply("", "test").ok());
 }
 
-// Found by the fuzz target read_medial_ply: what has no version could be read, but not be written and read again.
+// Found by the fuzz target read_medial_ply: a file without a version could be read, but not be written and read again.
 TEST(OutputMedialFile, ReaderRefusesAHeaderWithoutOneOfItsComments) {
   const std::string ply = encode_ply(some_header(), some_spheres(), true);
   for (const char* comment : {"comment medial-vk", "comment grid_origin", "comment voxel_size", "comment epsilon",
@@ -177,7 +177,7 @@ TEST(OutputMedialFile, ReaderRefusesWhatFollowsTheLastPoint) {
   }
 }
 
-// "12" may be what was left of "123".
+// "12" may be the rest of "123".
 TEST(OutputMedialFile, ReaderRefusesALastLineWithoutItsEnd) {
   std::vector<MedialSphere> spheres = some_spheres();
   spheres.back().sheet = 123;

@@ -1,4 +1,4 @@
-// The page as bytes: base64, what a name cannot do, the same bytes twice. What a browser makes of it: tests/page.
+// The page as bytes: base64, harmless names, the same bytes twice. Its display in a browser: tests/page.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

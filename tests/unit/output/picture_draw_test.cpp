@@ -1,4 +1,4 @@
-// The picture: something is drawn, always the same, and the points are seen in it.
+// The picture: it is not empty, always the same, and shows the points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(PictureDraw, PointsAndMeshAreBothSeen) {
 }
 
 TEST(PictureDraw, DoesNotDependOnUnitsOrPlace) {
-  // A power of two and a place that doubles hold exactly: only the rounding to float inside the camera is left.
+  // A power of two and an offset that doubles represent exactly: only the rounding to float inside the camera remains.
   Mesh mesh = test::make_box({2, 1, 2});
   std::vector<MedialSphere> spheres = sheet_in_box();
   const Picture near = draw_picture(mesh, spheres, 0.07, kSmall);
@@ -114,7 +114,7 @@ TEST(PictureDraw, EveryViewIsDrawn) {
   EXPECT_EQ(pictures.size(), 6u);
 }
 
-/// A box that was turned, with the same axis up as before, looks as it did; from above and below, too.
+/// A box that was turned, with the same axis up as before, keeps its appearance, also from above and below.
 TEST(PictureDraw, ATurnedShapeWithItsOwnUpLooksTheSame) {
   using Direction = std::array<double, 3>;
   for (const Direction& from : {PictureView().towards, Direction{0, 1, 0}, Direction{0, -1, 0}}) {

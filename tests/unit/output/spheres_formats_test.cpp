@@ -1,4 +1,5 @@
-// Sphere files: numbers that read back exactly and are floats to everybody, and layouts, small enough to be read here.
+// Sphere files: numbers that read back exactly and are floats for every reader, and layouts, small enough to be read
+// here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

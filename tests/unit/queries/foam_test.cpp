@@ -1,4 +1,4 @@
-// The foam's parts where the answer is known: polytopes, hulls, the two boundary points of Figure 3-1, wrong usage.
+// The foam's parts where the result is known: polytopes, hulls, the two boundary points of Figure 3-1, wrong usage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST(ClipPolytope, KeepsFacesThatACutTouchesAndMayVanish) {
 }
 
 // Planes that nearly coincide or meet in one point, where the signs of rounded heights contradict each other: the
-// polytope must keep all that is in every half-space, and nothing far from it.
+// polytope must keep every point that is in all half-spaces, and nothing far from it.
 TEST(ClipPolytope, SurvivesDegenerateCuts) {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> normal;
@@ -129,7 +129,7 @@ TEST(Foam, OfOneSiteHasBallsOfTypeOneOnly) {
   EXPECT_FALSE(foam.value().may_hold_contact({1, 2, -5}));  // beyond the full foam
 }
 
-// Above one plane there is no medial point; the bounds know only the samples.
+// Above one plane there is no medial point; the bounds depend only on the samples.
 TEST(Foam, BoundsAreSmallAboveAPlane) {
   const Ball sphere = {{0.1, 0.2, 3}, 1};
   const NearestPointsFunction plane = [](std::span<const Point> queries) -> Result<std::vector<Point>> {

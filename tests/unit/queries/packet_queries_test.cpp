@@ -30,7 +30,7 @@ struct Answers {
 
 class PacketQueriesTest : public test::DeviceTest {
  protected:
-  /// Runs `record(recorder, slots, queries, nearest, hits)` over the queries; results that it leaves alone are zero.
+  /// Runs `record(recorder, slots, queries, nearest, hits)` over the queries; results that it does not write are zero.
   template <class Record>
   Answers run(std::span<const Texel> queries, std::span<const std::uint32_t> slots, const Record& record) {
     Context::Impl& context = Internals::of(*context_);
@@ -126,13 +126,13 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
         ASSERT_NEAR(std::sqrt(packets.nearest[i][3]), std::sqrt(single.nearest[i][3]), 6e-6) << "query " << i;
         other_hits += packets.hits[i] != single.hits[i];
       }
-      // Where two triangles are equally near but for rounding: at an edge that they share.
+      // If two triangles are equally near up to rounding: at an edge that they share.
       EXPECT_LE(other_hits, static_cast<int>(queries.size()) / 10);
     }
   }
 }
 
-// At the centre of a sphere every triangle is as near as any other: the walk gives up, a look at all triangles answers.
+// At the centre of a sphere every triangle is equally near: the walk gives up, and all triangles are examined.
 TEST_F(PacketQueriesTest, CentreOfASphere) {
   const Mesh mesh = test::make_sphere(1.0, 100000);
   const DeviceMesh device = test::upload_mesh(Internals::of(*context_), test::view_of(mesh)).value();
@@ -207,8 +207,8 @@ TEST(PointOrder, IsAPermutationThatKeepsNeighboursTogether) {
   EXPECT_EQ(order_along_curve(std::vector<Point>(3, Point{1, 1, 1})), (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
-// A number of queries that only the device knows, cut into dispatches: every one is answered, none twice, and each
-// dispatch is followed by the next question whether to go on.
+// A number of queries that only the device knows, cut into dispatches: every one is processed, none twice, and each
+// dispatch is followed by the next test whether to continue.
 TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
   const Mesh mesh = test::make_turned_torus();
   Context::Impl& context = Internals::of(*context_);

@@ -63,7 +63,7 @@ TEST_F(SceneTest, UnitBox) {
   EXPECT_NEAR(device.to_unit(back)[1], 0.5, 1e-15);
 }
 
-// Where a mesh has more texels than the device allows in a view, kernels read storage buffers: the same answers.
+// If a mesh has more texels than the device allows in a view, kernels read storage buffers: the same results.
 TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   use_own_context();
   const Mesh mesh = rotated_torus();
@@ -82,7 +82,7 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   EXPECT_EQ(without.winding_numbers(points).value(), expected_numbers);
 }
 
-// Through memory that the host cannot use, as on a GPU, and back: the same answers, in memory of the caller's.
+// Through memory that the host cannot use, as on a GPU, and back: the same results, in memory of the caller's.
 TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
@@ -106,7 +106,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   EXPECT_EQ(scene.closest_points_of_groups(points, 51, std::span(out).first(7)).error().code, ErrorCode::kUsage);
 }
 
-// At the centre of a sphere every walk gives up, a little off it none does.
+// At the centre of a sphere every walk gives up, slightly off it none does.
 TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 100000);
@@ -134,8 +134,8 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   EXPECT_EQ(queries.read_unresolved_total().value(), 20u);
 }
 
-// What a stop saves is measured by bench/stops.cpp; here, that nothing is written any more. With no tolerance every
-// walk goes to all triangles and gives up.
+// The time that a stop saves is measured by bench/stops.cpp; here, that nothing further is written. Without a tolerance
+// every walk reaches all triangles and gives up.
 TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
   Context::Impl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 20000);

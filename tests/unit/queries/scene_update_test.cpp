@@ -1,4 +1,4 @@
-// A mesh on the device that follows moving vertices: the same answers as from a mesh that is created anew.
+// A mesh on the device that follows moving vertices: the same results as from a newly created mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class SceneUpdate : public test::DeviceTest {
     bool operator==(const Nearest&) const = default;
   };
 
-  /// By `queries`, made for `mesh` before or after it was updated; ties go to the smallest index.
+  /// By `queries`, created for `mesh` before or after it was updated; ties go to the smallest index.
   std::vector<Nearest> closest(const TreeQueries& queries, const DeviceMesh& mesh, const std::vector<Point>& points) {
     Context::Impl& context = Internals::of(*context_);
     const auto count = static_cast<std::uint32_t>(points.size());
@@ -137,7 +137,7 @@ TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
   EXPECT_EQ(device.update(indexed).error().message, "the mesh has no extent, or one too large for a double");
 }
 
-// The public call: points that are answered one by one, and thousands that are answered by packets.
+// The public call: points that are processed one by one, and thousands that are processed by packets.
 TEST_F(SceneUpdate, ScenesAnswerAsNewOnes) {
   const Mesh mesh = test::make_turned_torus(), moved = test::bent(mesh);
   IndexedMesh indexed = test::indexed(test::view_of(mesh));

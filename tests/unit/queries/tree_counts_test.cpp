@@ -1,4 +1,4 @@
-// What walks of the tree say they have tested, where it is known how much that is.
+// The counts of tests that walks of the tree report, where the true counts are known.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -48,7 +48,7 @@ class TreeCounts : public test::DeviceTest {
     test::DeviceTest::TearDown();
   }
 
-  /// All queries at the same place of the unit box, with the same w. `queries` have been made to count.
+  /// All queries at the same point of the unit box, with the same w. `queries` count their tests.
   template <class Queries, class Record>
   Tests tests_of(const Queries& queries, const Texel& query, const Record& record) {
     const std::vector<Texel> all(kQueries, query);
@@ -112,7 +112,7 @@ TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
     const Tests nothing = tests_of(packets, {2, 2, 2, 0}, ask);
     EXPECT_EQ(nothing.nodes, shape.arity());
     EXPECT_EQ(nothing.triangles, 0u);
-    // Next to the boundary only a part is looked at, by all points; from the centre much of it is nearly as far.
+    // Next to the boundary all points examine only a part; from the centre much of it is nearly equally far.
     const Tests near = tests_of(packets, {0.5f, 0.5f, 0.02f, kFar}, ask);
     EXPECT_GT(near.nodes, shape.arity());
     EXPECT_GE(near.triangles, kQueries);

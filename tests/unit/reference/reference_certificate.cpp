@@ -1,4 +1,4 @@
-// The certificate passes on what the reference makes and fails, on the right line, on what was spoiled.
+// The certificate passes for results of the reference and fails, on the right line, for altered ones.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -42,7 +42,7 @@ class ReferenceCertificate : public testing::Test {
     return reference::check(*mesh_, result, p.epsilon * result.voxel_size, p.object_angle, 0);
   }
 
-  /// Spoils one deep ball and expects a failure of the line that begins with `condition`, for that ball.
+  /// Alters one deep ball and expects a failure of the line that begins with `condition`, for that ball.
   template <typename Spoil>
   void expect_caught(const std::string& condition, const Spoil& spoil) {
     Result spoiled = *result_;
@@ -113,7 +113,7 @@ TEST_F(ReferenceCertificate, CatchesCentres) {
   expect_caught("centre inside", [&](Sphere& s) { s.centre += 10 * size() * Vector3d::UnitX(); });
   expect_caught("voxel is in", [&](Sphere& s) { s.centre += 10 * size() * Vector3d::UnitX(); });
   expect_caught("voxel is in", [&](Sphere& s) { s.centre += voxel * Vector3d::UnitX(); });
-  // Along its spoke: no longer medial, although the radius is made to fit.
+  // Along its spoke: no longer medial, although the radius is adjusted.
   expect_caught("grown", [&](Sphere& s) {
     s.centre += 0.05 * voxel * s.spoke_a;
     s.radius = reference::Tree(*mesh_).closest(s.centre).distance * (1 - 1e-12);
@@ -187,7 +187,7 @@ TEST_F(ReferenceCertificate, ExtractionIsRepeatableOrderedAndInterruptible) {
   EXPECT_LT(stopped.spheres.size(), again.spheres.size());
 }
 
-// The flux of a found voxel comes from its parent's list; the tree must say the same.
+// The flux of a found voxel comes from its parent's list; the tree must give the same.
 TEST_F(ReferenceCertificate, FluxFromListsIsFluxFromTheTree) {
   const reference::Tree tree(*mesh_);
   const auto spiral = reference::spiral_points(50);

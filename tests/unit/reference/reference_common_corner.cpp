@@ -29,13 +29,13 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-/// A triangle with a corner at the origin, far larger than the points that are tried: what counts is its wedge.
+/// A triangle with a corner at the origin, far larger than the points that are tried: only its wedge matters.
 struct Wedge {
   std::array<Vector3d, 3> corners;
   Vector3d normal;
 };
 
-/// Directions between those of a plane and all: many sheets are nearly flat.
+/// Directions between those of a plane and all directions: many sheets are nearly flat.
 Wedge make_wedge(Random& random, double flatness) {
   const auto direction = [&] { return random.unit().cwiseProduct(Vector3d(1, 1, flatness)).normalized(); };
   Wedge w;
@@ -47,7 +47,7 @@ Wedge make_wedge(Random& random, double flatness) {
   return w;
 }
 
-/// What of a wedge holds a foot.
+/// The feature of a wedge that holds a foot.
 struct Foot {
   int feature;  // 0: the face from behind, 1: from in front, 2 and 3: its edges at the origin; -1: the vertex
   Vector3d spoke;
@@ -64,7 +64,7 @@ Foot foot_of(const Wedge& w, const Vector3d& m) {
   return foot;
 }
 
-/// The carrier of a feature of the wedge, whose vertices are numbered from `first` on, but for the common one.
+/// The carrier of a feature of the wedge, whose vertices are numbered from `first` on, except for the common one.
 Carrier make_carrier(const Wedge& w, int feature, int first, Arc& arc) {
   Carrier c = {};
   c.spokes = reference::Cap::all();
@@ -87,7 +87,7 @@ Carrier make_carrier(const Wedge& w, int feature, int first, Arc& arc) {
   return c;
 }
 
-/// A point as far from both wedges as from each other's: on an arc between two random ones, by bisection.
+/// A point equally far from both wedges: on an arc between two random ones, by bisection.
 std::optional<Vector3d> find_tie(const Wedge& a, const Wedge& b, Random& random) {
   const Vector3d p = random.unit(), q = random.unit();
   const auto at = [&](double t) { return ((1 - t) * p + t * q).normalized().eval(); };
@@ -123,8 +123,8 @@ TEST(ReferenceCommonCorner, WhatTouchesBothIsNeverExcluded) {
   for (const int count : seen) EXPECT_GT(count, 1000);
 }
 
-// Power: of the pairs of features that are not excluded, most are seen to be touched at once. (Two faces are not asked
-// for the angle between them, which caps know.)
+// Power: of the pairs of features that are not excluded, most are observed to be touched at once. (Two faces are not
+// tested for the angle between them, which caps cover.)
 TEST(ReferenceCommonCorner, WhatIsNotExcludedExists) {
   constexpr double kAngle = 0.5;
   Random random(4);
@@ -154,7 +154,7 @@ TEST(ReferenceCommonCorner, WhatIsNotExcludedExists) {
   EXPECT_GT(seen, 0.8 * allowed) << allowed;
 }
 
-// Carriers without a vertex in common are not asked, nor are vertices.
+// Carriers without a common vertex are not tested, nor are vertices.
 TEST(ReferenceCommonCorner, NeedsACommonVertex) {
   Random random(5);
   const Wedge a = make_wedge(random, 1), b = make_wedge(random, 1);

@@ -89,7 +89,7 @@ std::vector<test::MedialSample> samples_in(const reference::Tree& tree, Random& 
   return samples;
 }
 
-/// Clear of rounding: well in the box, well above the angle.
+/// Clear of rounding: well inside the box, well above the angle.
 bool holds_salient(const Box& box, const std::vector<test::MedialSample>& samples, double angle, double slack) {
   return std::any_of(samples.begin(), samples.end(), [&](const test::MedialSample& s) {
     return s.object_angle > angle + 1e-4 &&
@@ -146,7 +146,7 @@ TEST(ReferenceDismissal, DismissedBoxesHoldNoSalientPoint) {
   EXPECT_GT(all.dismissed - all.by_one_cone, 150);
 }
 
-// Without trust nothing is known of sides: still right.
+// Without trust no sides are known: dismissal is still right.
 TEST(ReferenceDismissal, UntrustedTrianglesFromEitherSide) {
   Random random(6);
   Tally all;
@@ -181,7 +181,7 @@ TEST(ReferenceDismissal, AMessIsDismissedToo) {
   EXPECT_GT(all.dismissed - all.by_one_cone, 100);
 }
 
-/// Is some carrier at the foot, with this spoke among those that it allows?
+/// True if some carrier is at the foot, with this spoke among those that it allows.
 bool is_carried(const std::vector<reference::Carrier>& carriers, const Vector3d& foot, const Vector3d& spoke,
                 double slack) {
   return std::any_of(carriers.begin(), carriers.end(), [&](const reference::Carrier& c) {

@@ -31,7 +31,7 @@ Mesh bumpy_solid() {
   return mesh;
 }
 
-/// Distance to a triangle by golden sections over both weights: slow, but shares nothing with the code under test.
+/// Distance to a triangle by golden sections over both weights: slow, but independent of the code under test.
 double searched_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const auto minimum = [](const auto& f) {
     double low = 0, high = 1;
@@ -130,7 +130,7 @@ TEST(ReferenceWinding, IsOneInsideZeroOutside) {
 
 TEST(ReferenceWinding, FastFormKeepsItsTolerance) {
   Mesh cup = bumpy_solid();
-  cup.triangles.resize(cup.triangles.size() * 3 / 4);  // open: no integers to hide behind
+  cup.triangles.resize(cup.triangles.size() * 3 / 4);  // open: winding numbers are not whole
   const reference::Tree tree(test::to_reference(cup));
   Random random;
   for (double tolerance : {0.2, 0.01, 1e-4}) {

@@ -1,4 +1,4 @@
-// Which features of a solid its medial balls can touch, and with which spokes.
+// The features of a solid that its medial balls can touch, and the spokes with which they do.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -96,14 +96,14 @@ TEST(ReferenceSpokeCones, UntrustedTrianglesHoldTheirFeatures) {
   mesh.trusted.pop_back();
   const SpokeCones cones(mesh, reference::Tree(mesh));
   EXPECT_EQ(std::count(cones.trusted().begin(), cones.trusted().end(), 0), 3);
-  // Three triangles at the hole are gone with all their edges, their neighbours' vertices with them.
+  // Three triangles at the hole are dropped with all their edges, and with them the vertices of their neighbours.
   EXPECT_EQ(count(mesh).edges, all.edges - 9);
   mesh.trusted.clear();
   EXPECT_EQ(count(mesh).edges, 0);
   EXPECT_EQ(count(mesh).vertices, 0);
 }
 
-/// Arcs of spokes to the edges of a mesh that nothing of is trusted, by the middle of the edge.
+/// Arcs of spokes to the edges of a mesh without trusted normals, by the middle of the edge.
 std::vector<std::pair<Vector3d, reference::Arc>> arcs_of(const Mesh& solid) {
   reference::Mesh mesh = test::to_reference(solid);
   mesh.trusted.clear();
@@ -179,7 +179,7 @@ TEST(ReferenceSpokeCones, NeedlesAreNotTrusted) {
   EXPECT_EQ(std::count(cones.trusted().begin(), cones.trusted().end(), 0), 1);
 }
 
-// Lemma D itself: the spokes of medial points are what their feet allow.
+// Lemma D itself: the spokes of medial points are among those that their feet allow.
 TEST(ReferenceSpokeCones, SpokesOfMedialPointsAreInTheirCaps) {
   Mesh solid = test::make_sphere(1, 80);
   std::mt19937_64 engine(3);

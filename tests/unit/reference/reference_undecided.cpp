@@ -1,4 +1,4 @@
-// What undecided voxels promise: medial points that hide there are of their kind, with feet no farther apart than said.
+// The promises of undecided voxels: hidden medial points are of their kind, with feet no farther apart than stated.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -36,7 +36,7 @@ void expect_ordered(const Result& result) {
   }
 }
 
-/// Compares every independent sample whose voxel got no point with what its voxel promises; counts them.
+/// Compares every independent sample whose voxel has no point with the promise of its voxel; counts them.
 int expect_promises_kept(const reference::Mesh& mesh, const Result& result, double angle) {
   const reference::Tree tree(mesh);
   std::map<Key, const Undecided*> undecided;

@@ -1,4 +1,4 @@
-// Spheres for several geometries: who gets how many, levels of one length, places in the frame of the link.
+// Spheres for several geometries: their distribution, levels of one length, positions in the frame of the link.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -150,7 +150,7 @@ TEST_F(FitParts, StopsWhenAsked) {
   EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
 }
 
-/// Wherever it is: at every so many-th question.
+/// At any stage: at every n-th query.
 TEST_F(FitParts, StopsWhereverItIsAsked) {
   goals_.options.method = SphereMethod::kBest;
   goals_.options.resolution = 20;
@@ -170,11 +170,11 @@ TEST_F(FitParts, StopsWhereverItIsAsked) {
     ASSERT_TRUE(run(~std::size_t{0}, all).ok());
     ASSERT_GT(all, 100u);
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t most = all / 2 * k / 4;  // how many there are depends on the threads a little
+      const std::size_t most = all / 2 * k / 4;  // their number depends slightly on the threads
       const Result<std::vector<PartFit>> fits = run(most, asked);
       ASSERT_FALSE(fits.ok()) << most << " of " << all;
       EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
-      EXPECT_LE(asked, most + 16);  // others may have asked meanwhile
+      EXPECT_LE(asked, most + 16);  // others may have queried meanwhile
     }
   }
 }

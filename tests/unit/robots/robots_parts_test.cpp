@@ -103,7 +103,7 @@ TEST(Parts, PlacingABallAllowsForRounding) {
   EXPECT_NEAR(around.radius, 0.05, 1e-14);
   EXPECT_EQ(place(part, ball, 0).radius, 0.05);
   EXPECT_EQ(place(part, {{0.1, 0.2, 0.3}, 0}, -1).radius, 0);
-  // The same in extended precision is within what was allowed.
+  // The same in extended precision is within the allowed bound.
   const long double cr = std::cos(0.3L), sr = std::sin(0.3L), cp = std::cos(-0.2L), sp = std::sin(-0.2L),
                     cy = std::cos(0.7L), sy = std::sin(0.7L);
   const long double x = 0.1, y = 0.2, z = 0.3;
@@ -227,7 +227,7 @@ TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
 }
 
 TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
-  // Bumpy curves, as they are.
+  // Bumpy curves, without smoothing.
   std::vector<NeedCurve> curves(4);
   for (std::size_t part = 0; part < curves.size(); ++part) {
     double error = 3.0 + 5.0 * static_cast<double>(part);

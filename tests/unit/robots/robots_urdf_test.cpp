@@ -1,4 +1,4 @@
-// The reader of URDF: what it takes, what it says of files that are none, and where links are.
+// The reader of URDF: files that it accepts, its messages for others, and the poses of links.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

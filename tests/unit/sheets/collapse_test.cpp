@@ -71,7 +71,7 @@ TEST(Collapse, KeepsComponentsTunnelsAndCavities) {
   EXPECT_GT(cavities.size(), 3u) << "the test says nothing";
 }
 
-// Whatever ties: lattices, balls through a point, in a plane, of one centre.
+// With ties of any kind: lattices, balls through a point, in a plane, of one centre.
 TEST(Collapse, KeepsTheTopologyOfDegenerateBalls) {
   const std::vector<std::vector<Ball>> families = {test::lattice(4, 0.9),       test::flat_lattice(6, 0.8),
                                                    test::collinear(20, 1),      test::through_a_point(40, 2, true),
@@ -87,7 +87,7 @@ TEST(Collapse, KeepsTheTopologyOfDegenerateBalls) {
   }
 }
 
-// A flat tetrahedron, as there are many along a sheet: the two triangles at its shorter diagonal are left.
+// A flat tetrahedron, as there are many along a sheet: the two triangles at its shorter diagonal remain.
 TEST(Collapse, ASliverLeavesTheTrianglesAtTheShorterDiagonal) {
   const std::vector<Ball> balls = {{{0, 0, 0}, 1}, {{0.5, 0.49, 0.01}, 1}, {{0.5, -0.49, 0.01}, 1}, {{1, 0, 0}, 1}};
   const DualComplex complex = complex_of(balls);
@@ -121,7 +121,7 @@ TEST(Collapse, FinsGoAndSheetsStay) {
                              [](std::uint32_t, std::uint32_t) { return true; }};
   const DualComplex disc = square({});
   EXPECT_EQ(collapse_to_surface(disc, rule).triangles, disc.triangles);
-  // All vertices of a fin are on what bears it: along a row, across triangles, with a fin on a fin.
+  // All vertices of a fin are on its support: along a row, across triangles, with a fin on a fin.
   EXPECT_EQ(collapse_to_surface(square({{11, 12, 13}}), rule).triangles, disc.triangles);
   EXPECT_EQ(collapse_to_surface(square({{6, 11, 12}, {6, 7, 12}}), rule).edges, disc.edges);
   EXPECT_EQ(collapse_to_surface(square({{6, 7, 13}, {6, 13, 14}, {6, 13, 18}}), rule).triangles, disc.triangles);

@@ -1,4 +1,4 @@
-// The medial mesh of points that are put down by hand, and its files.
+// The medial mesh of points that are placed by hand, and its files.
 #include "medial_vk/medial_mesh.h"
 
 #include <gmock/gmock.h>
@@ -20,8 +20,8 @@ namespace {
 
 using Eq = std::array<double, 3>;
 
-/// One point in every voxel that the plane through `through` across `normal` passes, at a random place of the plane in
-/// it, wherever `wanted` holds.
+/// One point in every voxel that the plane through `through` across `normal` passes, at a random position of the plane
+/// in it, wherever `wanted` holds.
 std::vector<MedialSphere> plane(const Eq& normal, const Eq& through, const std::function<bool(const Point&)>& wanted,
                                 std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -71,7 +71,7 @@ Meshed meshed(std::vector<MedialSphere> spheres, const SheetOptions& parameters 
   return out;
 }
 
-// A flat sheet is a triangulated disc, whatever its direction and wherever points lie in their voxels: no doubled
+// A flat sheet is a triangulated disc, for any direction and any positions of points in their voxels: no doubled
 // layers, no holes.
 TEST(MedialMesh, AFlatSheetIsADisc) {
   const Eq normals[] = {{0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {0.3, 0.5, 0.8}, {0.1, 0.02, 1}, {0.9, 0.4, 0.1}};

@@ -1,4 +1,4 @@
-// What points give to the sheets around them, against plain sums over all points.
+// The contributions of points to the sheets around them, against plain sums over all points.
 #include "sheets/sheets_around.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace medial_vk {
 namespace {
 
-/// Clusters on a grid of step 1, each as small as nothing, of one sheet or of several. What is no wider than a quarter
-/// of a reach below 4 is all of one of them.
+/// Clusters on a grid of step 1, of negligible size, of one sheet or of several. A node that is no wider than a quarter
+/// of a reach below 4 is all of one cluster.
 class Clusters {
  public:
   Clusters(std::uint32_t seed, int sheets) : sheets_(sheets) {
@@ -71,9 +71,9 @@ class Clusters {
   std::vector<double> weights_;
 };
 
-// Against sums over all points, with balls of many reaches at once. A cluster is less than 20 deviations wide, so how
-// near it is is wrong by 2e-11 over the reach at most, no more than 36 x 40 points have a weight, of 2 at most, and
-// their sum is at least 1/2, as the point that is asked for has one.
+// Against sums over all points, with balls of many reaches at once. A cluster is less than 20 deviations wide, so the
+// error of its nearness is at most 2e-11 over the reach; no more than 36 x 40 points have a weight, of 2 at most, and
+// their sum is at least 1/2, as the queried point has one.
 TEST(SheetsAround, DividesAmongAllPointsWithinReach) {
   for (const int sheets : {2, 5, 300}) {
     SCOPED_TRACE(sheets);
@@ -101,8 +101,8 @@ TEST(SheetsAround, DividesAmongAllPointsWithinReach) {
   }
 }
 
-// Twelve points around the origin, and beside each other, 1 apart and 3 away, six and six: a node of its own, as wide
-// as 1. It counts as a whole from a reach of 4 on if it is all of one sheet, otherwise of 8 on.
+// Twelve points around the origin, and beside each other, 1 apart and 3 away, six and six: a node of its own, of width
+// 1. It counts as a whole from a reach of 4 on if it is all of one sheet, otherwise from 8 on.
 TEST(SheetsAround, TakesNodesWholeThatAreSmallForTheReach) {
   std::vector<Ball> balls(12, {{0, 0, 0}, 1});
   for (int i = 0; i < 12; ++i) balls.push_back({{3, i < 6 ? -0.5 : 0.5, 0}, 1});

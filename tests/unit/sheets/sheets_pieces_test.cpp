@@ -1,4 +1,4 @@
-// Pieces of sheets: how they join and are handed out, against the plainest programs for the same.
+// Components of sheets: their joins and their distribution, against the simplest programs for the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using testing::ElementsAreArray;
 
-using Pieces = std::vector<std::uint32_t>;  // by place
+using Pieces = std::vector<std::uint32_t>;  // by position
 
 MedialSphere point_at(std::uint32_t x, std::uint32_t y, const Point& normal, double radius = 4) {
   MedialSphere s;
@@ -57,7 +57,7 @@ std::vector<MedialSphere> patches(std::uint32_t seed) {
   return out;
 }
 
-/// Pieces of neighbours whose spokes turn by 10 degrees at most.
+/// Components of neighbours whose spokes turn by 10 degrees at most.
 Pieces grown(const VoxelGraph& graph) {
   Pieces piece_of(graph.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t count = 0;
@@ -88,7 +88,7 @@ Pieces numbered_anew(Pieces piece_of) {
   return piece_of;
 }
 
-/// Borders of all pairs, measured anew for every join.
+/// Borders of all pairs, measured again for every join.
 class PlainJoining {
  public:
   PlainJoining(const VoxelGraph& graph, const Pieces& pieces) : piece_of_(pieces) {
@@ -118,8 +118,8 @@ class PlainJoining {
  private:
   using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>>;
 
-  /// Of all its points, in whole millionths of a degree, and of those that it lacks to have 1.75 sqrt(points of the
-  /// smaller piece).
+  /// Of all its points, in whole millionths of a degree, and of those that are added to reach 1.75 sqrt(points of the
+  /// smaller component).
   double pull(const Borders::value_type& entry, double limit) const {
     const auto& [pieces, cosines] = entry;
     const auto fewer = static_cast<double>(std::min(points_.at(pieces.first), points_.at(pieces.second)));
@@ -169,7 +169,7 @@ TEST(JoinPieces, AsAPlainProgramWould) {
   EXPECT_GT(joins, 1000u) << "or it says little";
 }
 
-/// Rows of letters, a point each: its piece. A blank: no point.
+/// Rows of letters, a point each: its component. A blank: no point.
 class Drawn {
  public:
   explicit Drawn(const std::vector<std::string>& rows) {
@@ -182,7 +182,7 @@ class Drawn {
     }
   }
 
-  /// What is left of the letters once pieces of fewer points than that are handed out.
+  /// The letters that remain once components of fewer points than that are distributed.
   std::vector<std::string> handed_out(std::uint64_t points, std::size_t width) const {
     const std::set<char> names(letters_.begin(), letters_.end());
     const std::vector<char> alphabet(names.begin(), names.end());
@@ -213,8 +213,8 @@ TEST(AbsorbPieces, GivesAPointToThePieceOfMostVoxelsAround) {
   EXPECT_THAT(Drawn({"AAAAAA", "BBBsBB", "BBBBBB"}).handed_out(2, 6), ElementsAreArray({"AAAAAA", "BBBBBB", "BBBBBB"}));
 }
 
-// A strip of one row between A and B gets shorter from both ends, a point a layer: so half of it goes to either side,
-// and what is as near to both to the first.
+// A strip of one row between A and B is shortened from both ends, one point per layer: half of it is assigned to either
+// side, and a point equally near to both to the first.
 TEST(AbsorbPieces, LayerByLayer) {
   EXPECT_THAT(Drawn({"AAA       BBB", "AAAssssssBBBB", "AAA       BBB"}).handed_out(7, 13),
               ElementsAreArray({"AAA       BBB", "AAAAAABBBBBBB", "AAA       BBB"}));
@@ -222,7 +222,8 @@ TEST(AbsorbPieces, LayerByLayer) {
               ElementsAreArray({"AAA        BBB", "AAAAAAABBBBBBB", "AAA        BBB"}));
 }
 
-// The first s has two of either around it, the second two of A and three of B, and does not see what the first gets.
+// The first s has two of either around it, the second two of A and three of B, and does not depend on the assignment of
+// the first.
 TEST(AbsorbPieces, PointsOfALayerDoNotSeeEachOther) {
   EXPECT_THAT(Drawn({"AA ", "AA ", "ss ", "BBB"}).handed_out(3, 3), ElementsAreArray({"AA ", "AA ", "AB ", "BBB"}));
 }

@@ -134,7 +134,7 @@ TEST(Significance, LargeBallsReachFarther) {
   SheetBalls sheets = parts.view();
   sheets.graph = &graph;
   sheets.voxel_size = 0.1;
-  // As large as each other; each counts 1 - 1.05 / 1.4 against its own 1.
+  // Both are equally large; each counts 1 - 1.05 / 1.4 against its own 1.
   EXPECT_NEAR(measure_significance(sheets, 1).value().of_sheet[0], 0.5, 1e-14);
   parts.balls[1].radius = 1;
   sheets.balls = parts.balls;
@@ -142,8 +142,8 @@ TEST(Significance, LargeBallsReachFarther) {
   EXPECT_NEAR(uneven.of_sheet[0], uneven.of_ball[0] / 1.25, 1e-14) << "the small one does not reach the large one's";
 }
 
-// A chain of balls of one size, of which only the ends have a weight. The others go to the ends within reach, two
-// voxels here, by their weights, whatever their own sheets are, and to their own where there is none.
+// A chain of balls of one size, of which only the ends have a weight. The others are assigned to the ends within reach,
+// two voxels here, by their weights, independently of their own sheets, and to their own sheets if there is none.
 TEST(Significance, BallsWithoutWeightAreOfTheSheetsAround) {
   std::vector<MedialSphere> spheres(6);
   Parts parts;
@@ -171,7 +171,7 @@ TEST(Significance, BallsWithoutWeightAreOfTheSheetsAround) {
 }
 
 // Equal balls; the second and third count as one, 4.25 from the first, which has no weight and reaches farther than the
-// nearer of them, but not as far: nobody gets what it has, if not its own sheet.
+// nearer of them, but not as far as their centre: its share must go to its own sheet, or it would be lost.
 TEST(Significance, NothingIsLostBetweenAPointAndItsNode) {
   std::vector<MedialSphere> spheres(3);
   Parts parts;
@@ -220,7 +220,7 @@ TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
   EXPECT_NEAR(removal.volume_left[0], balls / measure(parts).volume, 1e-13);
 }
 
-/// Without the bar the union would fall apart, so the smaller ball goes; then the bar may.
+/// Without the bar the union would fall apart, so the smaller ball is removed first; then the bar may follow.
 TEST(SheetRemoval, KeepsTheTopology) {
   const SheetRemoval removal = remove(dumbbell(), RemovalRule::kTopology);
   EXPECT_THAT(removal.sheets, ElementsAre(2, 1));
@@ -245,7 +245,7 @@ TEST(SheetRemoval, StopsBeforeTooLittleIsLeft) {
   EXPECT_TRUE(remove(parts, RemovalRule::kTopology, 1).sheets.empty());
 }
 
-// What is removed for some volume is a first part of what is removed for none, by either rule.
+// The sheets removed for some volume are a first part of those removed for none, by either rule.
 TEST(SheetRemoval, StopsWhereTheWholeOrderPassesTheVolume) {
   Parts parts = dumbbell();
   parts.add(row({0, 1, 0}, {0, 0.1, 0}, 12, 0.12));
@@ -266,7 +266,7 @@ TEST(SheetRemoval, StopsWhereTheWholeOrderPassesTheVolume) {
   }
 }
 
-// Sheets that must stay are tried, too: each of them is progress.
+// Sheets that must stay are tried, too: each of them counts as progress.
 TEST(SheetRemoval, ProgressNeverFallsAndMovesWithEverySheet) {
   const Parts parts = ring_with_spike();
   for (const RemovalRule rule : {RemovalRule::kSignificance, RemovalRule::kTopology}) {

@@ -1,4 +1,4 @@
-// Sheets of points that are put down by hand.
+// Sheets of points that are placed by hand.
 #include "medial_vk/sheets.h"
 
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ TEST(Sheets, NothingHasNoSheets) {
   EXPECT_TRUE(sheets.of_point.empty());
 }
 
-// Section 2.5: within tau, whatever the sign of the normal.
+// Section 2.5: within tau, for either sign of the normal.
 TEST(Sheets, TheAngleDecidesAndTheSignDoesNot) {
   const std::vector<MedialSphere> a = square(6);
   std::vector<MedialSphere> b = square(6, 5, 7);
@@ -104,7 +104,7 @@ TEST(Sheets, CreasesJoin) {
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u) << "as published, normals alone decide";
   parameters.crease = 21;
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
-  // What no link joins a border may.
+  // A border may join components that no link joins.
   parameters.crease = 10;
   parameters.border = 19;
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u);
@@ -112,10 +112,10 @@ TEST(Sheets, CreasesJoin) {
   EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
 }
 
-// Beside a flat strip of ten rows a twisted one, 20 to 65 degrees. The least turns of the points on the twisted side
-// are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty pulls apart
-// by more than 4: together they pull apart by 5 for a limit of 31, and pull by 4 for one of 32. (The mean of their
-// turns is 40.25. With 40 points each, 20 are no short border.)
+// Beside a flat strip of ten rows lies a twisted one, 20 to 65 degrees. The least turns of the points on the twisted
+// side are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty has a
+// repulsion above 4: together they have a repulsion of 5 for a limit of 31, and an attraction of 4 for one of 32. (The
+// mean of their turns is 40.25. With 40 points each, 20 are no short border.)
 TEST(Sheets, AllOfABorderDecides) {
   std::vector<MedialSphere> spheres;
   for (std::uint32_t row = 1; row <= 10; ++row) {
@@ -133,8 +133,8 @@ TEST(Sheets, AllOfABorderDecides) {
 }
 
 // The second square begins beside the last row of the first, so that two points of either are at the border. They turn
-// by 20 degrees and pull by 30 each, and their number is made up to 1.75 sqrt(points) with points that pull apart by 4:
-// 4 * 30 - 29.25 * 4 = 3 for squares of 19 by 19 points, 4 * 30 - 31 * 4 = -4 for 20 by 20.
+// by 20 degrees and have an attraction of 30 each, and their number is raised to 1.75 sqrt(points) with points of
+// repulsion 4: 4 * 30 - 29.25 * 4 = 3 for squares of 19 by 19 points, 4 * 30 - 31 * 4 = -4 for 20 by 20.
 TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
   const auto touching = [](std::uint32_t n) {
     std::vector<MedialSphere> out = square(n);
@@ -153,7 +153,7 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
   EXPECT_EQ(sizes(find(touching(20), parameters)).size(), 2u) << "nor does any limit";
 }
 
-// Between two that differ by 60 degrees one that differs from them by 29 and 31.
+// Between two that differ by 60 degrees lies one that differs from them by 29 and 31.
 TEST(Sheets, PiecesJoinUpToTheTurnOfABorder) {
   const std::vector<MedialSphere> spheres = together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
   SheetOptions parameters;
@@ -165,7 +165,7 @@ TEST(Sheets, PiecesJoinUpToTheTurnOfABorder) {
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(108));
 }
 
-// Normals that agree do not join two sheets if a salient one may pass between them: here two bisectors of a square
+// Normals that agree do not join two sheets if a salient sheet may pass between them: here two bisectors of a square
 // prism's opposite edges, in one plane.
 TEST(Sheets, OppositeBisectorsAreTwoSheets) {
   std::vector<MedialSphere> a = square(6), b = square(6, 0, 7);
@@ -266,8 +266,8 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(156, 78));
 }
 
-// Six columns, and two of another sheet beside them, one at the border and one at the rim: those are 0 deep. Whether
-// they are too narrow is not asked where a quarter of the diameter is less than a voxel.
+// Six columns, and two of another sheet beside them, one at the border and one at the rim: those have depth 0.
+// Narrowness is not tested where a quarter of the diameter is less than a voxel.
 TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
   SheetOptions parameters;
   parameters.width = 0.25;
@@ -283,7 +283,7 @@ TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
   EXPECT_THAT(sizes_with(2.1), ElementsAre(96));
 }
 
-// Two columns beside six: the points that changed hands are marked, in the order that they came in.
+// Two columns beside six: the points that were reassigned are marked, in their original order.
 TEST(Sheets, MarksWhatIsSmall) {
   std::vector<MedialSphere> spheres;
   for (std::uint32_t x = 8; x >= 1; --x) {
@@ -300,7 +300,7 @@ TEST(Sheets, MarksWhatIsSmall) {
   for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ((sheets.marks[i] & kSmall) != 0, i < 24) << i;
 }
 
-// Four columns, each turned by 80 degrees against those beside it: no piece is wide enough to take the others.
+// Four columns, each turned by 80 degrees against those beside it: no component is wide enough to take the others.
 TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
   std::vector<MedialSphere> spheres;
   for (MedialSphere s : square(4)) {

@@ -1,4 +1,4 @@
-// What sheets are found with: voxels that touch, areas within voxels, sets that threads join.
+// The basis of sheets: voxels that touch, areas within voxels, sets that threads join.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Lines through a solid, what a ball adds to the symmetric difference, and the sets that make it small.
+// Lines through a solid, the contribution of a ball to the symmetric difference, and sets that reduce it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,8 +59,8 @@ double volume_along(const SolidLines& lines, std::size_t axis) {
 }
 
 /// A sum of lengths instead of their integral: the length changes by at most its greatest value, up and down again,
-/// along a row of lines, and the area of a row so across the rows; a convex solid's volume is missed by no more than
-/// two such changes of one spacing each.
+/// along a row of lines, and so does the area of a row across the rows; the error of a convex solid's volume is no more
+/// than two such changes of one spacing each.
 double line_error(double area, double spacing) { return 4 * spacing * area; }
 
 TEST(SolidLines, HaveTheVolumeOfABoxExactlyAlongEachAxis) {
@@ -127,7 +127,7 @@ TEST(SymmetricDifference, CountsABallInsideDownAndOneOutsideUp) {
   EXPECT_NEAR(difference.of_none(), 1, 1e-12);
   const Ball inside = {{0.4, 0.5, 0.55}, 0.3};
   EXPECT_NEAR(difference.change(inside, {}), -volume_of(inside), line_error(kPi * 0.09, spacing));
-  // Half of it outside: nothing is gained and nothing lost.
+  // Half of it outside: neither gain nor loss.
   const Ball half = {{1, 0.5, 0.5}, 0.2};
   EXPECT_NEAR(difference.change(half, {}), 0, line_error(kPi * 0.04, spacing));
   const std::vector<Ball> same = {inside};
@@ -155,7 +155,8 @@ TEST(SymmetricDifference, DoesNotDependOnTheOrder) {
   EXPECT_NEAR(sum(), forwards, 1e-12);
 }
 
-/// Area of a sphere that the cube cuts off is 2 pi r (r - 1/2) at each face; half of the sphere is outside for r = 0.6.
+/// The area of a sphere that the cube cuts off is 2 pi r (r - 1/2) at each face; half of the sphere is outside for r =
+/// 0.6.
 TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
   const Shape cube(test::make_box({1, 1, 1}));
   const Ball ball = cube.balanced(1).back().balls.at(0);
@@ -165,7 +166,7 @@ TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
   };
   const double estimate_error = line_error(kPi * 0.36, 1.0 / 160);
   EXPECT_LE(difference(ball.radius), difference(0.6) + 2 * estimate_error);
-  EXPECT_NEAR(ball.radius, 0.6, 0.04);  // where that holds
+  EXPECT_NEAR(ball.radius, 0.6, 0.04);  // the radius for which that holds
 }
 
 TEST(BalancedSpheres, AreBetterThanBallsInsideAndThanTheSources) {
@@ -197,7 +198,7 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
   EXPECT_EQ(numbers_of(levels[3].balls), numbers_of(shape.balanced(8).back().balls));
 }
 
-/// A box that is thinner than a spacing of lines, too.
+/// Also a box that is thinner than a spacing of lines.
 TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
   for (const Point& size : {Point{1, 0.8, 0.6}, Point{1, 0.02, 0.006}}) {
     const Shape box(test::make_box(size));
@@ -206,10 +207,10 @@ TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
     request.error = 0.25;
     const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, reference_extractor()).value().balls;
     MeasureOptions other;
-    other.seed = 7;  // other samples than those that the search has seen
+    other.seed = 7;  // other samples than those of the search
     const VolumeError error = estimate_volume_error(box.solid, balls, other).value();
     EXPECT_LE(error.normalized(), 0.25 + 8 * error.normalized_standard_error());
-    EXPECT_LE(measure_spheres(box.solid, balls).value().volume.normalized(), 0.25);  // as it is reported
+    EXPECT_LE(measure_spheres(box.solid, balls).value().volume.normalized(), 0.25);  // as reported
     request.count = balls.size();
     request.error = 0;
     request.contract = SphereContract::kInside;

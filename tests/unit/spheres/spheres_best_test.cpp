@@ -27,7 +27,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A mesh that stays where it is, as its solid wants.
+/// A mesh that stays in memory, as its solid requires.
 struct Shape {
   explicit Shape(Mesh raw)
       : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
@@ -53,7 +53,7 @@ Mesh turned_l_shape() {
 TEST(MaximalBall, TouchesTwoSidesOfABox) {
   const Shape box(test::make_box({4, 3, 1}));
   const Ball ball = maximal_ball(box.solid, {2, 1.5, 0.1});
-  const double tolerance = 2 * box.solid.rounding();  // the radius is made smaller by one
+  const double tolerance = 2 * box.solid.rounding();  // the radius is reduced by one rounding
   EXPECT_NEAR(ball.radius, 0.5, tolerance);
   EXPECT_NEAR(length(ball.centre - Point{2, 1.5, 0.5}), 0, tolerance);
   const Ball at_edge = maximal_ball(box.solid, {2, 0.3, 0.1});  // contact z = 0, then y = 0
@@ -71,7 +71,7 @@ TEST(MaximalBall, HoldsTheBallAroundItsPointAndStaysInside) {
     if (!shape.solid.contains(p)) continue;
     ++inside;
     const Ball ball = maximal_ball(shape.solid, p);
-    // The direction away from the contact is as uncertain as the contact, seen from p.
+    // The direction away from the contact has the uncertainty of the contact, seen from p.
     const double distance = shape.solid.distance(p);
     const double tolerance = 4 * shape.solid.rounding() * (1 + ball.radius / distance);
     EXPECT_LE(length(p - ball.centre) + distance, ball.radius + tolerance);
@@ -178,7 +178,7 @@ TEST(BestMethod, OneBallIsTheLargest) {
   EXPECT_NEAR(set.balls[0].radius, 0.5, 1e-12);
 }
 
-// The medial surface of a ball is a point, that of a polyhedron which is nearly one little more: easily missed.
+// The medial surface of a ball is a point, that of a nearly round polyhedron little more: easily missed.
 TEST(BestMethod, NeedsNoMedialPoints) {
   const Shape ball(test::make_sphere(1, 320));
   const Result<SphereSet> found = ball.fit({.count = 3, .resolution = 8});
@@ -186,7 +186,7 @@ TEST(BestMethod, NeedsNoMedialPoints) {
   ASSERT_EQ(found.value().balls.size(), 3u);
   const double deepest = ball.solid.distance({0, 0, 0});
   // A ball at a facet's middle, e from an edge with the bend b, meets the next facet at the radius e / tan(b / 2),
-  // which is 1 in the limit of small facets: one of half the size cannot be the largest.
+  // which is 1 in the limit of small facets: a ball of half the size cannot be the largest.
   EXPECT_GE(found.value().balls.front().radius, 0.5 * deepest);
   for (const Ball& b : found.value().balls) EXPECT_LE(b.radius, ball.solid.distance(b.centre) + ball.solid.rounding());
 }

@@ -1,4 +1,4 @@
-// What is proved of balls, and what must not be.
+// Proofs about balls, and statements that must not be proved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ TEST_F(SphereCertificate, BoundaryThatSeveralBallsShare) {
   EXPECT_FALSE(cover(octants).proved());
 }
 
-/// Balls along the faces only: the boundary is covered, the middle is not.
+/// Balls along the faces only: the boundary is covered, the interior is not.
 std::vector<Ball> shell(int n, double radius) {
   std::vector<Ball> balls;
   for (int i = 0; i <= n; ++i) {
@@ -98,7 +98,7 @@ TEST_F(SphereCertificate, ACavityIsFound) {
 }
 
 TEST_F(SphereCertificate, ASmallCavityIsFound) {
-  // Eight balls that hold the cube but for a hole around its middle.
+  // Eight balls that hold the cube except for a hole around its middle.
   std::vector<Ball> balls;
   for (int k = 0; k < 8; ++k) {
     const double out = 0.60;
@@ -112,7 +112,7 @@ TEST_F(SphereCertificate, ASmallCavityIsFound) {
   EXPECT_TRUE(cover(balls).proved());
 }
 
-/// A solid with a cavity of its own: that one may stay.
+/// A solid with a cavity of its own, which may remain.
 class HollowSolid : public SphereCertificate {
  protected:
   static Mesh make() {

@@ -62,7 +62,7 @@ TEST(EnvelopeDistance, FromInsideTheUnionToEveryKindOfFeature) {
   const Envelope two = envelope_of({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}, {{9, 0, 0}, 1}});
   EXPECT_NEAR(two.distance({-1.5, 0, 0}), 0.1, 1e-9);                    // a sphere
   EXPECT_NEAR(two.distance({0.1, 0.2, 0}), std::hypot(0.1, 0.6), 1e-9);  // the circle
-  EXPECT_NEAR(two.distance({0.1, 0, 0}), std::hypot(0.1, 0.8), 1e-9);    // as near to all of the circle
+  EXPECT_NEAR(two.distance({0.1, 0, 0}), std::hypot(0.1, 0.8), 1e-9);    // equally near to all of the circle
   EXPECT_NEAR(two.distance({-0.6, 0, 0}), 1, 1e-9);                      // a centre
   EXPECT_NEAR(two.distance({0, 3, 0}), std::hypot(0.6, 3) - 1, 1e-12);
   EXPECT_LT(two.signed_distance({-1.5, 0, 0}), 0);
@@ -75,7 +75,7 @@ TEST(EnvelopeDistance, FromInsideTheUnionToEveryKindOfFeature) {
   EXPECT_NEAR(envelope.distance({0, 0, 0.1}), std::sqrt(0.75) - 0.1, 1e-9);
 }
 
-/// The nearest of many points of the envelope is never nearer than what is said, and not much farther.
+/// The nearest of many points of the envelope is never nearer than the result, and not much farther.
 TEST(EnvelopeDistance, AgreesWithSamples) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Envelope envelope = envelope_of(random_balls(40, seed, 0.1, 0.3));
@@ -93,7 +93,7 @@ TEST(EnvelopeDistance, AgreesWithSamples) {
   }
 }
 
-/// Values at samples of boundary and envelope are never above the upper bounds, and the bounds are as near as asked.
+/// Values at samples of boundary and envelope never exceed the upper bounds, and the bounds are as tight as requested.
 TEST(EnvelopeDistance, BoundsHoldSamples) {
   int number = 0;
   for (Mesh input : {make_turned_torus(), make_l_shape(2, 0.7, 0.5), make_cup(1, 0.2, 1.5, 24)}) {

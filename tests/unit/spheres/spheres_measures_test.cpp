@@ -1,4 +1,4 @@
-// The numbers that are reported of a set of balls: where a formula gives them, and how they are written.
+// The reported measures of a set of balls: where a formula gives them, and their output.
 #include "output/charts/measures_output.h"
 #include "spheres/measures/measures.h"
 

@@ -1,4 +1,4 @@
-// The source's own sets, and what beginnings of a set are worth.
+// The source's own sets, and the quality of beginnings of a set.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
