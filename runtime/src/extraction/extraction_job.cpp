@@ -142,9 +142,9 @@ Status ExtractionJob::Impl::append(Recorder& r, const Frame& frame) {
 }
 
 Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh& mesh,
-                                            const ExtractionOptions& parameters, const JobOptions& options) {
-  if (Status status = check_parameters(parameters); !status.ok()) return status.error();
-  if (parameters.mode != Mode::kCertified || options.frames == 0)
+                                            const ExtractionOptions& options, const JobOptions& job) {
+  if (Status status = check_parameters(options); !status.ok()) return status.error();
+  if (options.mode != Mode::kCertified || job.frames == 0)
     return Error{ErrorCode::kUsage, "a recorded job is of mode certified, and of one frame at least"};
   return catch_out_of_memory("preparing a job", [&]() -> Result<ExtractionJob> {
     Result<StopWord> stop = StopWord::create(Internals::of(context));
@@ -152,7 +152,7 @@ Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh&
     Result<DeviceMesh> device = DeviceMesh::create(Internals::of(context), mesh, true);
     if (!device.ok()) return device.error();
     if (Status status = device.value().finish_uploads(); !status.ok()) return status.error();
-    auto impl = std::make_unique<Impl>(Internals::of(context), parameters, options, std::move(stop).value(),
+    auto impl = std::make_unique<Impl>(Internals::of(context), options, job, std::move(stop).value(),
                                        std::move(device).value());
     if (Status status = impl->prepare(); !status.ok()) return status.error();
     return ExtractionJob(std::move(impl));

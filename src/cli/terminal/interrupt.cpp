@@ -6,6 +6,7 @@
 #include <csignal>
 #include <string_view>
 
+#include "cli/terminal/messages.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk::cli {
@@ -20,7 +21,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
   // On a terminal, below the line on which the shell has shown ^C.
   const std::string_view message = kMessage.substr(on_terminal ? 0 : 1);
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
-  ::_exit(static_cast<int>(ErrorCode::kInterrupted));
+  ::_exit(exit_code(ErrorCode::kInterrupted));
 }
 
 extern "C" void request_stop(int) {
