@@ -45,8 +45,8 @@ struct BallUnionOptions {
 struct BallUnion {
   double volume = 0;  ///< Of the union.
   double area = 0;    ///< Of its surface.
-  std::vector<double>
-      volumes;  ///< Per ball: of the ball in its power cell, vol(b | P(b)) of equation 6.1; sums to volume.
+  /// Per ball: of the ball in its power cell, vol(b | P(b)) of equation 6.1; sums to volume.
+  std::vector<double> volumes;
   std::vector<double> areas;  ///< Per ball: of the part of its sphere on the envelope; sums to area.
   DualComplex complex;
   std::vector<EnvelopeVertex> vertices;  ///< In the order of their balls; up to two for the same three.
@@ -76,8 +76,8 @@ Result<BettiNumbers> betti_numbers(const DualComplex& complex);
 // with a GPU (docs/theory.md, "Unions of balls", "On the device").
 
 struct DeviceBallUnionOptions {
-  unsigned threads =
-      0;  ///< Of the host, which builds the tree and measures the balls left by the device; 0: one per core.
+  /// Of the host, which builds the tree and measures the balls left by the device; 0: one per core.
+  unsigned threads = 0;
   /// The greatest accepted error bounds of a ball of radius r: tolerance r^3 for its volume, 10 tolerance r^2 for its
   /// area.
   double tolerance = 1e-3;
