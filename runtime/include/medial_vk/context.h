@@ -8,7 +8,7 @@
 
 #include "medial_vk/result.h"
 
-struct VkAllocationCallbacks;  // of vulkan.h, which this header does not need
+struct VkAllocationCallbacks;  // of vulkan.h, which this header does not include
 
 namespace medial_vk {
 
