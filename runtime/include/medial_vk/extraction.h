@@ -46,7 +46,8 @@ struct ExtractionOptions {
   std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
   ThesisOptions thesis;            ///< Of mode thesis only.
   /// Upper limit of device memory in bytes. It includes the mesh and the staging memory of copies, but not the staging
-  /// memory of moved vertices (ExtractionJob). A mesh that takes more than three quarters of it is not counted.
+  /// memory of moved vertices (ExtractionJob). Beside a mesh that takes more than three quarters of it, the rest still
+  /// gets a quarter, and the total exceeds the limit.
   std::uint64_t memory_budget = 1ull << 30;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
   MeasurementOptions measurements;

@@ -17,7 +17,8 @@ enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
   /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
   kTrustedNormal = 1u << 0,
-  /// Other triangles meet it only in a vertex or an edge that they share by index. kTrustedNormal implies this flag.
+  /// Other triangles meet it only in a vertex or an edge that they share by index. kTrustedNormal implies this
+  /// property, whether or not this flag is set.
   kUncrossed = 1u << 1,
 };
 
