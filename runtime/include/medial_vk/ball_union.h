@@ -44,7 +44,7 @@ struct BallUnionOptions {
 /// The results of measure_ball_union(). Lengths are in the units of the balls.
 struct BallUnion {
   double volume = 0;  ///< Of the union.
-  double area = 0;    ///< Of its surface.
+  double area = 0;    ///< Of its envelope.
   /// Per ball: of the ball in its power cell, vol(b | P(b)) of equation 6.1; sums to volume.
   std::vector<double> volumes;
   std::vector<double> areas;  ///< Per ball: of the part of its sphere on the envelope; sums to area.
@@ -87,7 +87,7 @@ struct DeviceBallUnionOptions {
 /// at most its bound; bounds are for the worst case, and most errors are hundreds of times smaller.
 struct DeviceBallUnion {
   double volume = 0;  ///< Of the union.
-  double area = 0;    ///< Of its surface.
+  double area = 0;    ///< Of its envelope.
   double volume_bound = 0;
   double area_bound = 0;
   std::vector<double> volumes;  ///< Per ball, as BallUnion::volumes.

@@ -81,7 +81,7 @@ inline constexpr double kSeamReach = 0.7;
 
 struct Significance {
   double volume = 0;            ///< Of the union of the balls.
-  double area = 0;              ///< Of its surface.
+  double area = 0;              ///< Of its envelope.
   BettiNumbers topology;        ///< Of the union.
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
   /// lambda(T), equation 6.2; sums to 1. A ball at a seam belongs to all sheets there: its share is divided among their

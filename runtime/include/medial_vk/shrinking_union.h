@@ -20,7 +20,7 @@ class ShrinkingUnion {
   ShrinkingUnion& operator=(ShrinkingUnion&&) noexcept;
   ~ShrinkingUnion();
 
-  /// Of the union of the balls that are in.
+  /// Of the union of the balls still in it.
   double volume() const;
   /// Per ball: of the ball in its power cell; 0 for removed balls. Valid until the next call that is not const.
   std::span<const double> volumes() const;
