@@ -306,7 +306,7 @@ class DynamicUnion::Impl {
   std::uint32_t end_ = kFirst;
   std::vector<std::uint32_t> free_;
   Change last_, change_before_;
-  // State of the current gain() or loss().
+  // Scratch memory of the current call.
   PowerCell cell_;
   std::vector<std::uint32_t> near_, cutting_, affected_;
   std::vector<std::pair<double, std::uint32_t>> order_;
