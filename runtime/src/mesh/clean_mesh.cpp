@@ -135,10 +135,10 @@ void drop_degenerate(PreparedMesh& prepared) {
 }
 
 /// Pairs of opposite faces between two solids that touch: removing both leaves the same points inside, and the mesh
-/// closed. Such a wall is a connected set of pairs with an even number of other faces, above 0, at each edge of its
-/// outline. A sheet that is covered on both sides has an outline without other faces, a surface that is doubled
-/// everywhere has no outline, and the outline of a surplus face on a closed surface has one other face: all of these
-/// keep one face of each pair.
+/// closed. Such a wall is a connected set of pairs with an outline, at each edge of which there is an even number of
+/// other faces, at least two. A sheet that is covered on both sides has an outline without other faces, a surface that
+/// is doubled everywhere has no outline, and the outline of a surplus face on a closed surface has one other face: all
+/// of these keep one face of each pair.
 void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint32_t>& first,
                       std::vector<std::uint8_t>& copies, std::vector<bool>& is_wall) {
   const std::vector<Triangle>& triangles = prepared.mesh.triangles;

@@ -32,8 +32,8 @@ struct TriangleTree {
 
   std::vector<Node> nodes;
   std::vector<std::uint32_t> order;           ///< By position: triangle of the mesh.
-  std::vector<std::array<Point, 3>> corners;  ///< By place.
-  std::vector<TreeBox> boxes;                 ///< By place.
+  std::vector<std::array<Point, 3>> corners;  ///< By position.
+  std::vector<TreeBox> boxes;                 ///< By position.
 
  private:
   std::uint32_t add_node(const std::vector<std::uint64_t>& codes, std::uint32_t first, std::uint32_t count);
