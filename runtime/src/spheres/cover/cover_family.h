@@ -23,7 +23,7 @@ constexpr std::size_t cover_top(std::size_t count) {
 /// For every top T there are covers of T, T - 1, T - 2 ... balls, one after the other, that depend only on the solid
 /// and on T. The answer for n balls is the cover of least volume with no more than n balls among those of the tops up
 /// to cover_top(n). For a larger number these and others are candidates, so the answer is never larger. A cover with
-/// more balls and a larger volume than the next one of its top is left out.
+/// less volume than an earlier one of its top, which has more balls, is left out.
 class CoverFamily {
  public:
   /// By top: balls inside, T of them, or fewer for the greatest; more tops may be added later. Keeps references.
