@@ -39,8 +39,8 @@ struct PacketShape {
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
 
 /// Indices in a group by slot, per_lane slots for each lane of each packet (kNoPoint: none), so that a lane's points
-/// are neighbours: the group is halved along its longest side until the parts fit a lane. Empty `points` stand for an
-/// order that already keeps neighbours together: lanes then get consecutive runs of equal length.
+/// are neighbours: the group is halved along its longest side until the parts fit a lane. The second one is for points
+/// in an order that already keeps neighbours together: lanes get consecutive runs of equal length.
 std::vector<std::uint32_t> make_slots(const PacketShape& shape, std::span<const Point> group);
 std::vector<std::uint32_t> make_slots(const PacketShape& shape, std::uint32_t group_size);
 
