@@ -25,7 +25,7 @@ class ShrinkingUnion {
   /// Per ball: of the ball in its power cell; 0 for removed balls. Valid until the next call that is not const.
   std::span<const double> volumes() const;
   bool holds(std::uint32_t ball) const;
-  /// Betti numbers of the union of the balls still in it. Time: n log n in their number, whatever has changed. Error:
+  /// Betti numbers of the union of the balls still in it. Time: n log n in their number, for any change. Error:
   /// kOutOfMemory.
   Result<BettiNumbers> betti() const;
 

@@ -109,8 +109,8 @@ struct SphereMeasures {
   DistanceHistograms histograms;
 };
 
-/// Replaces the volume of the mesh by that of a curved shape which the mesh approximates, and computes the volume error
-/// anew. The error is exact if balls proved `inside` lie inside a mesh inscribed in the shape, or balls proved to
+/// Replaces the volume of the mesh by that of a curved shape which the mesh approximates, and recomputes the volume
+/// error. The error is exact if balls proved `inside` lie inside a mesh inscribed in the shape, or balls proved to
 /// `cover` enclose a mesh around the shape. Balls with neither proof keep the error against the mesh, and the function
 /// returns false.
 bool measure_against(double shape_volume, SphereMeasures& measures);

@@ -13,7 +13,7 @@
 
 namespace medial_vk {
 
-/// The number of threads that 0 stands for: one per core.
+/// The number of threads for an argument of 0: one per core.
 inline unsigned thread_count(unsigned threads) {
   return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
 }

@@ -119,8 +119,8 @@ class Trimming {
   }
 
   /// A fin is the set of triangles reached from a free edge across edges of two triangles, if it is a tree that has no
-  /// other free edge: one edge goes with each triangle, and every vertex is on an edge of three triangles or more that
-  /// bears the fin. Fills in the edges, each of which is free when those before it have collapsed.
+  /// other free edge: one edge collapses with each triangle, and every vertex is on an edge of three triangles or more
+  /// that bears the fin. Fills in the edges, each of which is free when those before it have collapsed.
   bool find_fin(std::uint32_t free_edge, std::size_t limit) {
     fin_.assign(1, free_edge);
     triangles_.assign(1, surface_.triangle_at(free_edge));
@@ -141,7 +141,7 @@ class Trimming {
   const DualComplex& complex_;
   const CollapseRule& rule_;
   SurfaceComplex& surface_;
-  std::vector<std::uint32_t> fin_, triangles_;  // the edge, and the triangle that goes with it
+  std::vector<std::uint32_t> fin_, triangles_;  // the edge, and the triangle that collapses with it
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ Point unit(const Point& a) { return (1 / length(a)) * a; }
 }  // namespace
 
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
-  // Relative to a corner: each coordinate then has a relative error of u, whatever the distance to the origin.
+  // Relative to a corner: each coordinate then has a relative error of u, at any distance to the origin.
   std::array<Point, 6> p;
   double largest = 0;
   for (int i = 0; i < 3; ++i) {

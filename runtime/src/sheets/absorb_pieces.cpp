@@ -198,7 +198,7 @@ class Absorption {
   std::vector<std::uint32_t>& piece_of_;            // by position: its component, or kNone while it is free
   std::vector<std::vector<std::uint32_t>> places_;  // by component, as at the beginning
   std::vector<std::uint32_t> nearest_;  // by position: the nearest border or rim point of its component, once measured
-  std::vector<std::uint8_t> is_small_;  // by place
+  std::vector<std::uint8_t> is_small_;  // by position
 };
 
 }  // namespace

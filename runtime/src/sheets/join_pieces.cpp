@@ -195,7 +195,7 @@ class Joining {
 
   std::vector<std::uint32_t>& piece_of_;
   double limit_;                                       // degrees
-  std::vector<std::uint64_t> points_;                  // by piece
+  std::vector<std::uint64_t> points_;                  // by component
   std::vector<std::uint32_t> into_;                    // by component: itself, or the one that it was joined to
   std::vector<std::uint32_t> first_;                   // by component: the first of its original components
   std::unordered_map<std::uint64_t, Border> borders_;  // by two components

@@ -5,8 +5,8 @@
 //   for each level, coarse to fine and below the finest voxel:
 //     mark the contacts of every child -> dismiss -> decide its side -> write the kept ones
 //     at the finest level: one line across the nearest sheet for every voxel (the steps of lines are below)
-//     from the finest level on, for what is left: dismiss by pairs -> propose lines
-//       -> keep those that turn -> narrow -> verify -> elect one per voxel; say what is undecided
+//     from the finest level on, for the remaining cells: dismiss by pairs -> propose lines
+//       -> keep those that turn -> narrow -> verify -> elect one per voxel; list undecided voxels
 //   collect the points, measure their flux
 #pragma once
 

@@ -33,7 +33,7 @@ class CoverPieces {
   void gather(const Ball& ball, std::vector<std::uint32_t>& found) const;
 
   void add(std::span<const Point> points);
-  /// Cuts these triangles in four; cells stay as they are. Other pieces may change their indices.
+  /// Divides these triangles in four; cells are unchanged. Other pieces may change their indices.
   void refine(const std::vector<bool>& which);
 
  private:
@@ -54,7 +54,7 @@ class CoverPieces {
   std::vector<double> area_;
   std::vector<Point> normal_;
   std::vector<Box> boxes_;            // each before those within it
-  std::vector<std::uint32_t> order_;  // pieces by leaf; those added since are in none
+  std::vector<std::uint32_t> order_;  // pieces by leaf; pieces added later are in none
 };
 
 }  // namespace medial_vk

@@ -317,7 +317,7 @@ class Placing {
   std::map<std::size_t, std::vector<Ball>> stages_;
   double estimated_error_;     // estimate of the steps below which the error is measured
   double sampled_gap_;         // gap of samples below which a proof is tried
-  std::vector<double> steps_;  // by place
+  std::vector<double> steps_;  // by slot
 };
 
 /// Limit of coordinates and radii of balls in the box.

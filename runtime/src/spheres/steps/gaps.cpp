@@ -112,7 +112,7 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   if (known_[place]) return deepest;
   deepest = {};
   const Result<std::vector<Point>> vertices = balls_.vertices(place);
-  if (!vertices) throw std::bad_alloc();  // its only error for a ball that is there
+  if (!vertices) throw std::bad_alloc();  // its only error for an occupied slot
   for (const Point& vertex : vertices.value()) {
     const double depth = solid_.distance(vertex);
     if (!(depth > deepest.size) || (reach_out_ && !solid_.contains(vertex))) continue;

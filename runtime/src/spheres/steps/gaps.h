@@ -48,8 +48,8 @@ class GapFinder {
   const DynamicUnion& balls_;
   bool reach_out_;
   std::vector<Sample> samples_;
-  std::vector<Gap> deepest_;         // by place
-  std::vector<std::uint8_t> known_;  // by place
+  std::vector<Gap> deepest_;         // by slot
+  std::vector<std::uint8_t> known_;  // by slot
 };
 
 }  // namespace medial_vk
