@@ -31,12 +31,12 @@ struct MeshReport {
   std::uint64_t degenerate_dropped = 0;  ///< Zero area, a repeated corner, or fewer than three corners.
   /// Of those: a corner inside a side; the neighbour there is divided at that corner.
   std::uint64_t caps_repaired = 0;
-  std::uint64_t duplicates_dropped = 0;     ///< Same three corners as an earlier face, in any order.
-  std::uint64_t inner_walls_dropped = 0;    ///< Of those: faces between two solids that touch, dropped on both sides.
-  std::uint64_t open_edges = 0;             ///< Edges of one triangle.
-  std::uint64_t non_manifold_edges = 0;     ///< Edges of three or more triangles.
-  std::uint64_t inconsistent_edges = 0;     ///< Edges that two triangles traverse in the same direction,
-                                            /// < and that no turning of faces can make consistent.
+  std::uint64_t duplicates_dropped = 0;   ///< Same three corners as an earlier face, in any order.
+  std::uint64_t inner_walls_dropped = 0;  ///< Of those: faces between two solids that touch, dropped on both sides.
+  std::uint64_t open_edges = 0;           ///< Edges of one triangle.
+  std::uint64_t non_manifold_edges = 0;   ///< Edges of three or more triangles.
+  /// Edges of two triangles that traverse them in the same direction, where no turning of faces helps.
+  std::uint64_t inconsistent_edges = 0;
   std::uint64_t non_manifold_vertices = 0;  ///< Vertices whose triangles form more than one fan.
   std::uint64_t components = 0;             ///< Connected by shared edges.
   std::uint64_t reoriented_faces = 0;       ///< Faces turned over, once for each of the three reasons that follow.
