@@ -18,8 +18,8 @@ namespace medial_vk {
 struct CellBounds {
   /// A value attained somewhere in the region, or minus infinity.
   double value = -std::numeric_limits<double>::infinity();
-  double bound = -std::numeric_limits<double>::infinity();  ///< Upper bound in the cell; minus infinity: the cell is
-                                                            ///< outside the region.
+  /// Upper bound in the cell; minus infinity: the cell is outside the region.
+  double bound = -std::numeric_limits<double>::infinity();
 };
 
 struct SearchLimits {

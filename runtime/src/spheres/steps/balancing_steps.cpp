@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kSpherePoints = 256;
 constexpr double kLeastCosine =
-    0.3;  // of a normal of the ball and the direction to the boundary: below, the direction is too oblique
+    0.3;  // of a normal of the ball and the direction to the boundary; less is oblique, not far
 constexpr double kAcross = 0.999;  // least one of a face's normal and the direction to its inner points
 constexpr int kRounds = 8;
 constexpr double kRidge = 1e-3;

@@ -19,9 +19,10 @@ class GapFinder {
   struct Gap {
     Point at = {0, 0, 0};
     double size = 0;
-    Point towards_balls = {0, 0,
-                           0};  ///< For a gap on the boundary: the point half way to the nearest ball, if there is one.
-    Point inward = {0, 0, 0};   ///< For a gap on the boundary: a unit normal into the solid, at a corner the mean one.
+    /// For a gap on the boundary: the point half way to the nearest ball, if there is one.
+    Point towards_balls = {0, 0, 0};
+    /// For a gap on the boundary: a unit normal into the solid, at a corner the mean one.
+    Point inward = {0, 0, 0};
   };
   /// To be called after a change, addition or removal of the ball in a slot.
   void forget(std::uint32_t place);
