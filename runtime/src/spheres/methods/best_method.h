@@ -1,4 +1,4 @@
-// The tightest balls for a solid that we know how to find.
+// The method best: tight balls for a solid, chosen and moved for the contract.
 #pragma once
 
 #include "spheres/methods/sphere_set.h"
