@@ -1,4 +1,4 @@
-// A ball: what medial spheres, unions and approximations are made of.
+// A ball: the element of medial spheres, unions and approximations.
 #pragma once
 
 #include "medial_vk/mesh_view.h"

@@ -1,5 +1,5 @@
 // A bounding volume hierarchy over triangles, built on the CPU by binned SAH (Wald 2007), in double precision, and
-// refitted when they move. It is what is uploaded to the device, and it answers exact queries on the host.
+// refitted when they move. It is uploaded to the device, and answers exact queries on the host.
 #pragma once
 
 #include <array>
@@ -33,23 +33,24 @@ struct BvhHit {
 
 class Bvh {
  public:
-  /// No leaf lies deeper below the root; what a traversal stack must hold.
+  /// Greatest depth of a leaf below the root, and so the capacity that a traversal stack requires.
   static constexpr std::uint32_t kMaxDepth = 48;
 
-  /// Copies the corners of the triangles in leaf order. `threads` 0: as many as the machine has.
-  /// Errors: kInvalidMesh (no triangle, index out of range, coordinate not finite), kOutOfMemory.
+  /// Copies the corners of the triangles in leaf order. `threads` 0: one per core. Errors: kInvalidMesh (no triangle,
+  /// index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
-  /// The same tree with its leaves split further, for scattered queries on the host: what build() makes of the same
-  /// triangles for `leaf_size`, if none has moved since, without sorting them again. Errors: kOutOfMemory.
+  /// The same tree with its leaves split further, for scattered queries on the host. It equals the tree that build()
+  /// makes of the same triangles for `leaf_size`, if none has moved since, but without a second sort. Errors:
+  /// kOutOfMemory.
   Result<Bvh> refined(std::uint32_t leaf_size) const;
 
   /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
-  /// triangles below it; which triangles that are, and the order of the leaves, stays. Triangle t of `mesh` takes the
-  /// place of triangle t. All answers are as right as those of a new tree, and nearly as quick while triangles that
-  /// were neighbours stay neighbours. Time linear in the triangles, `threads` as in build(), which does not show in
-  /// the result. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite: the
-  /// tree is as it was), kOutOfMemory (it is of no use until a refit succeeds).
+  /// triangles below it; the triangles of each node and the order of the leaves stay the same. Triangle t of `mesh`
+  /// replaces triangle t. All answers are as exact as those of a new tree, and nearly as fast while triangles that were
+  /// neighbours stay neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result
+  /// does not depend on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not
+  /// finite: the tree is unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
   Status refit(const MeshView& mesh, unsigned threads = 0);
 
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
@@ -58,22 +59,23 @@ class Bvh {
 
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
-  /// For several closest points near one another: leaf positions of all triangles within `radius` of `centre`, and of
-  /// some that are a little farther away, replace `positions`; closest_of() and find_within() then test no others.
+  /// Prepares several closest-point queries near one another: leaf positions of all triangles within `radius` of
+  /// `centre`, and of some triangles beyond it, replace `positions`; closest_of() and find_within() then test no
+  /// others.
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
   /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
-  /// As closest(), among the triangles at these leaf positions and `best`, what is known of others.
+  /// As closest(), among the triangles at these leaf positions and `best`, the best hit of other triangles.
   BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {}) const;
-  /// Index in `positions` of the first of these triangles that is closer to p than `radius` (positive), or their
-  /// number.
+  /// Index in `positions` of the first triangle closer to p than `radius` (positive), or positions.size() if there is
+  /// none.
   std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
-  /// Is there a point of the mesh at a distance below `radius` from `centre`? Stops at the first.
+  /// True if a point of the mesh lies at a distance below `radius` from `centre`. Stops at the first.
   bool any_within(const Point& centre, double radius) const;
 
  private:
   void take_corners(const MeshView& mesh, unsigned threads);
-  /// Makes the triangle at a leaf position the best if it is nearer, or as near and of a smaller index.
+  /// Makes the triangle at a leaf position the best hit if it is nearer, or equally near and of a smaller index.
   void improve(const Point& p, std::uint32_t position, BvhHit& best) const;
 
   std::vector<BvhNode> nodes_;

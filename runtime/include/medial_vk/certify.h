@@ -1,5 +1,5 @@
 // The certificate in double precision (contract: every output ball satisfies it). The device finds balls in float;
-// this makes their radii exact, and drops, with a count, any ball that does not pass.
+// certification makes their radii exact, and drops and counts any ball that does not pass.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace medial_vk {
 
 struct CertificateReport {
   std::uint64_t passed = 0;
-  std::uint64_t rejected = 0;  ///< Dropped: neither they nor a point beside them on their sheet passed.
+  std::uint64_t rejected = 0;  ///< Dropped, since neither the ball nor a point beside it on its sheet passed.
 };
 
-/// Recomputes radius and spoke a exactly at each centre as it will be written, rounds the radius down by a derived
+/// Recomputes radius and spoke a exactly at each centre as written to the output, rounds the radius down by a derived
 /// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and
 /// has no other sphere (of several the first stays). Spheres that fail are dropped; in mode certified their voxels are
-/// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as
-/// extraction gives them. Throws std::bad_alloc.
+/// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as an
+/// extraction returns them. Throws std::bad_alloc.
 CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction);
 
-/// What extract_and_certify() finds: every sphere has the certificate.
+/// The result of extract_and_certify(): every sphere satisfies the certificate.
 struct CertifiedExtraction {
   Extraction extraction;
   CertificateReport certificate;
-  std::vector<StageTime> host_times;  ///< Seconds by the clock on the wall: "extract", "certify".
+  std::vector<StageTime> host_times;  ///< Wall-clock seconds: "extract", "certify".
 };
 
 /// Finds medial spheres and certifies them. Does not throw. Errors: those of the extractor; kOutOfMemory; kInterrupted.

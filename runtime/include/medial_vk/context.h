@@ -8,19 +8,19 @@
 
 #include "medial_vk/result.h"
 
-struct VkAllocationCallbacks;  // of vulkan.h, which this header does not need
+struct VkAllocationCallbacks;  // of vulkan.h, which this header does not include
 
 namespace medial_vk {
 
 /// One physical device as Vulkan lists it.
 struct DeviceDescription {
-  std::uint32_t index = 0;  ///< Position in Vulkan's enumeration; what ContextOptions::device takes as an index.
+  std::uint32_t index = 0;  ///< Position in Vulkan's enumeration, and the index for ContextOptions::device.
   std::string name;
   std::string type;    ///< "discrete", "integrated", "virtual", "cpu" or "other".
   std::string driver;  ///< Driver name and version.
   std::uint32_t api_version = 0;
   std::uint64_t memory_bytes = 0;  ///< Size of the largest device-local heap.
-  bool usable = false;             ///< Vulkan 1.2, a compute queue and limits that are high enough.
+  bool usable = false;             ///< Vulkan 1.2, a compute queue and sufficient limits.
   std::string why_not;             ///< If not usable: the reason.
 };
 
@@ -35,21 +35,21 @@ struct ContextOptions {
   /// Threads of the host for the library's own work on this context (programs, arrays for the device); 0: one per core.
   /// Drivers have threads of their own.
   unsigned threads = 0;
-  /// Where Vulkan takes host memory from; null: where its driver likes to. Must stay valid until the context is gone,
-  /// and be callable from several threads at once (programs are made on all processors).
+  /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
+  /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 };
 
 struct HostDevice;  // host_device.h
 
-/// Owns everything Vulkan, or computes on a device that its host owns. Move-only. Any number may be there at once, on
-/// any threads: they share nothing. One context, with the scenes on it, is for one thread at a time.
+/// Owns all Vulkan objects, or computes on a device that its host owns. Move-only. Any number of contexts may exist at
+/// once, on any threads: they share nothing. One context, with the scenes on it, is for one thread at a time.
 class Context {
  public:
-  /// Errors: kNoDevice with what was found and why it will not do, kOutOfMemory.
+  /// Errors: kNoDevice (the message lists the devices found and the reason why each is not usable), kOutOfMemory.
   static Result<Context> create(const ContextOptions& options = {});
-  /// On the host's device, which it must have until the context is gone. Whoever ends the context has waited for what
-  /// was recorded or submitted with it. Errors: kNoDevice, which says why it will not do, kOutOfMemory.
+  /// A context on the host's device, which must outlive it. Before the context is destroyed, all recorded or submitted
+  /// work has finished. Errors: kNoDevice (the message gives the reason), kOutOfMemory.
   static Result<Context> adopt(const HostDevice& host);
   static Result<std::vector<DeviceDescription>> list_devices();
 
@@ -58,8 +58,8 @@ class Context {
   ~Context();
 
   const DeviceDescription& device() const;
-  /// What the destructor begins with: programs are kept for the next process, and destroyed. For a process that ends
-  /// without the destructor; made again if they are needed after all.
+  /// The first step of the destructor: writes the programs to the pipeline cache for the next process, and destroys
+  /// them. For a process that ends without the destructor; programs that are needed afterwards are compiled again.
   void close_programs() noexcept;
   /// Messages of the validation layer (warnings and errors) since creation; 0 without validation.
   std::uint64_t validation_messages() const;

@@ -1,4 +1,4 @@
-// A union of balls that come, go and move, measured again only where it changes.
+// A union of balls that are added, removed and moved, remeasured only where it changes.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace medial_vk {
 
-/// What a ball shows on the surface of its union, which says how the volume changes with it: if its centre moves by d
-/// and its radius grows by e, by vector . d + area * e, to first order.
+/// The part of a ball's sphere on the envelope of the union. It gives the change of the volume: if the centre moves by
+/// d and the radius grows by e, the volume grows by vector . d + area * e, to first order.
 struct Exposure {
-  double area = 0;           ///< Of its sphere on the surface.
-  Point vector = {0, 0, 0};  ///< The outward unit normals there, summed up by area.
+  double area = 0;           ///< Of the sphere on the envelope.
+  Point vector = {0, 0, 0};  ///< The integral of the outward unit normals there, by area.
 };
 
 /// For hundreds or thousands of balls: a change takes the time of the power cells that it changes, and a few
-/// nanoseconds for every other ball. Volumes are those of measure_ball_union(), with its conditions for balls.
+/// nanoseconds for every other ball. Volumes are those of measure_ball_union(), under the same conditions for balls.
 class DynamicUnion {
  public:
   /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. Errors: kUsage
@@ -30,30 +30,30 @@ class DynamicUnion {
   DynamicUnion& operator=(DynamicUnion&&) noexcept;
   ~DynamicUnion();
 
-  /// Balls have places in [0, places()), not all of which need be taken.
+  /// Each ball occupies a slot in [0, places()); some slots may be empty.
   std::uint32_t places() const;
   bool holds(std::uint32_t place) const;
   std::uint32_t size() const;
   const Ball& ball(std::uint32_t place) const;
   double volume() const;
   Exposure exposure(std::uint32_t place) const;
-  /// Where its sphere meets two others on the surface, as BallUnion::vertices. Errors: kUsage (no ball there),
-  /// kOutOfMemory.
+  /// The points of the envelope where the ball's sphere meets two others, as BallUnion::vertices. Errors: kUsage (an
+  /// empty slot), kOutOfMemory.
   Result<std::vector<Point>> vertices(std::uint32_t place) const;
 
-  /// The three changes. Errors: kUsage (no ball there, no room, a ball beyond `largest`), kOutOfMemory; then nothing
-  /// has changed. add() says where the ball is now.
+  /// The three changes; add() returns the slot of the ball. Errors: kUsage (an empty slot, no free slot, a ball beyond
+  /// `largest`), kOutOfMemory; after an error nothing has changed.
   Result<std::uint32_t> add(const Ball& ball);
   Status remove(std::uint32_t place);
   Status move(std::uint32_t place, const Ball& to);
-  /// Takes back the last change; once.
+  /// Reverts the last change, but none before it.
   void undo();
-  /// Places of balls whose power cells the last change has changed.
+  /// Slots of balls whose power cells the last change has changed.
   std::span<const std::uint32_t> changed() const;
 
-  /// What add() would add to the volume. Errors: as add().
+  /// The volume by which add() would enlarge the union. Errors: as add().
   Result<double> gain(const Ball& ball);
-  /// What remove() would take from the volume. Errors: as remove().
+  /// The volume by which remove() would reduce the union. Errors: as remove().
   Result<double> loss(std::uint32_t place);
 
  private:

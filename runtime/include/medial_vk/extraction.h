@@ -1,4 +1,4 @@
-// The main job: medial spheres of a mesh, found on the device.
+// Extraction: medial spheres of a mesh, found on the device.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,10 @@ enum class Mode : std::uint32_t {
   kCertified,  ///< Proved dismissal, inherited contacts, aimed search, subdivision (docs/theory.md).
 };
 
-/// What only mode thesis knows.
+/// Options of mode thesis only.
 struct ThesisOptions {
   bool narrow_features = true;  ///< Also search voxels whose sphere meets the boundary (2.4.3).
-  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, coarse to fine.
+  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, from coarse to fine.
 
   bool operator==(const ThesisOptions&) const = default;
 };
@@ -39,14 +39,15 @@ struct ExtractionOptions {
   std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
   double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
   double radius = 0.0;             ///< Radius threshold as a fraction of the longest side; 0: off (angle only).
-  /// Certified, with a radius threshold: the object angle that a point of that radius must have (never above
-  /// object_angle), radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
+  /// Certified, with a radius threshold: the least object angle of a point of that radius (never above object_angle),
+  /// radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
   double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
   std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
   ThesisOptions thesis;            ///< Of mode thesis only.
-  /// Bytes of device memory to stay below, the mesh and what copies pass through included, but not what moved vertices
-  /// go up through (ExtractionJob). A mesh that takes more than three quarters of it comes on top.
+  /// Upper limit of device memory in bytes. It includes the mesh and the staging memory of copies, but not the staging
+  /// memory of moved vertices (ExtractionJob). Beside a mesh that takes more than three quarters of it, the rest still
+  /// gets a quarter, and the total exceeds the limit.
   std::uint64_t memory_budget = 1ull << 30;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
   MeasurementOptions measurements;
@@ -73,24 +74,24 @@ struct MedialSphere {
   std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
 };
 
-/// Why a finest voxel stayed undecided: what a salient medial point that hides in it must be like. A voxel counts under
-/// the first of these that holds (docs/theory.md, "What undecided means").
+/// The reason why a finest voxel stayed undecided, as a property of any salient medial point that it may still hold.
+/// The first kind that applies is given (docs/theory.md, "What undecided means").
 enum class UndecidedKind : std::uint32_t {
   kNearFace,   ///< It lies within 1/64 of the voxel side of a face of its voxel.
   kNearAngle,  ///< Its object angle is below object_angle + 0.05.
-  /// Its radius is below 1/8 of the voxel side; or the boundary passes through that part of the voxel, with triangles
-  /// whose normals cannot be trusted.
+  /// Its radius is below 1/8 of the voxel side, or the boundary passes through that part of the voxel with triangles
+  /// whose normals are not trusted.
   kBoundary,
   kOther,
 };
 inline constexpr std::size_t kUndecidedKinds = 4;
 
-/// A finest voxel that is neither found nor proved empty.
+/// A finest voxel with neither a point found nor a proof that it holds none.
 struct UndecidedVoxel {
   std::array<std::uint32_t, 3> voxel;
   UndecidedKind kind = UndecidedKind::kOther;
-  /// The two contacts of a salient medial point that hides there are at most this far apart: the width of equation 3.1,
-  /// in the units of the mesh.
+  /// The greatest distance of the two contacts of a salient medial point that the voxel may hold: the width of equation
+  /// 3.1, in the units of the mesh.
   float width = 0;
 };
 
@@ -106,29 +107,30 @@ struct Extraction {
   ExtractionMeasurements measurements;
 };
 
-/// Called with the share done, 0 to 1, between parts of the work and every ten milliseconds while the device computes.
+/// Called with the finished share, 0 to 1, between steps of the work and every ten milliseconds while the device
+/// computes.
 using ProgressCallback = std::function<void(double done)>;
-/// The same of calls with several stages, whose names they list.
+/// The same for calls with several stages; their descriptions list the names of the stages.
 using StageProgress = std::function<void(const char* stage, double done)>;
 
 /// Finds the medial spheres of `mesh` on the device of `context`. Blocks until it is done, or until `stop` is requested
-/// from any thread, the callback included: then the device finishes the dispatch that it is at, and the context is as
-/// before. The spheres are exact to float; certify_spheres() (certify.h) makes the guarantee in double precision.
-/// Errors: kUsage (an option out of range), kInvalidMesh (no extent), kOutOfMemory, kInterrupted, kInternal (device
-/// lost).
+/// from any thread, the callback included: the device then finishes its current dispatch, and the context is as before.
+/// The spheres are exact to float; certify_spheres() (certify.h) gives the guarantee in double precision. Errors:
+/// kUsage (an option out of range), kInvalidMesh (no extent), kOutOfMemory, kInterrupted, kInternal (device lost).
 Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
-/// The same of a mesh that is on the device already, for repeated extractions: nothing is uploaded again.
+/// The same for a mesh that is on the device already, for repeated extractions without another upload.
 Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions& options,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
-/// Finds medial spheres of a mesh, exact to float, as extract_medial_spheres() does: on a device, or in another way.
+/// A function that finds medial spheres of a mesh, exact to float, like extract_medial_spheres(): on a device, or in
+/// another way.
 using Extractor = std::function<Result<Extraction>(const IndexedMesh& mesh, const ExtractionOptions& options,
                                                    const ProgressCallback& progress, const std::stop_token& stop)>;
 
-/// On the device of `context`, which outlives it. The mesh that was searched last stays on the device, so that the next
-/// extraction of it uploads nothing. For one thread at a time. Throws std::bad_alloc.
+/// An extractor on the device of `context`, which outlives it. The mesh of the last extraction stays on the device, so
+/// that its next extraction requires no upload. For one thread at a time. Throws std::bad_alloc.
 Extractor device_extractor(Context& context);
 
 }  // namespace medial_vk

@@ -1,16 +1,16 @@
 // Extractions recorded into a host's command buffers: medial spheres of a mesh that moves, in buffers that the host
-// draws from or computes with. Nothing is submitted, waited for or read back by recording.
+// draws from or computes with. Recording submits nothing, waits for nothing and reads nothing back.
 //
 //   auto job = ExtractionJob::create(context, mesh, options);
 //   for every frame:
 //     mesh.move_vertices(positions);        // if they have moved
 //     job.update(mesh);
 //     record(commands, job);                // outside of a render pass
-//     ... barriers are recorded: what follows in `commands`, or waits for it, reads job.buffers() ...
+//     ... barriers are recorded: commands that follow, or wait for these, may read job.buffers() ...
 //
 // The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may stick out of the
-// solid by its rounding, 2e-6 of the longest side. certify_spheres() (certify.h) examines each in double precision and
-// drops what does not pass.
+// solid by its rounding, 2e-6 of the longest side. certify_spheres() (certify.h) tests each in double precision and
+// drops those that do not pass.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -38,24 +38,24 @@ struct RecordedSphere {
   std::uint32_t reserved;
 };
 
-/// What JobBuffers::counts holds. The first four words are a VkDrawIndirectCommand: an instance for every sphere.
+/// The content of JobBuffers::counts. The first four words are a VkDrawIndirectCommand: an instance for every sphere.
 struct RecordedCounts {
   std::uint32_t vertices;  ///< JobOptions::vertices_per_sphere
   std::uint32_t spheres;
   std::uint32_t first_vertex;    ///< 0
   std::uint32_t first_instance;  ///< 0
-  std::uint32_t undecided;       ///< Voxels that are neither found nor proved empty.
+  std::uint32_t undecided;       ///< Number of undecided voxels.
   std::uint32_t complete;        ///< 0: the memory budget was too small, or lists were too long; there are no spheres.
 };
 
-/// From the unit box to the units of the mesh: p -> origin + scale p. Radii are scaled.
+/// The map from the unit box to the units of the mesh: p -> origin + scale p. Radii are multiplied by `scale`.
 struct Placement {
   Point origin = {0, 0, 0};
   double scale = 1;
 };
 
-/// Buffers of the job, of its device and queue family; they stay the same until the job is gone. All have the usages
-/// storage, uniform texel, vertex, indirect, transfer source and destination.
+/// Buffers of the job, on its device and for its queue family; they stay the same until the job is destroyed. All have
+/// the usages storage, uniform texel, vertex, indirect, transfer source and transfer destination.
 struct JobBuffers {
   VkBuffer spheres = VK_NULL_HANDLE;  ///< RecordedSphere, from byte 0 on, in no particular order.
   VkDeviceSize sphere_bytes = 0;      ///< Size of that buffer.
@@ -63,23 +63,23 @@ struct JobBuffers {
 };
 
 struct JobOptions {
-  /// Recorded sequences that may wait or run at a time: the one that was recorded so many calls ago has finished when
-  /// update() and record() are called.
+  /// Number of recorded sequences that may be pending or running at a time. Precondition of update() and record(): the
+  /// sequence that was recorded `frames` calls ago has finished.
   std::uint32_t frames = 1;
-  std::uint32_t vertices_per_sphere = 4;  ///< Of RecordedCounts.
+  std::uint32_t vertices_per_sphere = 4;  ///< The value of RecordedCounts::vertices.
 };
 
-/// Move-only. For one thread at a time, as its context is, which outlives it.
+/// Move-only. For one thread at a time, like its context, which outlives it.
 class ExtractionJob {
  public:
-  /// Takes memory and makes programs, so that recording takes neither; submits and waits where the device's memory is
-  /// not the host's. Errors: kUsage (an option out of range, mode thesis, no frames), kInvalidMesh, kOutOfMemory,
-  /// kInternal.
+  /// Allocates memory and compiles programs, so that recording does neither; submits and waits where the device's
+  /// memory is not the host's. Errors: kUsage (an option out of range, mode thesis, no frames), kInvalidMesh,
+  /// kOutOfMemory, kInternal.
   static Result<ExtractionJob> create(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
                                       const JobOptions& job = {});
   ExtractionJob(ExtractionJob&&) noexcept;
   ExtractionJob& operator=(ExtractionJob&&) noexcept;
-  /// What was recorded has finished, or is never submitted.
+  /// Precondition: every recorded sequence has finished, or is never submitted.
   ~ExtractionJob();
 
   /// Follows vertices that have moved, from the next record() on: `moved` is the mesh that create() was given, after
@@ -87,17 +87,17 @@ class ExtractionJob {
   /// since the last record()), kInvalidMesh (no extent: record() fails until an update succeeds), kOutOfMemory.
   Status update(const IndexedMesh& moved);
 
-  /// Appends to `commands`, which are in the recording state, outside of a render pass, and of the context's queue
-  /// family or one that shares its resources. Barriers before and after order them against everything else in the
-  /// queue, so `buffers()` may be read by any stage of what follows. Errors: kOutOfMemory, kInternal; `commands` are
-  /// then of no use.
+  /// Appends an extraction to `commands`, which are in the recording state, outside of a render pass, and of the
+  /// context's queue family or one that shares its resources. Barriers before and after order it against everything
+  /// else in the queue, so any stage of later commands may read `buffers()`. Errors: kOutOfMemory, kInternal;
+  /// `commands` are then unusable.
   Status record(VkCommandBuffer commands);
 
   JobBuffers buffers() const;
-  /// Of the spheres that the last record() will have found.
+  /// The placement of the spheres of the last recorded sequence.
   Placement placement() const;
-  /// Of the sequence that was recorded `frames` calls of record() ago (of the last one if it is 1), once it has
-  /// finished. If its lists were too long, the next record() has room for longer ones.
+  /// The counts of the sequence that was recorded `frames` calls of record() ago (of the last one if `frames` is 1).
+  /// Precondition: it has finished. If its lists were too long, the next record() allows for longer ones.
   RecordedCounts counts();
 
  private:

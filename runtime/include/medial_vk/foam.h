@@ -1,11 +1,12 @@
-// What a sphere with finitely many sampled distances can still hide: the foam of Sections 3.3 and 3.4 of S. Stolpner,
-// "Medial Spheres for Shape Representation" (2011), with proofs of our own in docs/foam.md. On the host, in double
-// precision; boundaries of any kind, reached through a callback.
+// The foam of Sections 3.3 and 3.4 of S. Stolpner, "Medial Spheres for Shape Representation" (2011): bounds of the
+// medial points that finitely many sampled distances in a sphere can miss. docs/foam.md has our own proofs. Computed on
+// the host, in double precision; a callback gives access to boundaries of any kind.
 //
-// A medial point is *missed* if it lies inside the sphere and no sampled segment shows it. Its *width* is the greatest
-// distance between two of its nearest boundary points (equation 3.1: 2 radius sin(object angle) for the two of them),
-// its *depth* its distance from the sphere. No statement here needs the assumptions of Lemma 3.3: boundary points may
-// coincide, the boundary may have edges, the sphere may touch it, and samples may lie anywhere in the sphere.
+// A medial point is *missed* if it lies inside the sphere and no sampled segment reveals it. Its *width* is the
+// greatest distance between two of its nearest boundary points (equation 3.1: 2 radius sin(object angle) for the two of
+// them), its *depth* its distance from the sphere. No statement here requires the assumptions of Lemma 3.3: boundary
+// points may coincide, the boundary may have edges, the sphere may touch it, and samples may lie anywhere in the
+// sphere.
 #pragma once
 
 #include <array>
@@ -31,11 +32,11 @@ struct FoamSample {
 enum class FoamBallKind : std::uint32_t {
   kHullVertex = 1,     ///< At a vertex of the hull, that is, at a sample: part of the empty foam up to rounding.
   kVoronoiVertex = 2,  ///< At a vertex of V(A) in the hull.
-  kVoronoiEdge = 3,    ///< Where an edge of V(A) meets the hull's surface.
-  kVoronoiFace = 4,    ///< Where a face of V(A) meets an edge of the hull.
+  kVoronoiEdge = 3,    ///< At an intersection of an edge of V(A) with the hull's surface.
+  kVoronoiFace = 4,    ///< At an intersection of a face of V(A) with an edge of the hull.
 };
 
-/// A ball of the full foam: every one of its sites lies on its sphere.
+/// A ball of the full foam: each of its sites lies on its sphere.
 struct FoamBall {
   static constexpr std::uint32_t kNoSite = 0xffffffffu;
   Ball ball;
@@ -47,38 +48,39 @@ struct FoamBall {
 /// The foam of a set of samples. Immutable and safe to share between threads once built.
 class Foam {
  public:
-  /// `samples`: at least one; their queries lie in `sphere` (up to 1e-6 of its radius). The statements below are about
-  /// their convex hull; uncovered_depth() says what is left between it and the sphere.
-  /// `query_error`: every sample's `nearest` is this close to the boundary, and the open ball around `query` with
-  /// radius |query - nearest| - query_error holds no boundary point. Rounding of double is added to it: slack(). Time:
-  /// about sites^2 + samples * hull facets; memory: linear. Errors: kUsage (no sample, a number that is not finite, a
-  /// radius that is not positive, a query outside), kOutOfMemory.
+  /// `samples`: at least one; their queries lie in `sphere` (up to 1e-6 of its radius). The statements below hold for
+  /// their convex hull; uncovered_depth() bounds the rest of the sphere.
+  /// `query_error`: every sample's `nearest` is at most this far from the boundary, and the open ball around `query`
+  /// with radius |query - nearest| - query_error holds no boundary point. slack() adds the rounding of double to it.
+  /// Time: about sites^2 + samples * hull facets; memory: linear. Errors: kUsage (no sample, a number that is not
+  /// finite, a radius that is not positive, a query outside), kOutOfMemory.
   static Result<Foam> build(std::span<const FoamSample> samples, const Ball& sphere, double query_error = 0);
   Foam(Foam&&) noexcept;
   Foam& operator=(Foam&&) noexcept;
   ~Foam();
 
   const Ball& sphere() const;
-  /// The set of nearest boundary points, those that coincide up to rounding once.
+  /// The set of nearest boundary points; points that coincide up to rounding appear once.
   const std::vector<Point>& sites() const;
   /// The empty foam: one ball per sample, in their order. Their interiors, smaller by slack(), hold no boundary point.
   const std::vector<Ball>& empty_balls() const;
-  /// The full foam of all sites, each ball once. That of site A: the balls that name A.
+  /// The full foam of all sites, each ball once. The full foam of site A consists of the balls whose `sites` include A.
   const std::vector<FoamBall>& full_balls() const;
-  /// query_error plus the rounding of what is computed here.
+  /// query_error plus a bound of the rounding of this computation.
   double slack() const;
 
-  /// False: x is no nearest boundary point of any medial point in the hull (Lemma 3.3). x lies in the full foam grown
-  /// by slack() and in no ball of the empty foam shrunk by slack(), or not.
+  /// False: x is no nearest boundary point of any medial point in the hull (Lemma 3.3). True if x lies in the full foam
+  /// grown by slack() and in no ball of the empty foam shrunk by slack().
   bool may_hold_contact(const Point& x) const;
 
-  /// No medial point of the hull at this depth or more is wider than this (3.4). Within about 5 % of the largest
-  /// distance that the foam leaves open for two contacts of one site, unless that takes too many parts.
+  /// An upper bound of the width of medial points in the hull at this depth or more (3.4). It is within about 5 % of
+  /// the largest distance that the foam allows between two contacts, one of them at a site, unless that takes too many
+  /// parts.
   double width_bound(double depth = 0) const;
   /// Every medial point inside the sphere that is wider than `width` lies within this distance of the sphere (3.4). At
-  /// most the sphere's radius, which says nothing; found to 1/256 of it.
+  /// most the sphere's radius, which is the trivial bound; found to 1/256 of the radius.
   double depth_bound(double width) const;
-  /// Points of the sphere's ball outside the hull are no deeper than this.
+  /// The greatest depth of points in the sphere outside the hull.
   double uncovered_depth() const;
 
  private:
@@ -87,36 +89,36 @@ class Foam {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Nearest boundary points of many points, in their order: a batch for Scene::closest_points(), Bvh::closest() or
-/// anything else. May fail; then the caller fails with the same error.
+/// A function that returns nearest boundary points of many points, in their order, by Scene::closest_points(),
+/// Bvh::closest() or another method. If it fails, the caller fails with the same error.
 using NearestPointsFunction = std::function<Result<std::vector<Point>>(std::span<const Point>)>;
 
 /// The sphere around a cubic voxel.
 Ball sphere_around_voxel(const Point& centre, double side);
 
-/// What Algorithm 3 (DECIDEMS) has looked at, and its answer.
+/// The samples that Algorithm 3 (DECIDEMS) has examined, and its answer.
 struct SphereSamples {
   Ball sphere;
   std::vector<FoamSample> samples;
-  /// 'True': a medial point of the boundary lies in the sphere (Lemma 2.2). Else 'Undetermined'.
+  /// True is the answer 'True': a medial point of the boundary lies in the sphere (Lemma 2.2). False is 'Undetermined'.
   bool holds_medial_point = false;
 };
 
 struct SphereSampling {
-  std::uint32_t count = 50;  ///< Spiral points on the sphere (2.3.2); each brings the opposite point of its line.
+  std::uint32_t count = 50;  ///< Spiral points on the sphere (2.3.2); the opposite of each is sampled too.
   bool deep_samples = true;  ///< Also c_in and c_out (3.2).
-  double query_error = 0;    ///< As in Foam::build: what the answers of `nearest` may be wrong by.
+  double query_error = 0;    ///< The greatest error of the answers of `nearest`, as in Foam::build.
 };
 
 /// Algorithm 3 on spiral points, their opposites and the deep samples. A pair counts as different only if the ball at
-/// its far end is not empty by more than rounding and twice the query error: 'True' is certain.
+/// its far end is not empty by more than rounding and twice the query error, so that the answer 'True' is certain.
 /// Errors: kUsage (a radius that is not positive, a wrong number of answers), kOutOfMemory, and those of `nearest`.
 Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
                                     const NearestPointsFunction& nearest);
 
 /// One step of iterated foam sampling (3.5, problem 2): adds the centres of the full foam's balls of types 2 to 4. Such
-/// a centre lies inside the sphere; its opposite is where the ray away from its nearest boundary point leaves the
-/// sphere, which is added too. Errors: as sample_sphere().
+/// a centre lies inside the sphere; its opposite, the point where the ray away from its nearest boundary point leaves
+/// the sphere, is added too. Errors: as sample_sphere().
 Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
                       const NearestPointsFunction& nearest);
 

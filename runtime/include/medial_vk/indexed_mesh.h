@@ -1,4 +1,4 @@
-// A mesh with its index: what extraction, certificate, queries, recorded jobs and fits of spheres all share.
+// A mesh with its index, which extraction, certificate, queries, recorded jobs and fits of spheres share.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,25 @@
 
 namespace medial_vk {
 
-/// A prepared mesh, the tree over its triangles, and what its triangles share at edges and vertices. It is made once,
-/// on the host and without a device, and every step takes it. Copies share what they hold; a copy that is moved leaves
-/// the others as they were.
+/// A prepared mesh, the tree over its triangles, and the links between triangles at edges and vertices. It is built
+/// once, on the host and without a device, and is the input of every step. Copies share their data; move_vertices() on
+/// one copy does not change the others.
 class IndexedMesh {
  public:
   /// `threads` 0: one per core. Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not
   /// finite, flags that are neither none nor one per triangle), kOutOfMemory.
   static Result<IndexedMesh> create(PreparedMesh mesh, unsigned threads = 0);
-  /// From a mesh for whose flags the caller vouches, without preparation: arrays are copied, and the report holds what
-  /// the arrays tell (counts, box). For meshes that are known to be clean, such as those of a renderer. The same
-  /// errors.
+  /// From a mesh without preparation, for whose flags the caller vouches: arrays are copied, and the report holds only
+  /// counts and box. For meshes that are known to be clean, such as those of a renderer. The same errors.
   static Result<IndexedMesh> create(const MeshView& mesh, unsigned threads = 0);
 
-  // Moving is copying: none is ever empty.
+  // A move is a copy, so that no object is ever empty.
   IndexedMesh(const IndexedMesh&) = default;
   IndexedMesh& operator=(const IndexedMesh&) = default;
   ~IndexedMesh() = default;
 
-  /// The mesh, its flags and its report. After move_vertices() the box in the report is that of the moved mesh, all
-  /// else is as it was.
+  /// The mesh, its flags and its report. After move_vertices() the box in the report is that of the moved mesh; the
+  /// rest of the report is unchanged.
   const PreparedMesh& prepared() const;
   MeshView view() const;
   /// True if both share their data. Two meshes that were created separately are different, even if they are equal.
@@ -41,10 +40,10 @@ class IndexedMesh {
   /// Longest side of the bounding box: the unit of every fraction in ExtractionOptions.
   double longest_side() const;
 
-  /// Follows vertices that have moved; there are as many as before. The tree is refitted: answers are as exact as those
-  /// of a new one, and as fast while neighbours stay neighbours. `flags`: TriangleFlags of the new positions, for which
-  /// the caller vouches; empty: those that it has. Errors: kInvalidMesh (another number of vertices or flags, a
-  /// coordinate that is not finite: all stays as it was), kOutOfMemory (likewise).
+  /// Follows vertices that have moved; their number is as before. The tree is refitted: answers are as exact as those
+  /// of a new tree, and as fast while neighbours stay neighbours. `flags`: TriangleFlags of the new positions, for
+  /// which the caller vouches; empty: the present flags. Errors: kInvalidMesh (another number of vertices or flags, a
+  /// coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
   Status move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags = {}, unsigned threads = 0);
 
   struct Impl;

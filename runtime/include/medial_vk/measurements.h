@@ -1,4 +1,4 @@
-// What an extraction counts and times: for measurements, not for the results themselves.
+// Counts and times of an extraction, for measurements; results do not depend on them.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,33 @@ struct MeasurementOptions {
   bool operator==(const MeasurementOptions&) const = default;
 };
 
-/// Where the voxels and the time went. Counts do not depend on the machine.
+/// The numbers of voxels by outcome, and the amounts of work. Counts do not depend on the machine.
 struct ExtractionCounters {
   struct Level {
     double cell_size = 0;        ///< As a fraction of the longest side.
     std::uint64_t visited = 0;   ///< Cells examined.
     std::uint64_t kept = 0;      ///< Cells that could not be dismissed.
-    std::uint64_t contacts = 0;  ///< Sum of the lengths of the kept cells' contact lists.
-    std::uint64_t found = 0;     ///< Voxels that got their point at this level (finest level and below).
+    std::uint64_t contacts = 0;  ///< Total length of the contact lists of the kept cells.
+    std::uint64_t found = 0;     ///< Voxels whose point was found at this level (finest level and below).
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
     /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not
-    /// those of the features of pairs; and triangles in leaves that walks of the tree get to (of which winding numbers
-    /// evaluate solid angles).
+    /// those of the features of pairs; and triangles in the leaves that walks of the tree reach (for winding numbers,
+    /// the number of solid angles evaluated).
     std::uint64_t triangle_tests = 0;
     /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts`
     /// counts clusters there.
     std::uint64_t cluster_tests = 0;
     /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box against the
-    /// ball around its points and, if it gets there, once more for all of them; empty slots of wide nodes count, too.
+    /// ball around its points and, if the two meet, once more for all of them; empty slots of wide nodes count, too.
     std::uint64_t node_tests = 0;
   };
   std::vector<Level> levels;
   std::uint64_t found = 0;            ///< Finest voxels with a point.
   std::uint64_t undecided = 0;        ///< Finest voxels neither found nor proved empty when the levels ran out.
-  std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, themselves or in all their parts.
+  std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, as a whole or in all their parts.
   std::uint64_t queries = 0;          ///< Closest-point queries (contact lists and trees).
   std::uint32_t narrowing_steps = 0;  ///< Certified on a device: of every line, nine parts a step.
-  std::uint64_t retries = 0;  ///< Chunks run again: in smaller parts since a buffer was full, or for longer lists.
+  std::uint64_t retries = 0;  ///< Chunks run again: in smaller chunks since a buffer was full, or for longer lists.
 };
 
 /// Seconds of one stage.
@@ -51,7 +51,7 @@ struct StageTime {
   double seconds = 0;
 };
 
-/// Of one extraction.
+/// Measurements of one extraction.
 struct ExtractionMeasurements {
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.

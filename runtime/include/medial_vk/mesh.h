@@ -1,5 +1,5 @@
-// A triangle mesh in memory, and what is known of it. Readers fill it; prepare_mesh() drops what is no triangle
-// and says what had to be assumed.
+// A triangle mesh in memory, and its report. Readers fill the mesh; prepare_mesh() drops invalid triangles and reports
+// the assumptions it had to make.
 #pragma once
 
 #include <algorithm>
@@ -16,40 +16,41 @@ struct Mesh {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
 
-  // What a reader had to do to polygons that are no plain triangles; passed on to the report.
+  // Counts of polygons that a reader could not triangulate as they are; copied to the report.
   std::uint64_t short_polygons = 0;     ///< Faces of fewer than three corners, left out.
   std::uint64_t fallback_polygons = 0;  ///< Faces that cross themselves (or take too long), cut into a fan.
 };
 
-/// What prepare_mesh() found; printed in the summary, written to the report.
+/// The findings of prepare_mesh(), printed in the summary and written to the report.
 struct MeshReport {
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;              ///< After cleaning.
-  std::uint64_t merged_vertices = 0;        ///< Vertices at exactly the place of an earlier one.
-  std::uint64_t unused_vertices = 0;        ///< Vertices of no triangle, left out.
-  std::uint64_t fallback_polygons = 0;      ///< Polygons that cross themselves, cut into a fan.
-  std::uint64_t degenerate_dropped = 0;     ///< Zero area, a repeated corner, or fewer than three corners.
-  std::uint64_t caps_repaired = 0;          ///< Of those: corner inside a side, handed on to the neighbour there.
-  std::uint64_t duplicates_dropped = 0;     ///< Same three corners as an earlier face, in any order.
-  std::uint64_t inner_walls_dropped = 0;    ///< Of those: faces between two solids that touch, gone on both sides.
-  std::uint64_t open_edges = 0;             ///< Edges of one triangle.
-  std::uint64_t non_manifold_edges = 0;     ///< Edges of three or more triangles.
-  std::uint64_t inconsistent_edges = 0;     ///< Edges of two triangles that run through it in the same direction,
-                                            ///< where turning faces over could not help.
+  std::uint64_t triangles = 0;           ///< After cleaning.
+  std::uint64_t merged_vertices = 0;     ///< Vertices at exactly the position of an earlier one.
+  std::uint64_t unused_vertices = 0;     ///< Vertices of no triangle, left out.
+  std::uint64_t fallback_polygons = 0;   ///< Polygons that cross themselves, cut into a fan.
+  std::uint64_t degenerate_dropped = 0;  ///< Zero area, a repeated corner, or fewer than three corners.
+  /// Of those: a corner inside a side; the neighbour there is divided at that corner.
+  std::uint64_t caps_repaired = 0;
+  std::uint64_t duplicates_dropped = 0;   ///< Same three corners as an earlier face, in any order.
+  std::uint64_t inner_walls_dropped = 0;  ///< Of those: faces between two solids that touch, dropped on both sides.
+  std::uint64_t open_edges = 0;           ///< Edges of one triangle.
+  std::uint64_t non_manifold_edges = 0;   ///< Edges of three or more triangles.
+  /// Edges of two triangles that traverse them in the same direction, where no turning of faces helps.
+  std::uint64_t inconsistent_edges = 0;
   std::uint64_t non_manifold_vertices = 0;  ///< Vertices whose triangles form more than one fan.
   std::uint64_t components = 0;             ///< Connected by shared edges.
   std::uint64_t reoriented_faces = 0;       ///< Faces turned over, once for each of the three reasons that follow.
   std::uint64_t minority_faces = 0;         ///< Turned over to agree with their neighbours.
-  std::uint64_t reoriented_components = 0;  ///< Turned over as a whole, inside out where they lie.
+  std::uint64_t reoriented_components = 0;  ///< Turned over as a whole, since they were inside out at their position.
   bool inside_out = false;                  ///< All turned over: the signed volume was negative.
-  std::uint64_t intersecting_faces = 0;     ///< Triangles that meet another one elsewhere than in shared corners.
+  std::uint64_t intersecting_faces = 0;     ///< Triangles that meet another one outside their shared corners and edges.
   bool intersections_known = true;          ///< False if the test was cut short by its budget.
   bool closed = false;                      ///< No open edge, orientation cancels on every edge.
   std::uint64_t faces_within = 0;           ///< Faces with the inside on both sides.
   std::uint64_t faces_without = 0;          ///< Faces with the outside on both sides.
-  bool sides_known = true;                  ///< False if these two were looked for among a part of the faces only.
+  bool sides_known = true;                  ///< False if only a part of the faces was tested for these two.
   std::uint64_t trusted_triangles = 0;      ///< With kTrustedNormal.
-  double signed_volume = 0;                 ///< Input units cubed; of an open mesh: as if coned to the box centre.
+  double signed_volume = 0;  ///< Input units cubed; of an open mesh: as if closed by cones to the box centre.
   Point lower = {0, 0, 0};
   Point upper = {0, 0, 0};
   std::vector<std::string> assumptions;  ///< Full sentences for people.
@@ -58,15 +59,15 @@ struct MeshReport {
   double longest_side() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 };
 
-/// A mesh that is ready to be used: clean triangles, flags for the proofs, and the report.
+/// A mesh that is ready for use: clean triangles, flags for the proofs, and the report.
 struct PreparedMesh {
   Mesh mesh;
   std::vector<std::uint8_t> flags;  ///< TriangleFlags, one per triangle.
   MeshReport report;
 
-  // Where things went, for callers that bring new positions or attributes for the same faces.
+  // Maps of input indices, for callers that supply new positions or attributes for the same faces.
   std::vector<std::uint32_t> vertex_of_input;    ///< By input vertex: index into mesh.vertices, or kDropped.
-  std::vector<std::uint32_t> input_of_triangle;  ///< By triangle: index into the triangles handed in.
+  std::vector<std::uint32_t> input_of_triangle;  ///< By triangle: index into the triangles given to prepare_mesh().
 
   static constexpr std::uint32_t kDropped = 0xffffffffu;
   MeshView view() const { return {mesh.vertices, mesh.triangles, flags, report.closed}; }

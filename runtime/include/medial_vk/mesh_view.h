@@ -1,5 +1,5 @@
-// How a caller hands a triangle mesh to the runtime: borrowed arrays, nothing is copied until an IndexedMesh is
-// created.
+// The form in which a caller passes a triangle mesh to the library: borrowed arrays, which are copied only when an
+// IndexedMesh is created.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace medial_vk {
 using Point = std::array<double, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// What is known of one triangle, from its neighbourhood (docs/theory.md, Lemma B: dismissal needs an oriented,
+/// Properties of one triangle, derived from its neighbourhood (docs/theory.md, Lemma B: dismissal requires an oriented,
 /// embedded boundary).
 enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
   /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
   kTrustedNormal = 1u << 0,
-  /// No other triangle meets it but in a vertex or an edge that they share by index. It tells more where normals are
-  /// not trusted; of trusted ones it is part of what that means.
+  /// Other triangles meet it only in a vertex or an edge that they share by index. kTrustedNormal implies this
+  /// property, whether or not this flag is set.
   kUncrossed = 1u << 1,
 };
 

@@ -1,4 +1,4 @@
-// Preparation: from any triangles to a mesh that can be searched, and what had to be assumed on the way.
+// Preparation: from any triangles to a mesh that can be searched, with a report of the assumptions made.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads = 0);
 void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed);
 
 /// The same for a prepared mesh, which is then prepared again, as moved faces may cross: corners that coincide move
-/// together. The report tells of both preparations. Errors: those of prepare_mesh().
+/// together. The report covers both preparations. Errors: those of prepare_mesh().
 Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads = 0);
 
 }  // namespace medial_vk

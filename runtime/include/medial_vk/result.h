@@ -8,19 +8,19 @@
 
 namespace medial_vk {
 
-/// What went wrong.
+/// The kind of an error.
 enum class ErrorCode : int {
   kInternal,     ///< A defect of the library, or a device that was lost.
   kUsage,        ///< An argument that the call does not accept; the message names it.
   kInvalidMesh,  ///< A mesh that cannot be read, or that encloses nothing.
-  kNoDevice,     ///< No Vulkan device that will do.
+  kNoDevice,     ///< No usable Vulkan device.
   kOutOfMemory,  ///< Of the host or of the device.
   kCannotWrite,  ///< A file that cannot be written.
   kCheckFailed,  ///< Results that did not pass a check.
   kInterrupted,  ///< Stopped on request.
 };
 
-/// An error code and one sentence that names the thing ("face 17 uses vertex 99 of 98").
+/// An error code, and one sentence that names the object at fault ("face 17 uses vertex 99 of 98").
 struct Error {
   ErrorCode code = ErrorCode::kInternal;
   std::string message;

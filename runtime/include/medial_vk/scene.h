@@ -1,5 +1,5 @@
-// Batches of scattered queries against one mesh on the device, by walking its BVH. Also what the tests compare with
-// the CPU reference kernel by kernel.
+// Batches of scattered queries against one mesh on the device, answered by walks of its BVH. The tests compare their
+// results with the CPU reference, kernel by kernel.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace medial_vk {
 
 class Context;
 
-/// Which part of a triangle is nearest.
+/// The nearest part of a triangle.
 enum class Feature : std::uint32_t { kFace = 0, kEdge = 1, kVertex = 2 };
 
 struct ClosestPoint {
@@ -41,22 +41,23 @@ class Scene {
   /// Uploads the mesh. Errors: kInvalidMesh (no extent), kOutOfMemory.
   static Result<Scene> create(Context& context, const IndexedMesh& mesh);
   /// Follows vertices that have moved; `moved` is the mesh that create() was given, after move_vertices(). Errors:
-  /// kUsage (another mesh, as far as the order of its tree and the number of vertices tell: the scene stays as it was),
-  /// kInvalidMesh (no extent: it is of no use until an update succeeds), kOutOfMemory (likewise).
+  /// kUsage (another mesh, detected by the order of its tree and the number of vertices: the scene is unchanged),
+  /// kInvalidMesh (no extent: the scene is unusable until an update succeeds), kOutOfMemory (likewise).
   Status update(const IndexedMesh& moved);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// In any order; from some thousands on they are sorted in space, and neighbours share their walks.
+  /// Closest points, for points in any order; batches of some thousands or more are sorted in space, and neighbours
+  /// share their walks.
   Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
-  /// The same into `out`, which a caller that asks often keeps: pages of new memory cost time. Also kUsage: not as many
-  /// as points. After an error `out` holds anything.
+  /// The same into `out`, which a caller with many batches can reuse: pages of new memory cost time. Also kUsage: the
+  /// size of `out` differs from the number of points. After an error the content of `out` is undefined.
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
-  /// The same for groups of `group_size` points that follow each other and lie near each other compared with the
-  /// distance between groups: samples of spheres, for example, with the centre among them. A group shares one walk.
-  /// Fastest up to 51 points a group, and if points of the same place in their groups lie alike. Also kUsage: the
-  /// points are no whole number of groups, or a group has no point or more than 262,144.
+  /// The same for groups of `group_size` consecutive points that lie near each other compared with the distance between
+  /// groups: samples of spheres, for example, with the centre among them. A group shares one walk. Fastest with up to
+  /// 51 points per group, and if all groups arrange their points alike. Also kUsage: the number of points is no
+  /// multiple of `group_size`, or that is 0 or above 262,144.
   Result<std::vector<ClosestPoint>> closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size);
   Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
   /// 1 where the open ball holds no point of the mesh, else 0. Stops at the first point found inside.

@@ -1,4 +1,5 @@
-// How good a set of balls is as a stand-in for a solid: proofs, volume, distances, and the numbers that others report.
+// The quality of a set of balls as an approximation of a solid: proofs, volume, distances, and metrics of other
+// programs.
 #pragma once
 
 #include <cstddef>
@@ -9,31 +10,34 @@
 
 namespace medial_vk {
 
-/// What is known of a number.
+/// Proved bounds of a number.
 struct Bounds {
   double lower = 0, upper = 0;
 };
 
-/// Every centre is inside and every radius at most the exact distance from there to the boundary.
+/// The proof that every centre is inside, and every radius at most the exact distance from the centre to the boundary.
 struct InsideProof {
   std::uint64_t tested = 0;
   std::uint64_t failed = 0;
   std::uint32_t first_failure = 0;  ///< Index of a ball, if any failed.
-  double worst = 0;  ///< The greatest radius less distance, mesh units, rounding on the side of failure; 0: no ball.
+  /// The greatest difference of radius and distance, mesh units, rounded up (towards failure); 0: no ball.
+  double worst = 0;
 
   bool proved() const { return failed == 0; }
 };
 
-/// Every triangle is cut into pieces that lie in one ball each, and no vertex of the envelope lies in the solid.
+/// The proof that every triangle can be cut into parts that lie in one ball each, and that no vertex of the envelope
+/// lies in the solid.
 struct CoverProof {
   std::uint64_t triangles = 0;  ///< Of the boundary.
-  std::uint64_t uncovered = 0;  ///< Of these: with a point that is in no ball.
-  std::uint64_t undecided = 0;  ///< Of these: neither that nor covered by pieces of a reasonable number and size.
-  Point first_uncovered{};      ///< Of the first triangle that is uncovered or undecided: a point where it shows.
-  std::uint64_t vertices = 0;   ///< Of the envelope.
-  std::uint64_t inside = 0;     ///< Of these: in the solid, or too near its boundary to tell: cavities.
-  Point first_inside{};         ///< The first of them.
-  bool closed = true;           ///< Else only the surface is proved to be covered.
+  std::uint64_t uncovered = 0;  ///< Of these: triangles with a point in no ball.
+  /// Of these: triangles with no such point found, and not covered by parts of a reasonable number and size.
+  std::uint64_t undecided = 0;
+  Point first_uncovered{};     ///< A point where the first uncovered or undecided triangle failed.
+  std::uint64_t vertices = 0;  ///< Of the envelope.
+  std::uint64_t inside = 0;    ///< Of these: vertices in the solid, or too near its boundary to decide: cavities.
+  Point first_inside{};        ///< The first of them.
+  bool closed = true;          ///< False: only the boundary is proved to be covered.
 
   bool surface_proved() const { return uncovered == 0 && undecided == 0; }
   bool proved() const { return closed && surface_proved() && inside == 0; }
@@ -47,9 +51,9 @@ struct EnvelopeDistances {
   Bounds boundary_to_envelope;  ///< From points of the boundary to the envelope, from either side.
   Bounds envelope_to_boundary;  ///< From points of the envelope to the boundary, from either side.
 
-  /// Two-sided, of solid and balls as sets.
+  /// Two-sided distance of solid and balls as sets.
   Bounds between_sets() const;
-  /// Two-sided, of boundary and envelope.
+  /// Two-sided distance of boundary and envelope.
   Bounds between_surfaces() const;
 };
 
@@ -59,37 +63,37 @@ struct VolumeError {
   double balls = 0;           ///< Of their union: exact.
   double uncovered = 0;       ///< Of the solid outside the balls.
   double outside = 0;         ///< Of the balls outside the solid.
-  double standard_error = 0;  ///< Of `uncovered` and `outside`, which then are estimates from samples; 0: exact.
+  double standard_error = 0;  ///< Of `uncovered` and `outside`, if they are estimates from samples; 0: they are exact.
 
   /// Err of Section 7.3.1 over the volume of the solid.
   double normalized() const { return solid > 0 ? (uncovered + outside) / solid : 0; }
   double normalized_standard_error() const { return solid > 0 ? 2 * standard_error / solid : 0; }
-  /// What Err cannot be below (Lemma 7.1), over the volume of the solid.
+  /// The lower bound of Err (Lemma 7.1), over the volume of the solid.
   double normalized_lower_bound() const;
 };
 
-/// Under the names, and by the definitions, of cuRobo's SphereFitMetrics, but for what is said here. Lengths in mesh
-/// units.
+/// Names and definitions are those of cuRobo's SphereFitMetrics, except where a remark differs. Lengths in mesh units.
 struct SphereFitMetrics {
   std::size_t num_spheres = 0;
-  double coverage = 0;              ///< Share of the solid's volume that is in a ball (exact where VolumeError is).
-  double protrusion = 0;            ///< Share of points of all spheres, as many on each, that are outside the solid.
-  double protrusion_dist_mean = 0;  ///< Distance of those to the boundary; 0 without any.
+  double coverage = 0;    ///< Share of the solid's volume that is in a ball (exact where VolumeError is).
+  double protrusion = 0;  ///< Share of sampled points of the spheres, equally many on each, that are outside the solid.
+  double protrusion_dist_mean = 0;  ///< Mean distance of those points to the boundary; 0 if there are none.
   double protrusion_dist_p95 = 0;
-  double surface_gap_mean = 0;  ///< Distance of points of the boundary to the balls, 0 in them.
+  double surface_gap_mean = 0;  ///< Mean distance of points of the boundary to the balls, 0 in them.
   double surface_gap_p95 = 0;
-  double max_uncovered_gap = 0;  ///< The greatest of these: not of samples, but the proved upper bound.
-  double volume_ratio = 0;  ///< Sum of the volumes of all balls, overlaps counted as often, over that of the solid.
+  double max_uncovered_gap = 0;  ///< The proved upper bound of these distances, instead of the greatest of samples.
+  /// Sum of the volumes of all balls, overlaps counted repeatedly, over the volume of the solid.
+  double volume_ratio = 0;
 };
 
-/// Distances with a sign over an area, in bins of equal width. Positive: the envelope is outside the solid.
+/// A histogram of signed distances by area, in bins of equal width. Positive: the envelope is outside the solid.
 struct SignedDistances {
   double lower = 0, upper = 0;  ///< Of the bins.
   std::vector<double> share;    ///< Of the area, by bin.
   double least = 0, greatest = 0, mean = 0, mean_absolute = 0;
 };
 
-/// Figure 8-2; both have the same bins.
+/// The histograms of Figure 8-2; both have the same bins.
 struct DistanceHistograms {
   SignedDistances boundary_to_envelope;  ///< By area of the boundary.
   SignedDistances envelope_to_boundary;  ///< By area of the envelope.
@@ -105,12 +109,14 @@ struct SphereMeasures {
   DistanceHistograms histograms;
 };
 
-/// The volume of a shape that facets stand for, from within (of balls proved to lie inside these) or from without (of
-/// balls proved to cover them), takes the place of the facets' own: the error is then exactly that of the shape. Other
-/// balls keep the facets for their measure; returns whether anything changed.
+/// Replaces the volume of the mesh by that of a curved shape which the mesh approximates, and recomputes the volume
+/// error. The error is exact if balls proved `inside` lie inside a mesh inscribed in the shape, or balls proved to
+/// `cover` enclose a mesh around the shape. Balls with neither proof keep the error against the mesh, and the function
+/// returns false.
 bool measure_against(double shape_volume, SphereMeasures& measures);
 
-/// How far balls reach out of their solid at most, over the balls of a set; all 0 where none does.
+/// Upper bounds of the distance that each ball reaches out of the solid: mean, least and greatest over the balls of a
+/// set. All are 0 if no ball does.
 struct ReachOut {
   double mean = 0, best = 0, worst = 0;
 };

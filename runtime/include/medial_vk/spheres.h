@@ -1,4 +1,4 @@
-// A solid as a given number of balls, which keep a contract that is proved (docs/theory.md, "Tight spheres").
+// A solid approximated by a given number of balls, with a proved contract (docs/theory.md, "Tight spheres").
 #pragma once
 
 #include <cstddef>
@@ -16,53 +16,55 @@
 
 namespace medial_vk {
 
-/// What the balls are promised to do (docs/theory.md, "Tight spheres").
+/// The proved property of the balls (docs/theory.md, "Tight spheres").
 enum class SphereContract {
   kInside,    ///< No point of a ball lies outside the solid.
   kCover,     ///< No point of the solid lies outside the balls.
-  kBalanced,  ///< None; as little volume as possible between balls and solid, on both sides of the boundary.
+  kBalanced,  ///< None; the volume between balls and solid, on both sides of the boundary, is kept small.
 };
 
 enum class SphereMethod {
   kBest,    ///< Chosen and moved for the contract.
-  kSource,  ///< One ball per voxel, the largest voxels that give no more balls than wanted (Section 7.3.2).
+  kSource,  ///< One ball per voxel, for the smallest voxels that give no more balls than requested (Section 7.3.2).
 };
 
-/// Goals that are given together must all be met, with as few balls as the method finds.
+/// All given goals must be met, with as few balls as the method finds.
 struct SphereOptions {
   SphereMethod method = SphereMethod::kBest;
   SphereContract contract = SphereContract::kInside;
-  std::size_t count = 0;  ///< At most so many; 0: as many as the other goals take, which must be given then.
-  /// Share of the solid's volume that is uncovered; kCover: that is added; kBalanced: both, by an estimate. 0: no such
-  /// goal.
+  /// Greatest number of balls; 0: as many as the other goals require, of which one must then be given.
+  std::size_t count = 0;
+  /// Greatest uncovered volume as a share of the solid's; kCover: the added volume; kBalanced: the sum of both, by an
+  /// estimate. 0: no such goal.
   double error = 0;
-  double max_gap = 0;            ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
-  std::uint32_t resolution = 0;  ///< Of the medial points to choose from, as ExtractionOptions; 0: by the count.
-  double object_angle = 0.6;     ///< Of the method source.
-  bool levels = false;           ///< Also sets of half, a quarter ... of the balls.
-  unsigned threads = 0;          ///< Of the host, 0: one per core. The result does not depend on it.
+  double max_gap = 0;  ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
+  /// Of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
+  std::uint32_t resolution = 0;
+  double object_angle = 0.6;  ///< Of method source.
+  bool levels = false;        ///< Also return sets of half, a quarter ... of the balls.
+  unsigned threads = 0;       ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const SphereOptions&) const = default;
 };
 
-/// The limit where no count is given.
+/// The greatest number of balls if no count is given.
 constexpr std::size_t kMostBalls = 20000;
 
-/// What fit_spheres() finds, in mesh units.
+/// The result of fit_spheres(), in mesh units.
 struct SphereFit {
-  /// Sets of balls, the smallest first; one, unless levels were requested. Every set keeps the contract by itself. The
-  /// last one is ordered such that every prefix of balls inside is a good set of its own size.
+  /// Sets of balls, the smallest first; one, unless levels were requested. Every set satisfies the contract by itself.
+  /// With contract kInside, the last set is ordered such that every prefix is a good set of its size.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;         ///< Per level: an upper bound of how far balls reach out of the solid.
+  std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances that balls reach out of the solid.
   SphereMeasures measures;             ///< Of the last level.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
 
-/// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves that they keep
-/// the contract, and measures them. `progress` is called with "medial points", "spheres" and "cover", one call at a
-/// time but from any thread; `stop` ends the call soon. Does not throw. Errors: those of the extractor; kUsage (no
-/// goal, a goal that the contract or method does not know, a goal that is not reached); kInvalidMesh (no ball fits);
-/// kOutOfMemory; kInterrupted; kInternal if balls do not keep the contract (a defect).
+/// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves the contract, and
+/// measures the balls. `progress` is called with "medial points", "spheres" and "cover", one call at a time but from
+/// any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal,
+/// a goal that the contract or method does not support, a goal that is not reached); kInvalidMesh (no ball fits);
+/// kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
@@ -70,15 +72,15 @@ Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& opti
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
-/// How much of a solid is covered by 1, 2, 3 ... balls inside it: what is needed to distribute balls among solids.
+/// The volume of a solid covered by 1, 2, 3 ... balls inside it, which is used to distribute balls among solids.
 struct CoverageCurve {
-  std::vector<double> covered;         ///< Volume of the union of the balls when there were 1, 2, 3 ... of them.
-  bool ends = false;                   ///< No more balls are to be had than these.
+  std::vector<double> covered;         ///< Volume of the union of the first 1, 2, 3 ... balls.
+  bool ends = false;                   ///< True if the method finds no more balls than these.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
 
-/// For at least `options.count` balls, or as many as there are. Contract and goals of the options are not read. Errors:
-/// those of fit_spheres().
+/// The curve for at least `options.count` balls, or all that exist. Contract and goals of the options are not read.
+/// Errors: those of fit_spheres().
 Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
                                              const Extractor& extractor, const StageProgress& progress = {},
                                              const std::stop_token& stop = {});

@@ -8,7 +8,7 @@
 
 namespace medial_vk {
 
-/// "0.1.0": of the library that is linked, which may be another one than that of the headers.
+/// The version of the linked library, such as "0.1.0"; it may differ from that of the headers.
 const char* version();
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// The straight line from an indexed mesh to everything that is known of its medial surface.
+// The sequence of all steps from an indexed mesh to the analysis of its medial surface.
 #include "medial_vk/analysis.h"
 
 #include <exception>

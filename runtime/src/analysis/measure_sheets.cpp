@@ -68,7 +68,7 @@ class SheetMeasuring {
     });
   }
 
-  /// To their ends if they are requested; else as far as keep_volume goes.
+  /// Complete orders if they are requested; otherwise only as far as keep_volume permits.
   Status find_orders() {
     if (!options_.removal_orders && !(options_.keep_volume > 0)) return {};
     const double least_volume = options_.removal_orders ? 0 : options_.keep_volume;

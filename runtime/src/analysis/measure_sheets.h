@@ -1,4 +1,4 @@
-// The part of an analysis that is about the union of the balls: significance of sheets, and their removal.
+// The steps of an analysis that concern the union of the balls: significance of sheets, and their removal.
 #pragma once
 
 #include <stop_token>

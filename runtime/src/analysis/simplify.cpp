@@ -27,8 +27,8 @@ double squared_distance(const Point& a, const Point& b) {
   return sum;
 }
 
-/// Is there a kept point within epsilon in the 26 neighbours? Subtracting 1 from coordinate 0 wraps around to a voxel
-/// that no grid has, which is simply not found.
+/// True if a kept point lies within epsilon in the 26 neighbours. Subtracting 1 from coordinate 0 wraps around to a
+/// voxel that no grid has, so none is found there.
 bool near_kept(const MedialSphere& sphere, const std::vector<MedialSphere>& spheres, const KeptByVoxel& kept,
                double squared_epsilon) {
   for (std::uint32_t neighbour = 0; neighbour < 27; ++neighbour) {

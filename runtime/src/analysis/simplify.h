@@ -8,7 +8,7 @@
 
 namespace medial_vk {
 
-/// Removes medial points within `epsilon` (a length) of one that is kept, and returns how many were removed.
+/// Removes medial points within `epsilon` (a length) of one that is kept, and returns the number removed.
 ///
 /// Section 2.4.2: the boundary point M nearest to a medial point m may also lie on the balls whose centres are within
 /// epsilon of m along grad D(m); without those, every ball left is maximal in the union of the balls. Points so close

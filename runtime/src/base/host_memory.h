@@ -1,4 +1,4 @@
-// Host memory that runs out ends at the runtime's boundary as an error, not as an exception.
+// Exhausted host memory is reported at the library's interface as an error, not as an exception.
 #pragma once
 
 #include <new>
@@ -8,7 +8,7 @@
 
 namespace medial_vk {
 
-/// What `work()` returns, or kOutOfMemory if it throws std::bad_alloc. `doing` completes "out of memory while".
+/// The result of `work()`, or kOutOfMemory if it throws std::bad_alloc. `doing` completes "out of memory while".
 template <class Work>
 auto catch_out_of_memory(const char* doing, const Work& work) -> decltype(work()) {
   try {

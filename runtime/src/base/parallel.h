@@ -13,14 +13,15 @@
 
 namespace medial_vk {
 
-/// The number of threads that 0 stands for: one per core.
+/// The number of threads for an argument of 0: one per core.
 inline unsigned thread_count(unsigned threads) {
   return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
 /// Calls body(begin, end) for the blocks of `block` items that cover [0, count), on up to `threads` threads (0: one per
-/// core), the caller's among them. Blocks do not depend on `threads`: what independent bodies write does not either.
-/// What a body throws ends the loop early, and one such exception is thrown here once all threads have ended.
+/// core), the caller's among them. Blocks do not depend on `threads`, and so neither do the results of independent
+/// bodies. An exception of a body ends the loop early, and one such exception is thrown here once all threads have
+/// ended.
 template <class Body>
 void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
   std::atomic<std::size_t> next = 0;
@@ -34,7 +35,7 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
     } catch (...) {
       const std::lock_guard lock(mutex);
       thrown = std::current_exception();
-      next = count;  // the blocks that are left
+      next = count;  // skips the remaining blocks
     }
   };
   const std::size_t useful = std::min<std::size_t>(thread_count(threads), (count + block - 1) / block);
@@ -42,7 +43,7 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
   try {
     for (std::size_t i = 1; i < useful; ++i) others.emplace_back(work);
   } catch (const std::system_error&) {
-    // No further thread is to be had: those that exist do all of the work.
+    // No further thread can be created: those that exist do all of the work.
   } catch (const std::bad_alloc&) {
     // Likewise.
   }
@@ -51,7 +52,7 @@ void parallel_blocks(std::size_t count, std::size_t block, unsigned threads, con
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Calls body(i) for every i in [0, count), in blocks as parallel_blocks() has them.
+/// Calls body(i) for every i in [0, count), in blocks like those of parallel_blocks().
 template <class Body>
 void parallel_for(std::size_t count, std::size_t block, unsigned threads, const Body& body) {
   parallel_blocks(count, block, threads, [&](std::size_t begin, std::size_t end) {

@@ -1,4 +1,4 @@
-// The little vector algebra that the host side needs on Point.
+// Vector algebra on Point for the host.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,8 @@ inline Point cross(const Point& a, const Point& b) {
 }
 inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
-/// A unit vector at right angles to one: that in the plane of `axis` and the coordinate axis that is most across it.
+/// A unit vector perpendicular to `axis`, in the plane of `axis` and the coordinate axis closest to perpendicular to
+/// it.
 inline Point perpendicular_to(const Point& axis) {
   std::size_t least = 0;
   for (std::size_t k = 1; k < 3; ++k) {

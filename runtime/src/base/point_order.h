@@ -1,4 +1,4 @@
-// An order of scattered points in which neighbours in space are mostly neighbours in the order.
+// An order of scattered points in which most neighbours in space are neighbours.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace medial_vk {
 
 /// Indices of the points along a Z-order curve of 1024^3 cells in their box; equal cells by index. Fewer than 2^32
-/// points. Coordinates that are not finite come anywhere.
+/// points. The position of points with coordinates that are not finite is arbitrary.
 std::vector<std::uint32_t> order_along_curve(std::span<const Point> points);
 
-/// Indices of the points, halved along the longest side of their box again and again: slower, but wherever most of them
-/// are, neighbours are found, and one far away spoils nothing. Finite coordinates only.
+/// Indices of the points, halved recursively along the longest side of their box: slower, but insensitive to the
+/// distribution of the points and to outliers. Finite coordinates only.
 std::vector<std::uint32_t> order_by_halving(std::span<const Point> points);
 
 }  // namespace medial_vk

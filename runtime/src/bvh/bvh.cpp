@@ -18,7 +18,7 @@ Error invalid_mesh(std::string message) { return {ErrorCode::kInvalidMesh, std::
 
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
-/// Vertices and triangles of a block that a thread looks at.
+/// Vertices or triangles in a block that a thread checks.
 constexpr std::size_t kTrianglesOfBlock = 32768;
 
 Status check_triangle(const MeshView& mesh, std::size_t triangle) {
@@ -77,8 +77,8 @@ double squared_distance(const BvhBox& box, const Point& p) {
   return dot(outside, outside);
 }
 
-/// Depth-first walk, nearer child first. `limit()` is the squared distance beyond which a box is of no interest (at
-/// the limit it is), `visit(position)` looks at one triangle and returns true to end the walk.
+/// Depth-first walk, nearer child first. `limit()` is the squared distance beyond which a box is skipped (at the limit
+/// it is not), `visit(position)` tests one triangle and returns true to end the walk.
 template <class Limit, class Visit>
 void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit limit, Visit visit) {
   struct Pending {
@@ -106,8 +106,8 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
   }
 }
 
-/// The same for a limit that stays: calls `visit` with every leaf. Boxes are looked at before they go on the stack, so
-/// most never do.
+/// The same for a constant limit: calls `visit` with every leaf. Boxes are tested before they are pushed onto the
+/// stack, so most never are.
 template <class Visit>
 void for_each_leaf(const std::vector<BvhNode>& nodes, const Point& p, double squared_limit, Visit visit) {
   std::array<std::uint32_t, Bvh::kMaxDepth + 1> stack;
@@ -227,7 +227,7 @@ BvhHit Bvh::closest_of(const Point& p, std::span<const std::uint32_t> positions,
 }
 
 std::size_t Bvh::find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const {
-  // A little more than the square, so that what is skipped would not be found for rounding either.
+  // Slightly above the square, so that no skipped triangle could be found by rounding.
   const double limit = radius * radius * (1 + 1e-12);
   const auto found = std::ranges::find_if(positions, [&](std::uint32_t i) {
     return !clearly_beyond(p, corners_[i], limit) &&

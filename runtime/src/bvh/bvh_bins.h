@@ -8,14 +8,14 @@
 
 namespace medial_vk {
 
-/// Lower corner and negated upper corner, so that growing a box is six minima: what compilers vectorise.
+/// Lower corner and negated upper corner, so that the growth of a box is six minima, which compilers vectorise.
 using BuildBox = std::array<double, 6>;
 
 constexpr int kBins = 16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr BuildBox kEmptyBox = {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
 
-/// A triangle as the builder sees it.
+/// A triangle in the form that the builder uses.
 struct BvhPrimitive {
   BuildBox box;
   std::uint32_t triangle = 0;
@@ -60,7 +60,7 @@ struct Binning {
 
   Binning() = default;
   Binning(const BuildBox& centres, int axis) : lower(centres[axis]) {
-    // A subnormal extent would make the scale infinite; such an axis is of no use anyway.
+    // A subnormal extent would make the scale infinite; such an axis is useless for a split.
     const double range = extent(centres, axis);
     if (range > std::numeric_limits<double>::min() * kBins) scale = kBins / range;
   }

@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-/// Nodes that one thread looks at in one go.
+/// Consecutive nodes that one thread processes.
 constexpr std::uint32_t kMostNodes = 16384;
 
 void fit(std::span<BvhNode> nodes, std::span<const std::array<Point, 3>> corners, std::uint32_t index) {
@@ -47,7 +47,7 @@ void fit_boxes(std::span<BvhNode> nodes, std::span<const std::array<Point, 3>> c
       continue;
     }
     above.push_back(s.root);
-    // The pair, what is below its first node, what is below its second.
+    // The pair, the nodes below its first node, those below its second.
     const std::uint32_t left = nodes[s.root].first, right = left + 1;
     const std::uint32_t middle = nodes[right].count == 0 ? nodes[right].first : s.end;
     pending.push_back({right, middle, s.end});

@@ -8,8 +8,8 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::uint32_t kBlock = 8192;          // of a piece that all threads split together
-constexpr std::uint32_t kParallelFrom = 16384;  // below this waiting for threads can cost more than they save
+constexpr std::uint32_t kBlock = 8192;          // of a range that all threads split together
+constexpr std::uint32_t kParallelFrom = 16384;  // below this, synchronisation can cost more than threads save
 constexpr std::uint32_t kLeastSubtree = 2048;
 constexpr std::uint32_t kSubtreesPerMesh = 32;  // about; enough that threads end at nearly the same time
 
@@ -40,7 +40,7 @@ BvhBuilder::Piece BvhBuilder::whole() const {
   return piece;
 }
 
-/// Splits the root, its children and so on, each with all threads, until there are enough pieces for them.
+/// Splits the root, its children and so on, each with all threads, until there are enough subtrees for them.
 void BvhBuilder::split_tops() {
   const auto largest = std::max(kLeastSubtree, static_cast<std::uint32_t>(order_.size()) / kSubtreesPerMesh);
   tops_.push_back({whole(), 0, 0, {}, 0, 0});
@@ -110,7 +110,7 @@ void BvhBuilder::refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_
 void BvhBuilder::make_leaf(const Piece& piece, Link& leaf) {
   leaf = {piece.begin, piece.count()};
   for (std::uint32_t i = piece.begin; i < piece.end; ++i) order_[i] = arrays_[piece.array][i].triangle;
-  std::sort(order_.begin() + piece.begin, order_.begin() + piece.end);  // splitting at the median mixes them up
+  std::sort(order_.begin() + piece.begin, order_.begin() + piece.end);  // a split at the median permutes them
 }
 
 /// Levels below a node of `count` triangles if every split halves it.
@@ -121,7 +121,7 @@ std::uint32_t BvhBuilder::levels_of_halving(std::uint32_t count) const {
 }
 
 BvhBuilder::Pair BvhBuilder::split(const Piece& piece, unsigned threads) {
-  // SAH may peel off a few triangles at a time; when the depth runs out only halving still fits.
+  // SAH may peel off a few triangles at a time; when the depth is nearly used up only halving still fits.
   if (piece.depth + 1 + levels_of_halving(piece.count()) >= Bvh::kMaxDepth) return split_at_median(piece);
   return threads > 1 && piece.count() >= 2 * kBlock ? split_wide(piece, threads) : split_here(piece);
 }
@@ -135,8 +135,8 @@ BvhBuilder::Pair BvhBuilder::split_here(const Piece& piece) {
   return pair;
 }
 
-/// The same by blocks. Minima and counts add up to the same in any grouping, and every primitive keeps its place among
-/// those that go its way: neither blocks nor threads are seen in the result.
+/// The same by blocks. Minima and counts add up to the same in any grouping, and primitives on one side keep their
+/// order: the result depends neither on blocks nor on threads.
 BvhBuilder::Pair BvhBuilder::split_wide(const Piece& piece, unsigned threads) {
   std::vector<BuildBins> blocks((piece.count() + kBlock - 1) / kBlock);
   const auto for_each_block = [&](auto body) {
@@ -190,7 +190,7 @@ BuildBins BvhBuilder::fill_bins(const Piece& piece, std::uint32_t begin, std::ui
   return bins;
 }
 
-/// Moves primitives [begin, end) of a piece to where the two parts begin, and grows the boxes of their centres.
+/// Moves primitives [begin, end) of a range to the two parts, and grows the boxes of their centres.
 void BvhBuilder::move_apart(const Piece& piece, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end,
                             Pair& to) {
   const std::vector<BvhPrimitive>& from = arrays_[piece.array];
@@ -229,7 +229,7 @@ BvhBuilder::Pair BvhBuilder::split_at_median(const Piece& piece) {
   return pair;
 }
 
-/// Puts the subtrees into one array: what is below a node is in one run, so its length is all one needs to know.
+/// Puts the subtrees into one array: all nodes below a node are in one run, so only its length is needed.
 std::vector<BvhNode> BvhBuilder::lay_out() {
   for (std::size_t i = tops_.size(); i-- > 0;) {  // children come after their parents
     Top& top = tops_[i];

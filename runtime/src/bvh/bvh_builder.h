@@ -48,7 +48,7 @@ class BvhBuilder {
     std::uint32_t left = 0, right = 0;  // in tops_; 0: a subtree
     std::vector<Link> subtree;          // its root first
     std::uint32_t below = 0;            // nodes below it,
-    std::uint32_t first = 0;            // and the place of the first of them
+    std::uint32_t first = 0;            // and the position of the first of them
   };
 
   Piece whole() const;
@@ -68,7 +68,7 @@ class BvhBuilder {
   std::vector<BvhNode> lay_out();
   std::uint32_t levels_of_halving(std::uint32_t count) const;
 
-  std::array<std::vector<BvhPrimitive>, 2> arrays_;  // every split moves a piece from one to the other
+  std::array<std::vector<BvhPrimitive>, 2> arrays_;  // every split moves a range from one to the other
   std::vector<std::uint32_t> order_;
   std::vector<Top> tops_;
   std::uint32_t leaf_size_;

@@ -15,12 +15,13 @@ struct NearestOffset {
 };
 
 /// True only if the whole triangle is farther from p than the square root of `squared_limit`: it lies beyond the plane
-/// at that distance across the direction s to its centre, since min over its corners of s.(corner - p) > limit |s|. A
-/// quarter of the work of nearest_on_triangle(), and it says so for nearly all small triangles that are.
+/// at that distance across the direction s to its centre, since min over its corners of s.(corner - p) > limit |s|. It
+/// takes a quarter of the work of nearest_on_triangle(), and excludes nearly all small triangles that are farther.
 inline bool clearly_beyond(const Point& p, const std::array<Point, 3>& corners, double squared_limit) {
   const Point a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
   const Point s = a + b + c;
-  // Each product is off by at most 4 u |s| |corner - p|, u = 2^-53, which is below 1e-15 times what is subtracted.
+  // Each product has an error of at most 4 u |s| |corner - p|, u = 2^-53, which is below 1e-15 times the subtracted
+  // terms.
   const double rounding = 1e-15 * (dot(s, s) + std::max({dot(a, a), dot(b, b), dot(c, c)}));
   const double least = std::min({dot(s, a), dot(s, b), dot(s, c)}) - rounding;
   return least > 0 && least * least > squared_limit * dot(s, s) * (1 + 1e-15);
@@ -37,12 +38,12 @@ inline NearestOffset nearest_on_segment(const Point& start, const Point& edge) {
 /// The least of the three edges and, where it falls inside, the foot of the perpendicular on the plane.
 ///
 /// Accuracy. Every candidate is start + (a convex combination of the edges), a point of the triangle up to rounding,
-/// so the distance is never below the exact one by more than a few u (u = 2^-53) of edge lengths and distance, however
-/// thin the triangle is. It is not far above it either. Let h be the part of ac perpendicular to ab, computed with an
-/// error of about u |ac|; its direction is then off by e = u |ac| / |h|, and a foot computed from a vector r is off by
-/// e |r| across the triangle. The second pass computes from the residual, whose length is about the distance D, so the
-/// foot is off by e D at most. No point of the triangle is further than |h| from its edges, so where the foot is wrong
-/// or wrongly found outside, the edges are within |h|. The squared distance is thus too large by at most
+/// so the distance is never below the exact one by more than a few u (u = 2^-53) of edge lengths and distance, for any
+/// thin triangle. It is not far above it either. Let h be the part of ac perpendicular to ab, computed with an error of
+/// about u |ac|; its direction is then off by e = u |ac| / |h|, and a foot computed from a vector r is off by e |r|
+/// across the triangle. The second pass computes from the residual, whose length is about the distance D, so the foot
+/// is off by e D at most. No point of the triangle is further than |h| from its edges, so where the foot is wrong or
+/// wrongly found outside, the edges are within |h|. The squared distance is thus too large by at most
 /// min(e D, |h|)^2 <= e D |h| = u D |ac|, the distance by u |ac| / 2.
 inline NearestOffset nearest_on_triangle(const Point& p, const std::array<Point, 3>& corners) {
   const Point a = corners[0] - p;

@@ -28,14 +28,14 @@ std::array<float, 3> unit_float(const Point& v) {
   return {static_cast<float>(v[0] / length), static_cast<float>(v[1] / length), static_cast<float>(v[2] / length)};
 }
 
-// Half the angle between two vectors, accurate for all angles (Kahan): of the spokes as they are written.
+// Half the angle between two vectors, accurate for all angles (Kahan): of the spokes as written to the output.
 double half_angle(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   const Point x = widen(a), y = widen(b);
   const Point u = (1 / norm(x)) * x, v = (1 / norm(y)) * y;
   return std::atan2(norm(u - v), norm(u + v));
 }
 
-/// What a thread needs: the leaves of the tree near the spheres at hand, and the triangles near one of them.
+/// The state of a thread: the leaves of the tree near the current spheres, and the triangles near one of them.
 struct Surroundings {
   Region region;
   std::vector<std::uint32_t> nearby;
@@ -53,7 +53,7 @@ class Certifier {
         epsilon_(options.epsilon * grid.voxel_size),
         rounding_(distance_rounding(bvh)) {}
 
-  /// Takes the tree's leaves near these spheres, for certify() of each.
+  /// Gathers the tree's leaves near these spheres, for certify() of each.
   void surround(const std::vector<MedialSphere>& spheres, std::span<const std::uint32_t> group, Surroundings& s) const {
     const Point& centre = spheres[group[group.size() / 2]].centre;
     double radius = 0;
@@ -62,8 +62,8 @@ class Certifier {
     triangles_.surround(centre, radius * (1 + 1e-9), s.region);
   }
 
-  /// The same for the sphere, or, if it fails, for one beside it on the same sheet: what float could not tell apart
-  /// (contacts of three sheets that nearly tie) double can.
+  /// The same for the sphere, or, if it fails, for one beside it on the same sheet: double can distinguish contacts of
+  /// three sheets that nearly tie in float.
   bool certify_or_mend(MedialSphere& s, Surroundings& around) const {
     const MedialSphere as_found = s;
     if (certify(s, around)) return true;
@@ -74,10 +74,10 @@ class Certifier {
     return false;
   }
 
-  /// Makes the sphere's numbers exact; false if it fails a condition of the certificate.
+  /// Recomputes the sphere's numbers exactly; false if it fails a condition of the certificate.
   bool certify(MedialSphere& s, Surroundings& around) const {
     if (!in_its_voxel(s)) return false;
-    // What is asked below lies within the ball, grown by 2 epsilon, if the device's radius is right.
+    // All queries below lie within the ball, grown by 2 epsilon, if the device's radius is correct.
     const double expected = expected_radius(s), reach = expected + 2 * epsilon_;
     std::vector<std::uint32_t>& nearby = around.nearby;
     const std::size_t inner = triangles_.gather(around.region, s.centre, reach, expected, nearby);
@@ -92,8 +92,9 @@ class Certifier {
     const Point toward = (1 / distance) * (nearest.point - s.centre);
     const Point grown_centre = s.centre - epsilon_ * toward;
     set_spokes(s, unit_float(toward));
-    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. What is not near
-    // is no nearer than that. The tip is asked first, as what is near to it is within the grown ball as a rule.
+    // Lemma 2.3: pushed away from its contact, the ball would keep its distance from it, D + epsilon. Triangles not
+    // gathered are no nearer than that. The tip is tested first, as triangles near it usually lie within the grown
+    // ball.
     const bool near = tip_is_near(s, nearby);
     if (!any_within(grown_centre, distance + epsilon_ - 4 * rounding_, nearby)) return false;
     if (near && is_salient(s)) return set_angle(s);
@@ -103,7 +104,7 @@ class Certifier {
   }
 
  private:
-  // At most, if the device is right.
+  // An upper bound, if the device is correct.
   double expected_radius(const MedialSphere& s) const { return s.radius + 1e-5 * longest_; }
 
   struct End {
@@ -153,8 +154,8 @@ class Certifier {
     return true;
   }
 
-  // Spoke b is the direction that the search saw on the other side of the sheet. Where the two contacts tie within the
-  // rounding of the device, exact arithmetic may call the other one nearest: then the device's spoke a is spoke b.
+  // Spoke b is the direction that the search found on the other side of the sheet. Where the two contacts tie within
+  // the rounding of the device, the other one may be nearest in exact arithmetic: then the device's spoke a is spoke b.
   void set_spokes(MedialSphere& s, const std::array<float, 3>& a) const {
     const bool swapped = dot(widen(a), widen(s.spoke_b)) > dot(widen(a), widen(s.spoke_a));
     const std::array<float, 3> b = swapped ? s.spoke_a : s.spoke_b;
@@ -162,7 +163,8 @@ class Certifier {
     s.spoke_b = unit_float(widen(b));
   }
 
-  // Is one of the nearby triangles closer to p than that? It comes first then: the next question is often about it too.
+  // True if one of the nearby triangles is closer to p than that. It is moved to the front, as the next query often
+  // concerns it too.
   bool any_within(const Point& p, double radius, std::vector<std::uint32_t>& nearby) const {
     const std::size_t found = bvh_.find_within(p, radius, nearby);
     if (found == nearby.size()) return false;
@@ -187,7 +189,7 @@ class Certifier {
   double longest_, epsilon_, rounding_;
 };
 
-/// Spheres in cubes of four voxels along a side: neighbours, whose queries look at the same leaves.
+/// Groups of spheres in cubes of four voxels along a side: neighbours, whose queries test the same leaves.
 class NeighbourGroups {
  public:
   explicit NeighbourGroups(const std::vector<MedialSphere>& spheres) {
@@ -219,17 +221,18 @@ class NeighbourGroups {
   std::vector<std::size_t> begins_;   // of groups in order_, and its end
 };
 
-/// What a thread takes: enough that threads do not meet, little enough that none waits long for another at the end.
+/// The chunk of a thread: large enough that threads seldom contend, small enough that none waits long for another at
+/// the end.
 constexpr std::size_t kGroupsAtOnce = 8;
 
-/// 1 for each that is the first of its voxel. They are in voxel order.
+/// 1 for each sphere that is the first of its voxel. Precondition: voxel order.
 std::vector<std::uint8_t> first_of_voxels(const std::vector<MedialSphere>& spheres) {
   std::vector<std::uint8_t> is_first(spheres.size(), 1);
   for (std::size_t i = 1; i < spheres.size(); ++i) is_first[i] = spheres[i].voxel != spheres[i - 1].voxel ? 1 : 0;
   return is_first;
 }
 
-/// The voxel of a sphere that is dropped has neither a point nor a proof; why, nobody asked. D changes by no more than
+/// The voxel of a dropped sphere has neither a point nor a proof; the reason was not tested. D changes by no more than
 /// the point moves, so no ball centred in the voxel has a larger radius than the dropped one by more than the diagonal.
 void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extraction) {
   std::vector<UndecidedVoxel>& undecided = extraction.undecided;

@@ -1,4 +1,4 @@
-// Four floats at once, and four vectors in space, by an extension that GCC and Clang have.
+// Vectors of four floats, and of four points in space, by an extension of GCC and Clang.
 #pragma once
 
 #include <array>
@@ -32,13 +32,13 @@ inline Vectors cross(const Vectors& a, const Vectors& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// What comparisons yield: a of each where it is so, b elsewhere.
+/// Selection by the result of a comparison: a in lanes where it is true, b elsewhere.
 Vectors choose(const auto& is_so, const Vectors& a, const Vectors& b) {
   return {is_so ? a[0] : b[0], is_so ? a[1] : b[1], is_so ? a[2] : b[2]};
 }
 inline Vectors shorter(const Vectors& a, const Vectors& b) { return choose(dot(a, a) < dot(b, b), a, b); }
 
-/// A bit for each where it is so.
+/// A bit for each lane where it is true.
 unsigned bits(const auto& is_so) {
   return static_cast<unsigned>((is_so[0] & 1) | (is_so[1] & 2) | (is_so[2] & 4) | (is_so[3] & 8));
 }

@@ -10,12 +10,12 @@
 namespace medial_vk {
 namespace {
 
-// How much nearer a triangle may be than lanes_near() and squared_bounds() say, and a box than boxes_near() does. The
-// unit is the longest side of the tree's box, whose middle is the origin; balls have their centres within 1 of it,
-// along each axis; |a| below is what is between a centre and a corner, whatever the radius. With u = 2^-24: rounding
-// moves the centre by u and the corners by u / 2 a coordinate, and their differences by 1.5 u: 5.2 u in all. A product
-// s.a is off by 4 u |s| |a| with |a| < 2.6. That is less than 16 u = 9.6e-7; the squares of limit, s and s.a, and their
-// quotient, add less than 1e-6.
+// The amount by which a triangle may be nearer than the bounds of lanes_near() and squared_bounds(), and a box than
+// that of boxes_near(). The unit is the longest side of the tree's box, whose middle is the origin; balls have their
+// centres within 1 of it, along each axis; |a| below is the distance of a centre and a corner, for any radius. With u =
+// 2^-24: rounding moves the centre by u and the corners by u / 2 a coordinate, and their differences by 1.5 u: 5.2 u in
+// all. A product s.a has an error of 4 u |s| |a| with |a| < 2.6. That is less than 16 u = 9.6e-7; the squares of limit,
+// s and s.a, and their quotient, add less than 1e-6.
 constexpr double kMargin = 4e-6;
 
 double square(double x) { return x * x; }
@@ -24,19 +24,19 @@ bool is_in_reach(const std::array<float, 3>& p) {
   return std::ranges::all_of(p, [](float x) { return std::fabs(x) < 1; });
 }
 
-/// How far along s triangles begin, times its length; 0 if that is behind the origin.
+/// The least component of triangles along s, times the length of s; 0 if that is behind the origin.
 Floats least_along(const Vectors& s, const std::array<Vectors, 3>& corners) {
   return max(least(dot(s, corners[0]), dot(s, corners[1]), dot(s, corners[2])), kZero);
 }
 
-/// The points of segments from a to b that are nearest to the origin, or about that.
+/// Approximately the points of segments from a to b that are nearest to the origin.
 Vectors toward_segments(const Vectors& a, const Vectors& b) {
   const Vectors edge = b - a;
   const Floats t = -dot(a, edge) / max(dot(edge, edge), kTiny);
   return a + min(max(t, kZero), kOne) * edge;
 }
 
-/// The points of triangles that are nearest to the origin, or about that.
+/// Approximately the points of triangles that are nearest to the origin.
 Vectors toward_triangles(const Vectors& a, const Vectors& b, const Vectors& c) {
   const Vectors normal = cross(b - a, c - a);
   const Floats inside = least(dot(cross(a, b), normal), dot(cross(b, c), normal), dot(cross(c, a), normal));
@@ -96,9 +96,9 @@ unsigned NearTriangles::boxes_near(const Query& query, const Region& region, std
   return bits(~(squared > query.squared_limit));
 }
 
-// A bit for each of the four triangles from `position` on: not set if the plane at the limit's distance across the
-// direction s, to about its middle, separates it from the centre, that is, if s.(corner - centre) > limit |s| for its
-// corners.
+// A bit for each of the four triangles from `position` on: not set if the plane at the limit's distance perpendicular
+// to s, the direction to about its middle, separates it from the centre, that is, if s.(corner - centre) > limit |s|
+// for its corners.
 NearTriangles::Lanes NearTriangles::lanes_near(const Query& query, std::size_t position) const {
   std::array<Vectors, 3> v;
   for (std::size_t c = 0; c < 9; ++c) v[c / 3][c % 3] = four(corners_[c], position) - query.centre[c % 3];
@@ -125,9 +125,9 @@ std::size_t NearTriangles::gather(const Region& region, const Point& centre, dou
   return inner_count;
 }
 
-// Squares of distances that four triangles (the last ones may be the same) are not below, but for what squared_limit()
-// adds. As in lanes_near(), by a plane across some direction; here it is that of the nearest point, and the plane
-// touches there.
+// Lower bounds of the squared distances of four triangles (the last ones may be the same), except for the margin of
+// squared_limit(). As in lanes_near(), they come from a plane perpendicular to a direction; here it is that of the
+// nearest point, where the plane touches.
 std::array<float, NearTriangles::kLanes> NearTriangles::squared_bounds(const std::array<float, 3>& p,
                                                                        std::span<const std::uint32_t> positions) const {
   std::array<Vectors, 3> v;

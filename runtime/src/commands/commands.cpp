@@ -40,7 +40,7 @@ Commands::~Commands() {
   context_->vk.vkDestroyCommandPool(context_->device, pool_, context_->allocation_callbacks);
 }
 
-/// What a call before has made is kept, if it failed half-way.
+/// Objects of an earlier call that failed are kept.
 Status Commands::create() {
   const VolkDeviceTable& vk = context_->vk;
   if (pool_ == VK_NULL_HANDLE) {
@@ -112,7 +112,7 @@ Status Commands::submit(const Semaphore* wait_for, const Semaphore* signal) {
   return {};
 }
 
-// If it throws, what the device uses must not be destroyed before the device is done.
+// If it throws, resources in use must not be destroyed before the device has finished.
 void Commands::call_while_busy(const std::function<void()>& callback) {
   try {
     callback();
@@ -122,9 +122,9 @@ void Commands::call_while_busy(const std::function<void()>& callback) {
   }
 }
 
-// By its own fence: what else a host's device does is not ours to wait for. A wait may fail for want of memory, but the
-// device is still at work on what is about to go, and what is submitted cannot be taken back. A wait that fails again
-// and again is given up.
+// By its own fence, as other work of a host's device must not be waited for. A wait may fail for lack of memory, but
+// the device still uses resources that are about to be destroyed, and a submission cannot be revoked. After repeated
+// failures the wait is given up.
 void Commands::drain() noexcept {
   for (int attempt = 0; under_way_ && attempt < 16; ++attempt) {
     constexpr std::uint64_t kForever = ~std::uint64_t{0};
@@ -136,8 +136,8 @@ void Commands::drain() noexcept {
 
 Status Commands::wait(const std::function<void()>& while_waiting) {
   if (!under_way_) return {};
-  // No deadline: a slow CPU under a debugger or a sanitizer may take as long as it likes, what is submitted cannot be
-  // taken back, and a device that hangs is reported as lost by its driver.
+  // No deadline: a CPU under a debugger or a sanitizer may be arbitrarily slow, a submission cannot be revoked, and the
+  // driver reports a device that hangs as lost.
   constexpr std::uint64_t kMinute = 60'000'000'000ull, kMoment = 10'000'000ull;
   VkResult result = VK_TIMEOUT;
   for (;;) {

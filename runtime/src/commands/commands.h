@@ -15,8 +15,8 @@
 namespace medial_vk {
 
 /// Orders two submissions on any queues: the second waits on the device until the first, and all before it on its
-/// queue, are done, and sees what they wrote. A signal is waited for once, before the next; or never, and then all that
-/// is left for the semaphore is destruction. Made with the first call of prepare().
+/// queue, have finished, and sees their writes. A signal must be waited for once before the next; if it never is, the
+/// semaphore can only be destroyed. Created by the first call of prepare().
 class Semaphore {
  public:
   explicit Semaphore(Context::Impl& context) : context_(&context) {}
@@ -32,8 +32,8 @@ class Semaphore {
   VkSemaphore handle_ = VK_NULL_HANDLE;
 };
 
-/// One command buffer of one queue, to be used again and again. What it records must not go before it does; if it is
-/// under way, it waits at the end of its scope.
+/// One reusable command buffer of one queue. The resources that it records must outlive it; its destructor waits for
+/// pending commands.
 class Commands {
  public:
   enum class Queue {
@@ -47,15 +47,16 @@ class Commands {
   Commands& operator=(const Commands&) = delete;
   ~Commands();
 
-  /// Starts a new recording; what was submitted before must have been waited for. Error: kOutOfMemory.
+  /// Starts a new recording; earlier submissions must have been waited for. Error: kOutOfMemory.
   Status begin();
   /// Of the recording since begin().
   Recorder& recorder() { return *recorder_; }
-  /// Semaphores may be null. Errors: of the recorder; device lost (kInternal); kOutOfMemory. Nothing is under way then.
+  /// Semaphores may be null. Errors: of the recorder; device lost (kInternal); kOutOfMemory. After an error nothing is
+  /// pending.
   Status submit(const Semaphore* wait_for, const Semaphore* signal);
-  /// Returns at once if nothing is under way. `while_waiting` is called every ten milliseconds. Errors: as submit().
+  /// Returns at once if nothing is pending. `while_waiting` is called every ten milliseconds. Errors: as submit().
   Status wait(const std::function<void()>& while_waiting = {});
-  /// The same where nobody can be told: on the way out of an error.
+  /// The same where errors cannot be reported, after another error.
   void drain() noexcept;
 
  private:
@@ -71,13 +72,13 @@ class Commands {
   bool under_way_ = false;
 };
 
-/// Makes the programs that `record` needs and that are not there yet, on all processors: compiling them one by one as
-/// they are met takes longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`, and of
-/// the programs.
+/// Compiles the missing programs that `record` needs, on the threads of the context: to compile them one by one at
+/// their first use would take longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`,
+/// and of the programs.
 Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record);
 
 /// Records with `record`, submits, waits; returns seconds per stage. `while_waiting` is called every ten milliseconds
-/// until the device is done. Errors: device lost (kInternal), kOutOfMemory, whatever `record` returns.
+/// until the device is done. Errors: device lost (kInternal), kOutOfMemory, and those of `record`.
 Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
                                             const std::function<void()>& while_waiting = {});
 

@@ -7,7 +7,7 @@
 namespace medial_vk {
 namespace {
 
-// Rows are used again from the first on; barriers keep a batch from those that had its rows before.
+// Rows are reused from the first on; barriers separate a batch from earlier users of its rows.
 constexpr std::uint32_t kRows = 4096;
 // vkCmdUpdateBuffer takes 65,536 bytes.
 constexpr std::size_t kMostInBatch = 1024;
@@ -15,14 +15,14 @@ static_assert(kMostInBatch * sizeof(gpu::DispatchConstants) <= 65536 && kMostInB
 
 constexpr std::uint32_t kWorkgroupSize = 64;
 
-// But for where its group counts go. Queries are counted when they are prepared, so those that ask some are never
-// shared.
+// Equality except for the position of the group counts. Queries are counted when they are prepared, so requests with
+// queries are never shared.
 bool is_same(gpu::DispatchConstants a, const gpu::DispatchConstants& b) {
   a.argument = b.argument;
   return a.queries_per_item == 0 && std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
-// Where it is, or would be.
+// Its position, or the one for its insertion.
 std::size_t row_of(const gpu::DispatchConstants& wanted, const std::vector<gpu::DispatchConstants>& rows) {
   const auto known = std::ranges::find_if(rows, [&](const auto& row) { return is_same(row, wanted); });
   return static_cast<std::size_t>(known - rows.begin());

@@ -1,6 +1,7 @@
-// The group counts of indirect dispatches, made on the device from its counters. On a CPU one more dispatch costs as
-// much as the work of a small one, so those that the same counters size are made together, before the first of them.
-// Which those are is known in advance because what is recorded is recorded twice: the first time is a plan.
+// The group counts of indirect dispatches, computed on the device from its counters. On a CPU one more dispatch costs
+// as much as the work of a small one, so the counts that depend on the same counters are computed together, before the
+// first of their dispatches. These are known in advance because every sequence is recorded twice: the first time is a
+// plan.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +16,32 @@ namespace medial_vk {
 
 class DispatchArguments {
  public:
-  /// Makes the buffers. `counters` are the pipeline's; `stop` outlives this. `is_stage`: the recorder's clock tells
-  /// what this takes apart. Errors: kOutOfMemory.
+  /// Creates the buffers. `counters` are the pipeline's; `stop` outlives this. `is_stage`: the recorder's clock
+  /// measures this work as a stage of its own. Errors: kOutOfMemory.
   Status create(Arena& arena, const Buffer& counters, const StopWord& stop, bool is_stage);
 
-  /// From here on offset_of() takes notes, and nothing may be dispatched.
+  /// From here on offset_of() only records requests, and nothing may be dispatched.
   void begin_plan();
   /// From here on the same calls in the same order as since begin_plan().
   void begin();
   bool plans() const { return plans_; }
 
-  /// Counters have changed, or this is a place where the host can stop a run: what comes next is prepared after it.
+  /// Counters have changed, or the host may stop a run here: later group counts are prepared after this point.
   void counters_change() { is_stale_ = true; }
-  /// A change of counters between levels (kStart* in gpu_types.h), made together with what comes next.
+  /// A change of counters between levels (kStart* in gpu_types.h), made together with the next preparation.
   void start(Recorder& recorder, std::uint32_t start);
-  /// Where in buffer() the group counts for `wanted` (without its `argument`) will be.
+  /// The offset in buffer() of the group counts for `wanted` (without its `argument`).
   VkDeviceSize offset_of(Recorder& recorder, const gpu::DispatchConstants& wanted);
 
   const Buffer& buffer() const { return arguments_; }
 
  private:
-  // Dispatches that are prepared together, after what start says.
+  // Dispatches that are prepared together, after the change `start`.
   struct Batch {
     std::uint32_t start = gpu::kStartNothing;
     std::vector<gpu::DispatchConstants> rows;
   };
-  // What a call of offset_of() is answered by.
+  // The answer to a call of offset_of().
   struct Call {
     std::size_t batch, row;
   };

@@ -12,7 +12,7 @@ namespace medial_vk {
 namespace {
 
 constexpr VkDeviceSize kMinBlockBytes = 1ull << 20;
-// Two pieces of a mesh under way, of 4 MiB each, and 4 for points, counters and the word that stops a job.
+// Two chunks of a mesh, of 4 MiB each, and 4 MiB for points, counters and the word that stops a job.
 constexpr VkDeviceSize kBytesOnTheWay = 12ull << 20;
 constexpr VkDeviceSize kMaxBlockBytes = 64ull << 20;
 constexpr VkDeviceSize kTexelBytes = 16;  // RGBA32F, RGBA32UI
@@ -30,9 +30,9 @@ const char* kind_name(MemoryKind kind) {
   return "";
 }
 
-/// How well a memory type suits, 0: not at all.
+/// The suitability of a memory type, 0: not usable.
 int suitability(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
-  // Types that need a feature or an extension which we do not enable, or that serve other ends.
+  // Types that need a feature or an extension which we do not enable, or that have other purposes.
   constexpr VkMemoryPropertyFlags kNever = VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT | VK_MEMORY_PROPERTY_PROTECTED_BIT |
                                            VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD |
                                            VK_MEMORY_PROPERTY_DEVICE_UNCACHED_BIT_AMD |
@@ -74,7 +74,7 @@ int find_memory_type(const Context::Impl& context, std::uint32_t allowed, Memory
   return best;
 }
 
-/// The next push_back() cannot fail: a handle that it does not take would be lost.
+/// After this, the next push_back() cannot fail: a handle that it did not store would be lost.
 template <class T>
 void make_room(std::vector<T>& values) {
   if (values.size() == values.capacity()) values.reserve(std::max<std::size_t>(8, 2 * values.size()));
@@ -122,7 +122,7 @@ VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer
   if (size <= context.limits.maxTexelBufferElements * kTexelBytes) {
     info.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
   }
-  // Buffers have no layouts that depend on who uses them: sharing costs nothing, and spares passing them on.
+  // Buffers have no layouts that depend on the queue: sharing costs nothing, and avoids ownership transfers.
   const std::array<std::uint32_t, 2> families = {context.queue_family, context.transfer_family};
   if (context.transfer_queue != VK_NULL_HANDLE) {
     info.sharingMode = VK_SHARING_MODE_CONCURRENT;
@@ -222,8 +222,8 @@ Result<void*> Arena::bind_memory(const Buffer& buffer, MemoryKind kind, const ch
   if (block == nullptr) {
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     if (!own_block) {
-      // Blocks grow with what the arena holds of a type, so that a small job does not take much, nor a large one of
-      // what it hardly needs. A full device may still have room for the buffer alone.
+      // Blocks grow with the memory of a type that the arena holds, so that a small job does not take much, nor a large
+      // one much of a type that it hardly uses. A full device may still have room for the buffer alone.
       VkDeviceSize grown = std::clamp(std::bit_ceil(held(memory_type)), kMinBlockBytes, kMaxBlockBytes);
       if (expected_ > 0) grown = std::min(grown, expected_);
       result = add_block(memory_type, std::max(grown, needs.size), VK_NULL_HANDLE);

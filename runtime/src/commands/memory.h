@@ -17,7 +17,7 @@ enum class MemoryKind {
   kDevice,    // fast for the device; mapped only if the memory happens to be host-visible
   kTexels,    // the same, for a buffer that kernels read as texels only: maxStorageBufferRange does not bound it
   kUpload,    // host-visible, coherent, written by the host
-  kReadback,  // host-visible, coherent, cached if there is such memory, read by the host
+  kReadback,  // host-visible, coherent, cached if such memory exists, read by the host
 };
 
 /// A range of a buffer, as a kernel binds it.
@@ -35,13 +35,15 @@ struct Buffer {
 
   BufferRange range() const { return {handle, 0, size}; }
   BufferRange range(VkDeviceSize offset, VkDeviceSize bytes) const { return {handle, offset, bytes}; }
-  /// Where kernels that may read the buffer as texels bind storage. If they do, that is its start, which is never read.
+  /// The range bound as storage by kernels that may read the buffer as texels. If they do, it is the start of the
+  /// buffer, which is never read.
   BufferRange storage_range(bool read_as_texels) const { return {handle, 0, read_as_texels ? 16 : size}; }
 };
 
-/// Of memory through which a mesh goes to the device (uploads.h) and points come back: none where the host sees all.
+/// Bytes of staging memory for the upload of a mesh (uploads.h) and the download of points; 0 where the host can map
+/// all memory.
 VkDeviceSize bytes_on_the_way(const Context::Impl& context);
-/// What is left of a budget of memory beside `held` bytes; a quarter of it at least, and then both are more than it.
+/// The rest of a memory budget beside `held` bytes; at least a quarter of the budget, so that the sum may exceed it.
 inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
   return std::max(budget - std::min<std::uint64_t>(budget, held), budget / 4);
 }
@@ -58,7 +60,7 @@ class Arena {
   Result<Buffer> create_buffer(VkDeviceSize bytes, MemoryKind kind, const char* purpose);
   /// A view of texels of 16 bytes over a whole buffer, vec4 or uvec4. Errors: kOutOfMemory.
   Result<VkBufferView> create_texel_view(const Buffer& buffer, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT);
-  /// So many bytes are about to be asked for: until then no block is larger than what is left of them.
+  /// Announces requests of that many bytes in total: until then no block is larger than the rest of them.
   void expect(VkDeviceSize bytes) { expected_ = bytes; }
   /// Bytes of device memory held.
   VkDeviceSize bytes() const { return bytes_; }

@@ -205,7 +205,7 @@ void Recorder::pipeline_barrier(VkPipelineStageFlags to_stages, VkAccessFlags to
   barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
   if (queue_stages_ == kAllStages) barrier.srcAccessMask |= VK_ACCESS_SHADER_WRITE_BIT;
   barrier.dstAccessMask = to_access;
-  // What follows must not overwrite what was read before, group counts for example.
+  // Later commands must not overwrite data that earlier ones read, such as group counts.
   context_->vk.vkCmdPipelineBarrier(commands_, queue_stages_, to_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 

@@ -20,9 +20,9 @@ namespace medial_vk {
 /// Descriptor pools and timestamp queries that a recorded command buffer needs until it has run.
 class Recorder {
  public:
-  /// `commands` must be in the recording state. Errors are remembered; ask status() at the end.
+  /// `commands` must be in the recording state. Errors are kept for status(), to be called at the end.
   Recorder(Context::Impl& context, VkCommandBuffer commands);
-  /// A rehearsal: records nothing, and notes which programs the dispatches need.
+  /// A rehearsal: records nothing, and lists the programs that the dispatches need.
   explicit Recorder(Context::Impl& context) : Recorder(context, VK_NULL_HANDLE) {}
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -39,24 +39,24 @@ class Recorder {
   /// Makes all writes so far visible to all later compute, indirect and transfer reads and writes.
   void barrier();
   void fill(const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes, std::uint32_t word);
-  /// At most 65,536 bytes, which travel in the command buffer.
+  /// At most 65,536 bytes, which are stored in the command buffer.
   void update(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
   void copy(const Buffer& from, VkDeviceSize from_offset, const Buffer& to, VkDeviceSize to_offset, VkDeviceSize bytes);
-  /// Between what is recorded here and what a host records before or after it, whatever that is.
+  /// Between the commands recorded here and any commands of a host before or after them.
   void barrier_to_others();
   /// Makes device writes visible to the host once the fence has signalled.
   void barrier_to_host();
-  /// For a queue that can do nothing else: barriers are between copies, and nothing is measured.
+  /// For a queue that can only copy: barriers are between copies, and nothing is measured.
   void only_transfer();
   /// No timestamps: stages have no times.
   void measure_nothing() { measures_ = false; }
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
   void begin_stage(const std::string& stage);
-  /// Ends the last stage. run_commands() does it; who records into a buffer of its own calls it last.
+  /// Ends the last stage. run_commands() does so; code that records into a buffer of its own calls this last.
   void end_stages();
 
   Status status() const { return status_; }
-  /// Of a rehearsal: what dispatch() was given, each once.
+  /// After a rehearsal: the programs passed to dispatch(), each once.
   const std::set<ProgramKey>& programs() const { return programs_; }
   /// After the command buffer has finished: seconds per stage. Empty without timestamps. Errors: kInternal (device
   /// lost), kOutOfMemory.
@@ -78,7 +78,7 @@ class Recorder {
   void write_timestamp();
   void fail(Error error);
 
-  // What is left in the last descriptor pool.
+  // The remaining capacity of the last descriptor pool.
   struct Room {
     std::uint32_t sets = 0;
     std::uint32_t storage = 0;

@@ -63,7 +63,7 @@ Result<std::vector<StageTime>> Recorder::stage_times() const {
   for (std::size_t i = 0; i + 1 < timestamp_count_; ++i) {
     auto time = std::find_if(times.begin(), times.end(), [&](const StageTime& t) { return t.stage == stages_[i]; });
     if (time == times.end()) time = times.insert(times.end(), StageTime{stages_[i], 0.0});
-    // Modulo the valid bits, so that a counter that wraps once in between is fine.
+    // Modulo the valid bits, so that one wrap of the counter in between is harmless.
     time->seconds += static_cast<double>((ticks[i + 1] - ticks[i]) & mask) * seconds_per_tick;
   }
   return times;

@@ -1,10 +1,9 @@
-// A word that the device looks at whenever it sizes dispatches of a recorded sequence: once the host raises it, those
-// that are left are empty (prepare.glsl). So a job stops within the few dispatches that are sized together
-// (dispatch_arguments.h), without round trips while it runs.
+// A word that the device reads whenever it sizes dispatches of a recorded sequence: once the host raises it, the
+// remaining ones are empty (prepare.glsl). So a job stops within the few dispatches that are sized together
+// (dispatch_arguments.h), without round trips during its run.
 //
-// Host-coherent memory needs no flush, but Vulkan promises nothing about when a dispatch sees what the host writes
-// after the submission. Drivers show it at the next barrier; if one did not, the job would stop later, at the next
-// chunk.
+// Host-coherent memory needs no flush, but Vulkan does not guarantee when a dispatch sees writes of the host after the
+// submission. With current drivers this is the next barrier; otherwise the job would stop later, at the next chunk.
 #pragma once
 
 #include <optional>
@@ -29,14 +28,14 @@ class StopWord {
   Buffer word_;
 };
 
-/// Reports progress, and checks between parts of the work and while the device is busy whether the job is to stop.
+/// Reports progress, and checks between chunks and while the device is busy whether the job is to stop.
 class StopWatch {
  public:
   StopWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
 
-  /// The word that is raised from now on. It lives as long as the watch. Errors: kOutOfMemory.
+  /// The word to raise from now on. It lives as long as the watch. Errors: kOutOfMemory.
   Result<const StopWord*> make_word(Context::Impl& context);
-  /// Share of the job that is done: what the callback is told.
+  /// The finished share of the job, for the callback.
   void set_done(double done) { done_ = done; }
   /// Reports and checks. True from the first time on that a stop has been requested.
   bool stopped();

@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr VkDeviceSize kPiece = 4ull << 20;  // a tenth of a millisecond and more on its way
+constexpr VkDeviceSize kPiece = 4ull << 20;  // a transfer of a tenth of a millisecond or more
 
 }  // namespace
 
@@ -78,7 +78,7 @@ Status Uploads::flush() {
   Piece& last = pieces_[current_];
   const bool has_own_queue = context_->transfer_queue != VK_NULL_HANDLE;
   if (!has_own_queue) return last.records ? send(last, nullptr) : Status();
-  if (!last.records) {  // the one before was full and is on its way: what signals follows it
+  if (!last.records) {  // the previous one was full and is pending: the signal follows it
     if (Status begun = begin(last); !begun.ok()) return begun;
   }
   if (Status done = received_.wait(); !done.ok()) return done;  // the semaphore is signalled again only after its wait

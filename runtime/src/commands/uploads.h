@@ -1,4 +1,4 @@
-// Bytes of the host on their way into buffers of the device.
+// Uploads of bytes of the host into buffers of the device.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@
 
 namespace medial_vk {
 
-/// Copies through two pieces of staging memory, of which the host fills one while the device empties the other, on a
-/// queue of its own if it has one; nothing is staged where a buffer is mapped. The host goes on meanwhile: kernels see
-/// all of it once finish() has returned.
+/// Copies through two blocks of staging memory, of which the host fills one while the device empties the other, on a
+/// queue of its own if it has one; nothing is staged where a buffer is mapped. The host continues meanwhile: kernels
+/// see all data once finish() has returned.
 class Uploads {
  public:
   explicit Uploads(Context::Impl& context);
   Uploads(const Uploads&) = delete;
   Uploads& operator=(const Uploads&) = delete;
-  /// Waits for what is under way; the rest is dropped.
+  /// Waits for pending copies; the rest is dropped.
   ~Uploads();
 
-  /// To the start of the buffer, which outlives this object or finish(); `bytes` may go when this returns. The device
-  /// must not use the buffer until finish(). Errors: kOutOfMemory, kInternal (too many bytes, device lost).
+  /// To the start of the buffer, which outlives this object or finish(); `bytes` may be released when this returns. The
+  /// device must not use the buffer until finish(). Errors: kOutOfMemory, kInternal (too many bytes, device lost).
   Status add(const Buffer& buffer, std::span<const std::byte> bytes);
-  /// All is on its way when this returns. Errors: kOutOfMemory, kInternal (device lost).
+  /// Submits all copies. Errors: kOutOfMemory, kInternal (device lost).
   Status flush();
-  /// Waits until all is there. Errors: kOutOfMemory, kInternal (device lost).
+  /// Waits until all copies have finished. Errors: kOutOfMemory, kInternal (device lost).
   Status finish();
 
  private:
@@ -51,7 +51,7 @@ class Uploads {
   bool is_sending_ = false;
 };
 
-/// One buffer's worth. Blocks.
+/// Uploads one buffer. Blocks.
 Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes);
 
 /// A new buffer that will have these values.

@@ -152,7 +152,7 @@ Result<std::vector<DeviceDescription>> Context::list_devices() try {
   std::uint64_t no_messages = 0;
   Result<Instance> instance = create_instance(false, &no_messages, nullptr);
   if (!instance.ok()) return instance.error();
-  // Also if there is no host memory for the list.
+  // Also without host memory for the list.
   const auto destroy = [](Instance* made) { destroy_instance(*made, nullptr); };
   const std::unique_ptr<Instance, decltype(destroy)> owner(&instance.value(), destroy);
   Result<std::vector<PhysicalDevice>> devices = enumerate_devices(instance.value().handle);

@@ -1,4 +1,4 @@
-// What the rest of the runtime sees of a Vulkan device: the dispatch table, limits and a cache of programs.
+// The internal interface of a context: the dispatch table, limits and a cache of programs.
 #pragma once
 
 #include <volk.h>
@@ -33,8 +33,7 @@ class Context::Impl {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;
-  // Of a family that only copies: what it does, it does while kernels run. Null: the device has none, or a host owns
-  // it.
+  // A queue of a family that only copies, while kernels run. Null: the device has none, or a host owns it.
   VkQueue transfer_queue = VK_NULL_HANDLE;
   std::uint32_t transfer_family = 0;
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
@@ -44,24 +43,25 @@ class Context::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
   VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
-  // Do eight neighbouring invocations run in lockstep in one subgroup that has shuffles
-  // (shaders/shared/lanes/lanes.glsl)? True on llvmpipe, whose subgroups are the lanes of a vector, filled in order;
-  // elsewhere nothing promises it. Tests clear it.
+  // True if eight neighbouring invocations run in lockstep in one subgroup with shuffles
+  // (shaders/shared/lanes/lanes.glsl): on llvmpipe, whose subgroups are the lanes of a vector, filled in order;
+  // elsewhere nothing guarantees it. Tests clear it.
   bool has_lockstep_lanes = false;
-  // Into so many stretches of neighbouring workgroups a dispatch is cut, one for each thread of a processor that runs
-  // shaders (llvmpipe); 1: it is not. If it is wrong, threads are worked unevenly. Tests change it.
+  // Number of runs of neighbouring workgroups into which a dispatch is divided, one for each thread of a processor that
+  // runs shaders (llvmpipe); 1: not divided. A wrong number only balances threads badly. Tests change it.
   std::uint32_t dispatch_threads = 1;
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;
   // Written by the validation layer from any thread (through atomic_ref); this object must not move.
   std::uint64_t validation_messages = 0;
-  // Shaders that are looked up before the embedded ones: kernels of a test, for example.
+  // Shaders that take precedence over the embedded ones, such as kernels of a test.
   std::span<const EmbeddedShader> extra_shaders;
 
-  /// The program for this shader and these specialization constants; made once, kept until the context ends.
+  /// The program for this shader and these specialization constants, compiled once and kept until the context is
+  /// destroyed.
   /// Errors: kInternal (unknown shader, the driver refuses it), kOutOfMemory.
   Result<const Program*> program(const ProgramKey& key);
-  /// Makes those of them that are missing, on `host_threads` threads. Errors: as program(), of the first that fails.
+  /// Compiles the missing ones, on `host_threads` threads. Errors: as program(), of the first that fails.
   Status make_programs(const std::set<ProgramKey>& keys);
 
  private:
@@ -76,7 +76,7 @@ class Context::Impl {
   const EmbeddedShader* shader(const ProgramKey& key) const;
   Result<OwnedProgram> build_program(const ProgramKey& key) const;
 
-  bool owns_device_ = true;  // false: the host does, and the instance
+  bool owns_device_ = true;  // false: the host owns the device and the instance
   Instance instance_;        // owns `instance`
   PipelineCacheIdentity pipeline_cache_identity_;
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;

@@ -146,7 +146,7 @@ std::optional<std::uint32_t> as_index(const std::string& choice, std::size_t cou
 }  // namespace
 
 std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamilyProperties> families) {
-  // Not those of video: their engines have other work.
+  // Not those of video, whose engines serve other work.
   constexpr VkQueueFlags kAllowed = VK_QUEUE_TRANSFER_BIT | VK_QUEUE_SPARSE_BINDING_BIT | VK_QUEUE_PROTECTED_BIT;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
     const VkQueueFlags flags = families[i].queueFlags;
@@ -158,7 +158,7 @@ std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamil
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   std::vector<VkPhysicalDevice> handles;
   VkResult result = VK_INCOMPLETE;
-  // A device may appear between the two calls; what there is after some tries will do.
+  // A device may appear between the two calls; after some tries an incomplete list is accepted.
   for (int attempt = 0; attempt < 8 && result == VK_INCOMPLETE; ++attempt) {
     std::uint32_t count = 0;
     result = vkEnumeratePhysicalDevices(instance, &count, nullptr);

@@ -1,4 +1,4 @@
-// Which physical devices there are, what they are good for, and which one to take.
+// The physical devices, their suitability, and the choice of one.
 #pragma once
 
 #include <volk.h>
@@ -14,7 +14,7 @@
 
 namespace medial_vk {
 
-/// A physical device with the family of queues that the runtime would use.
+/// A physical device with the family of queues that the library would use.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;                // meaningful if description.usable
@@ -23,20 +23,19 @@ struct PhysicalDevice {
   DeviceDescription description;
 };
 
-/// A family that copies and does nothing else: its queues are engines of their own, which work beside the others.
+/// A family that only copies: its queues are engines of their own, which run in parallel with the others.
 std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamilyProperties> families);
 
 /// All devices in Vulkan's order. Precondition: volk_mutex() is held, volk is loaded for `instance`.
 /// Errors: kNoDevice, kOutOfMemory. No device at all is an empty list, not an error.
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance);
 
-/// A device with a family of queues that somebody else has chosen; usable if that family will do. Preconditions as
-/// above.
+/// A device with a given family of queues; usable if that family is suitable. Preconditions as above.
 PhysicalDevice describe_device(VkPhysicalDevice handle, std::uint32_t queue_family);
 
-/// The device that `choice` means: an index, part of a name (case does not matter; of several the best), or, empty,
+/// The device given by `choice`: an index, part of a name (case does not matter; of several the best), or, empty,
 /// the best of all: discrete, integrated, virtual, cpu, other; the first listed among equals.
-/// `origin` names where the choice comes from in errors ("--device", "MEDIAL_VK_DEVICE").
+/// `origin` names the source of the choice in errors ("--device", "MEDIAL_VK_DEVICE").
 /// Returns the index. Errors: kNoDevice, listing what exists.
 Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices, const std::string& choice,
                                     const std::string& origin);

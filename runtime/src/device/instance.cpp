@@ -61,8 +61,8 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint64_t* message_count) 
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   info.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  // Not the GENERAL type: there the loader and the drivers talk about the machine (a manifest that does not parse, a
-  // driver without conformance), which says nothing about our use of Vulkan and would fail tests at random.
+  // Not the GENERAL type: there the loader and the drivers report on the machine (a manifest that does not parse, a
+  // driver without conformance), which does not concern our use of Vulkan and would fail tests at random.
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = on_message;
   info.pUserData = message_count;
@@ -139,7 +139,7 @@ Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
   const VkResult result = vkCreateInstance(&info, allocation_callbacks, &instance.handle);
   if (result != VK_SUCCESS) return instance_error(result);
   volkLoadInstanceOnly(instance.handle);
-  instance.destroy = vkDestroyInstance;  // volk's pointer is another one once another instance is there
+  instance.destroy = vkDestroyInstance;  // volk's pointer changes with another instance
   if (validation) {
     if (const Status added = add_messenger(instance, messenger, allocation_callbacks); !added.ok()) {
       destroy_instance(instance, allocation_callbacks);
@@ -176,7 +176,7 @@ HostInstance::HostInstance(HostInstance&& other) noexcept
 
 HostInstance::~HostInstance() {
   if (!restores_) return;
-  // Nothing of the host's loader stays: it may be gone when volk is used next.
+  // No pointer to the host's loader remains: it may be unloaded before the next use of volk.
   if (before_ != nullptr)
     volkInitializeCustom(before_);
   else

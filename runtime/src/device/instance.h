@@ -1,4 +1,4 @@
-// Loading Vulkan, making an instance, and hearing what the validation layer has to say.
+// The loader of Vulkan, an instance, and the messages of the validation layer.
 #pragma once
 
 #include <volk.h>
@@ -19,7 +19,8 @@ struct Instance {
 };
 
 /// volk keeps the loader's and the instance's functions in global pointers and rewrites them for every instance.
-/// Whoever creates, uses or destroys an instance holds this lock; device calls need no lock, they have a table each.
+/// Code that creates, uses or destroys an instance must hold this lock; device calls need none, as each device has its
+/// own table.
 std::mutex& volk_mutex();
 
 /// Precondition: volk_mutex() is held. With `validation`, `*message_count` counts the layer's warnings and errors
@@ -28,10 +29,10 @@ std::mutex& volk_mutex();
 Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
                                  const VkAllocationCallbacks* allocation_callbacks);
 
-/// Precondition: volk_mutex() is held; the instance's devices are gone. Does nothing to an empty Instance.
+/// Precondition: volk_mutex() is held; the instance's devices are destroyed. Does nothing to an empty Instance.
 void destroy_instance(Instance& instance, const VkAllocationCallbacks* allocation_callbacks);
 
-/// While it is there, volk is loaded for an instance of the host's. Precondition: volk_mutex() is held.
+/// During its lifetime, volk is loaded for an instance of the host. Precondition: volk_mutex() is held.
 class HostInstance {
  public:
   /// `get` is the host's vkGetInstanceProcAddr, or null. Error: kNoDevice (no loader).
@@ -43,7 +44,7 @@ class HostInstance {
  private:
   HostInstance() = default;
   bool restores_ = false;
-  PFN_vkGetInstanceProcAddr before_ = nullptr;  // what volk used before, or null
+  PFN_vkGetInstanceProcAddr before_ = nullptr;  // the previous function of volk, or null
 };
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// The one way from a public handle to what it owns, for the rooms of the library and for its tests.
+// The only access from a public handle to its Impl, for the parts of the library and its tests.
 #pragma once
 
 namespace medial_vk {

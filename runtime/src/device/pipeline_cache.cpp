@@ -59,7 +59,7 @@ bool matches(std::span<const std::byte> data, const PipelineCacheIdentity& ident
          std::memcmp(header.pipelineCacheUUID, identity.cache_uuid.data(), VK_UUID_SIZE) == 0;
 }
 
-/// Unlike that of any other process or context that writes the same cache now.
+/// Distinct from that of any other process or context that writes the same cache now.
 fs::path temporary_name(const fs::path& file, const void* unique) {
   const auto now = static_cast<std::uint64_t>(std::chrono::high_resolution_clock::now().time_since_epoch().count());
   const auto address = reinterpret_cast<std::uintptr_t>(unique);
@@ -128,7 +128,7 @@ Status Context::Impl::open_pipeline_cache(const std::string& folder_option) {
   info.initialDataSize = data.size();
   info.pInitialData = data.data();
   VkResult result = vk.vkCreatePipelineCache(device, &info, allocation_callbacks, &pipeline_cache_);
-  if (result != VK_SUCCESS && !data.empty()) {  // perhaps the driver dislikes the data: start afresh
+  if (result != VK_SUCCESS && !data.empty()) {  // the driver may have rejected the data: start with an empty cache
     info.initialDataSize = 0;
     info.pInitialData = nullptr;
     result = vk.vkCreatePipelineCache(device, &info, allocation_callbacks, &pipeline_cache_);
@@ -151,7 +151,7 @@ void Context::Impl::save_pipeline_cache() noexcept try {
     const bool is_new = result == VK_SUCCESS && !data.empty() && fnv1a(data) != pipeline_cache_checksum_;
     if (is_new && write_pipeline_cache(pipeline_cache_file_, data)) pipeline_cache_checksum_ = fnv1a(data);
   }
-} catch (...) {  // out of memory, or a path that cannot be: the file is only there to save time
+} catch (...) {  // out of memory or an invalid path; the file only saves time
 }
 
 }  // namespace medial_vk

@@ -1,5 +1,5 @@
-// The file that keeps compiled pipelines from one run to the next. It only ever saves time: every failure to read or
-// write it is silent, and a file that is not exactly what was written is ignored.
+// The file that keeps compiled pipelines from one run to the next. It only saves time: every failure to read or write
+// it is silent, and a file with altered content is ignored.
 #pragma once
 
 #include <volk.h>
@@ -12,8 +12,8 @@
 
 namespace medial_vk {
 
-/// What a cache belongs to. The file's name holds vendor, device and driver, so that devices do not fight over one
-/// file; the cache UUID, which changes with the driver's version, must match the file's content.
+/// The key of a cache. The file's name holds vendor, device and driver, so that devices do not share a file; the cache
+/// UUID, which changes with the driver's version, must match the file's content.
 struct PipelineCacheIdentity {
   std::uint32_t vendor = 0;
   std::uint32_t device = 0;
@@ -27,11 +27,11 @@ std::string pipeline_cache_folder(const std::string& option);
 /// Full path of the cache file; empty if `folder` is.
 std::string pipeline_cache_file(const std::string& folder, const PipelineCacheIdentity& identity);
 
-/// The data for VkPipelineCacheCreateInfo, or nothing if the file is absent, damaged or of another driver.
+/// The data for VkPipelineCacheCreateInfo, or no data if the file is absent, damaged or of another driver.
 std::vector<std::byte> read_pipeline_cache(const std::string& file, const PipelineCacheIdentity& identity);
 
 /// Writes a temporary file beside `file` and renames it, so that readers see the old or the new file, whole.
-/// Makes the folder if need be. Returns whether it worked.
+/// Creates the folder if necessary. Returns whether it succeeded.
 bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data);
 
 }  // namespace medial_vk

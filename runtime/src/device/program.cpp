@@ -121,7 +121,7 @@ Status make_program(const Context::Impl& context, VkPipelineCache cache, const E
   VkShaderModule module = VK_NULL_HANDLE;
   result = context.vk.vkCreateShaderModule(context.device, &module_info, context.allocation_callbacks, &module);
   if (result != VK_SUCCESS) return failed("vkCreateShaderModule", result);
-  const auto destroy = [&context](VkShaderModule* made) {  // also if there is no host memory for the pipeline's tables
+  const auto destroy = [&context](VkShaderModule* made) {  // also without host memory for the pipeline's tables
     context.vk.vkDestroyShaderModule(context.device, *made, context.allocation_callbacks);
   };
   const std::unique_ptr<VkShaderModule, decltype(destroy)> owner(&module, destroy);

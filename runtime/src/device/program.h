@@ -24,7 +24,7 @@ struct ProgramKey {
   auto operator<=>(const ProgramKey&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
-/// What follows the name of a shader that reads the mesh (cmake/EmbedShaders.cmake).
+/// The suffix of the name of a shader that reads the mesh (cmake/EmbedShaders.cmake).
 inline const char* storage_suffix(bool use_texels) { return use_texels ? "" : "_storage"; }
 
 /// Plain handles, which belong to an OwnedProgram.
@@ -35,7 +35,7 @@ struct Program {
   VkPipeline pipeline = VK_NULL_HANDLE;
 };
 
-/// Destroys the handles that are there, and the object.
+/// Destroys the existing handles, and the object.
 struct ProgramDeleter {
   const VolkDeviceTable* vk = nullptr;
   VkDevice device = VK_NULL_HANDLE;

@@ -1,4 +1,4 @@
-// What the kernels need of a device beyond its being there: the one place where these numbers are.
+// The device limits that the kernels require; these numbers are defined only here.
 #pragma once
 
 #include <volk.h>
@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// A limit that must not be lower. The least that Vulkan 1.2 promises is below some of them (docs/reliability.md).
+/// A limit that must not be lower. The minimum guaranteed by Vulkan 1.2 is below some of them (docs/reliability.md).
 struct RequiredLimit {
   const char* name;  // as in VkPhysicalDeviceLimits
   std::uint32_t needed;
@@ -18,7 +18,8 @@ struct RequiredLimit {
 
 std::span<const RequiredLimit> required_limits();
 
-/// "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed", for the first that is too low; empty: none is.
+/// "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed", for the first limit that is too low; empty if none
+/// is.
 std::string limit_too_low(VkPhysicalDeviceLimits limits);
 
 }  // namespace medial_vk

@@ -48,7 +48,7 @@ std::vector<Run> make_runs(const Bvh& bvh, std::uint32_t most) {
   return runs;
 }
 
-// The leaf order cut into `count` runs as long as each other, whatever the tree is like.
+// The leaf order cut into `count` runs of equal length, independently of the tree.
 std::vector<Run> make_equal_runs(std::uint32_t triangles, std::uint32_t count) {
   const std::uint32_t length = (triangles + count - 1) / count;
   std::vector<Run> runs;
@@ -94,7 +94,7 @@ Facets facets_of(const Run& run, const Bvh& bvh, const UnitTransform& to_unit, s
   return facets;
 }
 
-// Of the normals, weighted by area.
+// The mean of the normals, weighted by area.
 Point mean_normal(const Facets& facets) {
   Point sum{};
   for (const auto& c : facets.corners) sum = sum + cross(c[1] - c[0], c[2] - c[0]);
@@ -102,7 +102,7 @@ Point mean_normal(const Facets& facets) {
   return dot(mean, mean) > 0 ? mean : Point{0, 0, 1};
 }
 
-// The axis as the device has it: all bounds are of that.
+// The axis as rounded for the device, to which all bounds refer.
 Point as_float(const Point& p) {
   return {double{static_cast<float>(p[0])}, double{static_cast<float>(p[1])}, double{static_cast<float>(p[2])}};
 }

@@ -1,4 +1,4 @@
-// Clusters of triangles: what the contact lists of large cells hold instead of single triangles.
+// Clusters of triangles, which the contact lists of large cells hold instead of single triangles.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ constexpr std::uint32_t kTrianglesOfCluster = 16;
 
 }  // namespace
 
-/// Before anything is built. The triangles are the largest of the buffers that grow with the mesh.
+/// Tested before anything is built. The triangles are the largest of the buffers that grow with the mesh.
 Status DeviceMesh::check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits) {
   constexpr std::size_t kBytes = kTexelsPerTriangle * sizeof(Texel);
   const std::string mesh = "the mesh has " + std::to_string(triangles) + " triangles, ";
@@ -72,7 +72,7 @@ Status DeviceMesh::finish_uploads() {
 Status DeviceMesh::update(const IndexedMesh& moved) {
   Uploads uploads(*context_);
   if (Status status = update(moved, through(uploads)); !status.ok()) return status;
-  intact = false;  // also if that throws
+  intact = false;  // also after an exception
   Status there = uploads.finish();
   intact = there.ok();
   return there;
@@ -100,7 +100,7 @@ VkDeviceSize DeviceMesh::update_bytes() const {
   return sum;
 }
 
-/// What is known of the mesh as a whole. Error: it has no extent.
+/// The global properties of the mesh. Error: it has no extent.
 Status DeviceMesh::measure() {
   const MeshView mesh = source_.view();
   const BvhBox& box = tree_nodes()[0].box;
@@ -138,7 +138,7 @@ Status DeviceMesh::upload_triangles(const Uploader& uploader) {
   return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
 }
 
-/// To a buffer that is created if there is none yet, or too small a one.
+/// Uploads to a buffer, which is created if there is none or it is too small.
 Status DeviceMesh::fill(const Uploader& uploader, std::span<const std::byte> bytes, MemoryKind kind,
                         const char* purpose, Buffer& buffer) {
   if (buffer.handle == VK_NULL_HANDLE || buffer.size < bytes.size()) {
@@ -149,7 +149,7 @@ Status DeviceMesh::fill(const Uploader& uploader, std::span<const std::byte> byt
   return uploader(buffer, bytes);
 }
 
-/// The same with a view. It is of a buffer that is never read where kernels read storage.
+/// The same with a view, which is of a buffer that is never read where kernels read storage.
 Status DeviceMesh::fill_texels(const Uploader& uploader, std::span<const std::byte> bytes, const char* purpose,
                                VkFormat format, Buffer& buffer, VkBufferView& view) {
   const MemoryKind kind = use_texels ? MemoryKind::kTexels : MemoryKind::kDevice;
@@ -174,7 +174,7 @@ Status DeviceMesh::add_links() {
   if (Status status = finish_uploads(); !status.ok()) return status;
   Uploads uploads(*context_);
   has_links_ = true;
-  intact = false;  // until all is there
+  intact = false;  // until all data are uploaded
   // The triangles again, with their spreads.
   if (Status status = upload_triangles(through(uploads)); !status.ok()) return status;
   if (Status status = upload_all_links(through(uploads)); !status.ok()) return status;

@@ -24,54 +24,55 @@
 
 namespace medial_vk {
 
-/// Where the bytes for a buffer of the device go: there at once, or into memory from which a recorded job copies them.
+/// The destination of the bytes for a buffer of the device: the buffer itself, or memory from which a recorded job
+/// copies them.
 using Uploader = std::function<Status(const Buffer& buffer, std::span<const std::byte> bytes)>;
 
 /// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
   DeviceMesh(DeviceMesh&&) noexcept = default;
-  DeviceMesh& operator=(DeviceMesh&&) = delete;  // what is under way to its buffers would have to be waited for
+  DeviceMesh& operator=(DeviceMesh&&) = delete;  // it would have to wait for pending uploads
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
-  /// Positions travel as floats in the tree's texels, exact up to 2^24, and one lane of 256 looks at its share of all
+  /// Positions are stored as floats in the tree's texels, exact up to 2^24, and one lane of 256 tests its share of all
   /// triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535 iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
   /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
   static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
 
-  /// All of it is on its way to the device: finish_uploads() comes before the first use. With links: also what
-  /// add_links() adds. Errors: kInvalidMesh (no extent), kOutOfMemory.
+  /// Starts all uploads; finish_uploads() must precede the first use. With links: also the data of add_links(). Errors:
+  /// kInvalidMesh (no extent), kOutOfMemory.
   static Result<DeviceMesh> create(Context::Impl& context, const IndexedMesh& mesh, bool with_links);
   /// Errors: kOutOfMemory, kInternal (device lost).
   Status finish_uploads();
 
-  /// Follows the mesh that create() was given to where IndexedMesh::move_vertices() has brought it: positions, unit
-  /// box, tree, flags, and links if there are any, in the buffers there are. The device must be idle; what is recorded
-  /// with what is known of the mesh as a whole (closed, open_edge_count and so on) must be recorded again. Errors:
-  /// kUsage (another mesh: all stays as it was), kInvalidMesh (no extent: not intact until an update succeeds),
-  /// kOutOfMemory and kInternal (device lost): likewise.
+  /// Follows the mesh of create() after IndexedMesh::move_vertices(): positions, unit box, tree, flags, and links if
+  /// there are any, in the existing buffers. The device must be idle; commands recorded with global properties of the
+  /// mesh (closed, open_edge_count and so on) must be recorded again. Errors: kUsage (another mesh: nothing changes),
+  /// kInvalidMesh (no extent: not intact until an update succeeds), kOutOfMemory and kInternal (device lost): likewise.
   Status update(const IndexedMesh& moved);
-  /// The same with an uploader of the caller's: the device need not be idle if that is not at once.
+  /// The same with an uploader of the caller: the device need not be idle if the upload is deferred.
   Status update(const IndexedMesh& moved, const Uploader& uploader);
   /// Bytes of all buffers that an update fills.
   VkDeviceSize update_bytes() const;
 
-  /// Adds what the certified extraction reads besides triangles, unless it is there: clusters of triangles, open edges,
-  /// and for the dismissal by pairs edges and vertices. The device must be idle. Error: kOutOfMemory.
+  /// Adds the data that the certified extraction reads besides triangles, unless it exists already: clusters of
+  /// triangles, open edges, and for the dismissal by pairs edges and vertices. The device must be idle. Error:
+  /// kOutOfMemory.
   Status add_links();
   bool has_links() const { return has_links_; }
 
   /// The mesh on the host.
   const IndexedMesh& source() const { return source_; }
-  /// Where kernels bind `texels`, one of the buffers here that have a view, as storage.
+  /// The range in which kernels bind `texels`, one of the buffers here that have a view, as storage.
   BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
 
-  /// Of the Bvh whose leaf order `order` is.
+  /// The Bvh whose leaf order is `order`.
   const std::vector<BvhNode>& tree_nodes() const { return source_.bvh().nodes(); }
 
-  /// Of device memory that it holds.
+  /// Bytes of device memory held.
   VkDeviceSize bytes() const { return arena_.bytes(); }
 
   UnitTransform transform() const { return {lower, longest}; }
@@ -102,7 +103,7 @@ struct DeviceMesh {
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
   /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.
   bool use_texels = true;
-  bool intact = true;  // false after an update that failed half-way: the device may hold parts of both meshes
+  bool intact = true;  // false after a failed update: the device may hold parts of both meshes
   bool closed = false;
   bool has_untrusted = true;  // the normal of some triangle proves nothing
   std::uint32_t triangle_count = 0;
@@ -135,7 +136,7 @@ struct DeviceMesh {
   Context::Impl* context_;
   IndexedMesh source_;
   Arena arena_;
-  std::unique_ptr<Uploads> uploads_;  // under way, into buffers of the arena; or null
+  std::unique_ptr<Uploads> uploads_;  // pending uploads into buffers of the arena, or null
   bool has_links_ = false;
 };
 

@@ -15,13 +15,13 @@ namespace medial_vk {
 namespace {
 
 // Corners are rounded to float (2^-25 in the unit box), edges are differences of rounded corners (another 2^-25): the
-// triangle that a kernel sees stays within 2^-23 of the exact one. Twice that leaves room for the transform.
+// triangle that a kernel reads stays within 2^-23 of the exact one. Twice that allows for the transform.
 constexpr double kBoxMargin = 0x1p-22;
 
-// Nodes or triangles that a thread looks at in one go.
+// Consecutive nodes or triangles that a thread processes.
 constexpr std::size_t kBlock = 4096;
 
-// A place that no query is near to, whose squared distance is still finite in float.
+// A point that no query is near to, whose squared distance is still finite in float.
 constexpr float kFarAway = 1e18f;
 
 float round_down(double x) {
@@ -115,7 +115,7 @@ Moments joined_moments(const Moments& left, const Moments& right, const BvhNode&
 }
 
 /// Moments of every node: the leaves, which are most of the work, on all threads. Children come after their parents in
-/// a Bvh, so a pass from the back meets them first.
+/// a Bvh, so a pass in reverse order visits them first.
 std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit, unsigned threads) {
   const std::vector<BvhNode>& nodes = bvh.nodes();
   std::vector<Moments> all(nodes.size());
@@ -149,22 +149,22 @@ std::array<Texel, 4> moment_texels(const Moments& m, double total_area) {
           texel({2 * entry(0, 1), 2 * entry(0, 2), 2 * entry(1, 2)}, 0)};
 }
 
-/// Two texels of a child: lower corner and where it starts, upper corner and how many triangles (0: an inner node).
+/// Two texels of a child: lower corner and first index, upper corner and number of triangles (0: an inner node).
 std::pair<Texel, Texel> box_texels(const BvhNode& node, std::uint32_t first, const UnitTransform& to_unit) {
   const FloatBox box = float_box(node.box, to_unit);
   return {Texel{box.lower[0], box.lower[1], box.lower[2], static_cast<float>(first)},
           Texel{box.upper[0], box.upper[1], box.upper[2], static_cast<float>(node.count)}};
 }
 
-/// How far the rounding of its corners can turn a triangle, at most (docs/theory.md, "Rounding").
+/// The greatest turn of a triangle by the rounding of its corners (docs/theory.md, "Rounding").
 double tilt(const Point& ab, const Point& ac) {
   const double longest = std::max({length(ab), length(ac), length(ac - ab)});
   return 1.2e-7 * longest / std::max(length(cross(ab, ac)), 1e-30);
 }
 
-/// `spread`: how far spokes may turn from its normal, as a sine; none if the normal is not trusted.
+/// `spread`: the sine of the greatest turn of spokes from its normal; none if the normal is not trusted.
 std::array<Texel, kTexelsPerTriangle> triangle_texels(const std::array<Point, 3>& exact, std::optional<double> spread) {
-  // Every triangle rounds a shared corner alike, so the float mesh is as watertight as the exact one.
+  // Every triangle rounds a shared corner identically, so the float mesh is as watertight as the exact one.
   const std::array<float, 3> a = to_float(exact[0]);
   const Point ab = difference(to_float(exact[1]), a);
   const Point ac = difference(to_float(exact[2]), a);

@@ -1,4 +1,4 @@
-// The arrays that kernels read of a mesh: triangles and tree as texels.
+// The arrays of a mesh that kernels read: triangles and tree as texels.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 namespace medial_vk {
 namespace {
 
-/// What the arrays of a mesh tell without an inspection.
+/// The report of a mesh without an inspection.
 MeshReport report_of(const MeshView& mesh) {
   MeshReport report;
   report.vertices = mesh.vertices.size();
@@ -81,7 +81,7 @@ Status IndexedMesh::move_vertices(std::span<const Point> vertices, std::span<con
                                   unsigned threads) {
   if (Status status = check_moved(impl_->prepared, vertices, flags); !status.ok()) return status;
   return catch_out_of_memory("moving a mesh", [&]() -> Status {
-    // A copy, since others may share what was there, and since an error leaves that as it is.
+    // A copy, since others may share the data, and an error must leave them unchanged.
     auto moved = std::make_shared<Impl>(*impl_);
     moved->prepared.mesh.vertices.assign(vertices.begin(), vertices.end());
     if (!flags.empty()) moved->prepared.flags.assign(flags.begin(), flags.end());

@@ -1,4 +1,4 @@
-// What an IndexedMesh holds.
+// The data of an IndexedMesh.
 #pragma once
 
 #include "device/internals.h"

@@ -17,19 +17,19 @@ namespace {
 using gpu::uint;
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-// Trusted normals are right to 1e-7 (prepare_mesh.cpp), and edges come from coordinates that were rounded when they
-// were written: features within this (radians) of being touchable count as touchable.
+// Trusted normals are accurate to 1e-7 (prepare_mesh.cpp), and edges come from coordinates that were rounded when
+// written: features within this angle (radians) of being touchable count as touchable.
 constexpr double kTouchSlack = 3e-7;
 // Normals closer than this count as one: faces are listed with a cap of twice that
 // (shaders/shared/certified/carriers.glsl), and hold their edges and vertices.
 constexpr double kFlat = 5e-6;
-// Two sides of an untrusted triangle at a larger angle than this (its sine) give a normal that is right to 1e-9.
+// Two sides of an untrusted triangle at a larger angle than this (its sine) give a normal accurate to 1e-9.
 constexpr double kLeastCornerSine = 1e-6;
 // Axes and angles are stored as floats.
 constexpr double kCapSlack = 1e-6;
 // Spokes to a face, an edge between faces that count as one, or a corner of such: within this of its normal.
 constexpr double kFaceSpread = 1e-5;
-// Vertices that a thread looks at in one go.
+// Consecutive vertices that a thread processes.
 constexpr std::size_t kVerticesOfBlock = 2048;
 
 Point unit(const Point& v) {
@@ -58,7 +58,7 @@ const Point& farthest_from(const Point& axis, std::span<const Point> directions)
 }
 
 // A cap below a right angle that holds all directions, nearly the smallest: the axis moves towards the direction
-// farthest from it, a little less each time (Badoiu and Clarkson 2003). Of none, none.
+// farthest from it, by decreasing steps (Badoiu and Clarkson 2003). No value without directions.
 std::optional<Cap> cap_around(std::span<const Point> directions) {
   constexpr int kSteps = 16;
   if (directions.empty()) return std::nullopt;
@@ -78,7 +78,7 @@ struct Sides {
   bool front = true, back = true;
 };
 
-// Is each of s and -s at no more than a right angle from all edges, with slack?
+// For each of s and -s: true if it is at most a right angle from all edges, with slack.
 Sides supported_sides(const Point& s, std::span<const Point> edges) {
   Sides sides;
   for (const Point& edge : edges) {
@@ -90,7 +90,7 @@ Sides supported_sides(const Point& s, std::span<const Point> edges) {
   return sides;
 }
 
-// The extreme rays of {s : s.e >= 0 for all edges e}, with slack; nothing if two edges are too close to a line.
+// The extreme rays of {s : s.e >= 0 for all edges e}, with slack; no value if two edges are too close to a line.
 std::optional<std::vector<Point>> supporting_rays(std::span<const Point> edges) {
   std::vector<Point> rays;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -115,8 +115,8 @@ gpu::vec4 to_gpu(const Cap& cap) {
 constexpr gpu::vec4 kAnySpoke = {0, 0, 1, 4}, kNoSpoke = {0, 0, 1, -1};
 
 // Lemma D at a vertex. The spokes form a convex cone inside both the cap of the normals and the cone of the rays. If
-// the axis of the cap, less than a right angle away from every possible spoke, is at least that far from every ray,
-// there is none.
+// the axis of the cap, less than a right angle away from every possible spoke, is at least a right angle from every
+// ray, there is no spoke.
 gpu::vec4 corner_cap(std::span<const Point> normals, std::span<const Point> edges) {
   const std::optional<Cap> by_normals = cap_around(normals);
   if (!by_normals) return kAnySpoke;
@@ -141,9 +141,8 @@ gpu::vec4 corner_cap_from_all_sides(std::span<const Point> edges) {
 }
 
 // Lemma I on an edge: all directions s across it with s.d >= 0 for the directions d in which its triangles leave it.
-// The d lie in an arc, all of the circle but the widest gap between two of them; the s are in an arc with the same
-// middle, and both are a straight angle together. Nothing if there are none, or only the normals of two triangles in a
-// plane.
+// The d lie in an arc, the circle without the widest gap between two of them; the s are in an arc with the same middle,
+// and both are a straight angle together. No value if there are none, or only the normals of two triangles in a plane.
 std::optional<Cap> arc_of_spokes(const Point& along, std::span<const Point> across) {
   const Point u = across[0], v = cross(along, u);
   std::vector<double> angles;
@@ -357,7 +356,7 @@ class Builder {
     return edges;
   }
 
-  // Lemma L. A triangle is not asked where one beside it is not trusted: its own trust is all that is known of it then.
+  // Lemma L. The lemma is not applied to a triangle beside an untrusted one: only its own trust is known then.
   void measure_spreads() {
     out_.spreads.resize(order_.size());
     parallel_blocks(order_.size(), kVerticesOfBlock, threads_, [&](std::size_t first, std::size_t last) {

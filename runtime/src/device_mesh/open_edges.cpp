@@ -27,7 +27,7 @@ std::vector<DirectedEdge> directed_edges(const MeshView& mesh) {
   return edges;
 }
 
-// An edge that is run along from `from` to `to` that much more often than back.
+// An edge that is traversed from `from` to `to` by that much more often than back.
 struct Surplus {
   std::uint32_t from, to;
   int times;
@@ -46,7 +46,7 @@ std::vector<Surplus> surpluses(const MeshView& mesh) {
   return out;
 }
 
-// Which vertices hang together by edges: a representative of each, by path halving.
+// The components of vertices connected by edges: a representative of each vertex, by path halving.
 class Parts {
  public:
   std::uint32_t root(std::uint32_t v) {

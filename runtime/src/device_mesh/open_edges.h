@@ -1,4 +1,4 @@
-// The boundary of an open mesh: what its winding numbers lack to be whole numbers.
+// The open edges of a mesh, from which the deviation of its winding numbers from whole numbers follows.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct OpenEdges {
   std::vector<gpu::OpenEdge> listed;  ///< All of them, in the unit box, or none if there are too many.
 };
 
-/// The edges that triangles run along unequally often in the two directions, with what they lack, listed if there are
-/// at most `most`. Edges that hang together share an apex: the triangles between them and their apex, as often as is
-/// lacking, close the mesh.
+/// The edges that triangles traverse unequally often in the two directions, with the difference, listed if there are at
+/// most `most`. Connected edges share an apex: the triangles between them and their apex, each repeated by the
+/// difference, close the mesh.
 OpenEdges find_open_edges(const MeshView& mesh, const UnitTransform& to_unit, std::uint32_t most);
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-// Between the coordinates of a mesh and those of the device.
+// The transform between the coordinates of a mesh and those of the device.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct UnitTransform {
   Point operator()(const Point& p) const {
     return {(p[0] - lower[0]) / longest, (p[1] - lower[1]) / longest, (p[2] - lower[2]) / longest};
   }
-  /// And back.
+  /// The inverse.
   Point inverse(const std::array<float, 3>& p) const {
     return {lower[0] + longest * double{p[0]}, lower[1] + longest * double{p[1]}, lower[2] + longest * double{p[2]}};
   }

@@ -1,4 +1,4 @@
-// Extraction in either mode, of a mesh that is uploaded for it or that is on the device already.
+// Extraction in either mode, of a mesh that is uploaded first or is on the device already.
 #include "medial_vk/extraction.h"
 
 #include <memory>
@@ -16,7 +16,7 @@
 namespace medial_vk {
 namespace {
 
-/// `extract`: from what has been checked, with a watch.
+/// `extract` gets checked parameters and a watch.
 template <class Extract>
 Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallback& progress,
                            const std::stop_token& stop, const Extract& extract) {

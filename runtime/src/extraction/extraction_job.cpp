@@ -28,7 +28,7 @@ static_assert(offsetof(RecordedSphere, voxel) == offsetof(gpu::FoundPoint, voxel
 /// RecordedCounts, and the overflow word of the pipeline.
 constexpr VkDeviceSize kCountsBytes = sizeof(RecordedCounts) + 8;
 
-/// Bytes that wait in host memory for the copies that a recorded sequence starts with.
+/// Bytes in host memory for the copies with which a recorded sequence starts.
 class StagedMesh {
  public:
   explicit StagedMesh(Context::Impl& context) : arena_(context) {}
@@ -73,7 +73,7 @@ class StagedMesh {
 }  // namespace
 
 struct ExtractionJob::Impl {
-  /// What a recorded sequence uses until it has finished.
+  /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
     explicit Frame(Context::Impl& context) : staged(context) {}
     StagedMesh staged;
@@ -87,14 +87,14 @@ struct ExtractionJob::Impl {
   Context::Impl& context;
   ExtractionOptions parameters;
   JobOptions options;
-  StopWord stop;  // nobody raises it
+  StopWord stop;  // never raised
   DeviceMesh mesh;
   Arena arena;
   std::optional<CertifiedPipeline> pipeline;
   Buffer counts;  // for the device
   std::vector<Frame> frames;
   std::size_t next = 0;  // the frame that is recorded next
-  Placement recorded;    // where the mesh of the last one is
+  Placement recorded;    // that of the last recorded sequence
 
   Status prepare();
   Status make_buffers();
@@ -103,7 +103,7 @@ struct ExtractionJob::Impl {
 
 Status ExtractionJob::Impl::prepare() {
   const std::uint32_t n = parameters.resolution;
-  // Memory for any shape of the box: the mesh moves.
+  // Memory for any shape of the box, as the mesh moves.
   Result<CertifiedPipeline> made = CertifiedPipeline::create(context, mesh, parameters, {n, n, n}, stop);
   if (!made.ok()) return made.error();
   pipeline.emplace(std::move(made).value());

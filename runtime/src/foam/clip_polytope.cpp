@@ -23,7 +23,7 @@ double ClipPolytope::reach_from(const Point& p) const {
   return reach;
 }
 
-/// One cut of a polytope: which vertices go, and the new ones on the edges in between.
+/// One cut of a polytope: the removed vertices, and the new ones on the edges in between.
 class ClipPolytope::Cut {
  public:
   Cut(std::vector<Vertex>& vertices, const HalfSpace& half_space, std::int32_t name, double margin)
@@ -41,8 +41,8 @@ class ClipPolytope::Cut {
     return std::all_of(heights_.begin(), heights_.end(), [](double h) { return h > 0; });
   }
 
-  /// The face without its part outside. Where its outline leaves and comes back, a straight piece joins the two new
-  /// vertices; the same piece, turned round, belongs to the outline of the cap.
+  /// The face without its part outside. Where its outline leaves and returns, a straight segment joins the two new
+  /// vertices; the same segment, reversed, belongs to the outline of the cap.
   Face clipped(const Face& face) {
     Face out = {{}, face.name};
     const std::size_t count = face.corners.size();
@@ -65,7 +65,7 @@ class ClipPolytope::Cut {
     return out;
   }
 
-  /// The new faces: one in exact arithmetic. As many pieces start at a vertex as end there, so every walk comes back.
+  /// The new faces: one in exact arithmetic. As many segments start at a vertex as end there, so every walk is closed.
   std::vector<Face> caps() {
     std::vector<Face> out;
     while (!cap_pieces_.empty()) {
@@ -151,7 +151,7 @@ std::vector<HalfSpace> hull_half_spaces(const std::vector<Point>& points, double
   ClipPolytope dual(half_side);
   for (const Point& p : points) {
     const double distance = length(p);
-    if (2 * distance * half_side < 1) continue;  // the plane passes by the box
+    if (2 * distance * half_side < 1) continue;  // the plane misses the box
     dual.clip({(1 / distance) * p, 1 / distance}, 0, 0x1p-40 * half_side);
   }
   std::vector<HalfSpace> out;

@@ -1,4 +1,4 @@
-// A convex polytope that is cut by half-spaces one after the other, and never loses a point that lies in all of them.
+// A convex polytope, cut by half-spaces one after the other, that never loses a point of their intersection.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@ struct HalfSpace {
   double offset = 0;
 };
 
-/// Each cut is made `margin` outside the half-space. The stored surface is closed whatever rounding does, and each of
-/// its faces lies strictly outside the half-space that made it; so the intersection of all half-spaces stays in the
-/// convex hull of vertices() (docs/foam.md, "Rounding"). The margin must be above 2^-50 of the largest coordinate for
-/// each cut that was made; callers take 2^-40.
+/// Each cut is made `margin` outside the half-space. The stored surface is closed for any rounding, and each of its
+/// faces lies strictly outside the half-space that made it; so the intersection of all half-spaces stays in the convex
+/// hull of vertices() (docs/foam.md, "Rounding"). The margin must be above 2^-50 of the largest coordinate for each cut
+/// that was made; callers take 2^-40.
 class ClipPolytope {
  public:
   struct Vertex {
     Point position;
     std::array<std::int32_t, 3> planes;  ///< Names of the three half-spaces that made it.
   };
-  /// Name of the walls of the first box; callers name their half-spaces otherwise.
+  /// Name of the walls of the first box; callers use other names for their half-spaces.
   static constexpr std::int32_t kBox = INT32_MIN;
 
   /// The cube [-half_side, half_side]^3.

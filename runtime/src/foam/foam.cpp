@@ -15,13 +15,13 @@ namespace medial_vk {
 
 namespace {
 
-// 512 units in the last place of the largest coordinate, of which a ball of the empty foam loses as much: enough for
-// |e|^2 - r^2 (6 units of |e|^2) as long as r is no smaller than |e| / 64, which foam_region.cpp asks for.
+// 512 units in the last place of the largest coordinate, by which a ball of the empty foam is reduced: enough for |e|^2
+// - r^2 (6 units of |e|^2) as long as r is no smaller than |e| / 64, which foam_region.cpp requires.
 constexpr double kRounding = 0x1p-44;
 constexpr double kClipMargin = 0x1p-40;  // ClipPolytope: of the largest coordinate, for up to 1000 cuts
 constexpr double kSameSite = 0x1p-30;    // of the largest coordinate
 constexpr double kOutside = 1e-6;        // of the radius
-constexpr double kRoundBall = 0x1p-6;    // of the radius: how closely a cell is cut to a ball
+constexpr double kRoundBall = 0x1p-6;    // of the radius: accuracy of the cut of a cell to a ball
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kDepthSteps = 256;
 constexpr std::int32_t kDepthPlane = ClipPolytope::kBox + 1;
@@ -62,7 +62,7 @@ class Foam::Impl {
         return site_width(a, steps * sphere_.radius / kDepthSteps, width, width) <= width;
       };
       if (holds(bound)) continue;
-      std::uint32_t high = kDepthSteps;  // true of it: the sphere's radius bounds every depth
+      std::uint32_t high = kDepthSteps;  // valid, as the sphere's radius bounds every depth
       while (high - bound > 1) {
         const std::uint32_t middle = (bound + high) / 2;
         (holds(middle) ? high : bound) = middle;
@@ -104,8 +104,8 @@ class Foam::Impl {
     if (std::none_of(sites_.begin(), sites_.end(), same)) sites_.push_back(s.nearest);
   }
 
-  /// V(A) in the hull, coordinates from the sphere's centre. Names: other sites' indices for bisectors, -1 - k for
-  /// facet k.
+  /// V(A) in the hull, with coordinates relative to the sphere's centre. Names: other sites' indices for bisectors, -1
+  /// - k for facet k.
   ClipPolytope cell_of(std::uint32_t site) const {
     const Point a = from_centre(sites_[site]);
     ClipPolytope cell(1.25 * sphere_.radius);
@@ -116,7 +116,7 @@ class Foam::Impl {
     std::sort(others.begin(), others.end());
     const double margin = kClipMargin * scale_;
     for (const auto& [distance, b] : others) {
-      if (distance > 2 * cell.reach_from(a) + 4 * margin) break;  // the bisector passes by
+      if (distance > 2 * cell.reach_from(a) + 4 * margin) break;  // the bisector misses the cell
       const Point normal = (1 / distance) * (sites_[b] - sites_[site]);
       const Point middle = 0.5 * (a + from_centre(sites_[b]));
       cell.clip({normal, dot(normal, middle)}, static_cast<std::int32_t>(b), margin);
@@ -151,8 +151,8 @@ class Foam::Impl {
     full_balls_.push_back(out);
   }
 
-  /// The part of a cell at this depth or more lies in a ball around the centre. Tangent planes of the ball, each where
-  /// the vertex that sticks out most would touch it, cut the cell to a little more than that part.
+  /// The part of a cell at this depth or more lies in a ball around the centre. Tangent planes of the ball, each in the
+  /// direction of the vertex that protrudes most, cut the cell nearly to that part.
   ClipPolytope part_at_depth(std::uint32_t site, double depth) const {
     ClipPolytope part = cells_[site];
     const double radius = std::max(0.0, sphere_.radius - depth);
@@ -168,7 +168,7 @@ class Foam::Impl {
     return part;
   }
 
-  /// Bound on the width of medial points in V(site) at this depth or more; no better than within [enough, too_much].
+  /// Bound of the width of medial points in V(site) at this depth or more, refined only within [enough, too_much].
   double site_width(std::uint32_t site, double depth, double enough, double too_much) const {
     const ClipPolytope part = part_at_depth(site, depth);
     if (part.empty()) return 0;
@@ -180,7 +180,7 @@ class Foam::Impl {
     region.slack = slack_;
     for (const ClipPolytope::Vertex& v : part.vertices()) region.centres.push_back(v.position - a);
     for (const Ball& b : empty_balls_) region.empty.push_back({b.centre - sites_[site], b.radius - slack_});
-    // Distances from A are wrong by less than the slack at either end.
+    // Distances from A have an error below the slack at either end.
     return std::min(plain, width_of_region(region, enough, too_much) + 2 * slack_);
   }
 

@@ -14,8 +14,8 @@ namespace medial_vk {
 
 namespace {
 
-// Cosines are wrong by a few units in the last place; sines that come from them by the root of that. Both are moved
-// the safe way by this much (u = 2^-53; 16 u).
+// Cosines have errors of a few units in the last place; sines computed from them have the root of that. Both are moved
+// in the safe direction by this amount (u = 2^-53; 16 u).
 constexpr double kCosineError = 0x1p-49;
 constexpr double kFinestPatch = 0.04;        // side of its square, about radians
 constexpr double kAboutAsWide = 0.95;        // as a share of the widest
@@ -30,7 +30,7 @@ struct Patch {
   Point direction;                // unit, through the middle
   double cosine = 1, sine = 0;    // of the largest angle between the direction and one of the patch, rounded outwards
   double reach = 0;               // no point of the region in the cone is further from A
-  std::vector<std::uint32_t> empty;  // balls that may still matter
+  std::vector<std::uint32_t> empty;  // balls that may still hide points
 };
 
 Point unit_direction(std::uint32_t face, double u, double v) {
@@ -73,15 +73,15 @@ Along along_patch(const Patch& patch, const Point& w) {
   return {least, most};
 }
 
-/// Where a ray from A with dot(v, direction) = along leaves the ball around v with radius |v| + slack.
+/// The distance at which a ray from A with dot(v, direction) = along leaves the ball around v with radius |v| + slack.
 double leaves_at(double along, double distance, double slack) {
   const double power = 2 * distance * slack + slack * slack;
   return along + std::sqrt(along * along + power);
 }
 
-/// What a ball of the empty foam hides of the rays of a patch, as distances from A. On a ray with dot(e, direction) =
-/// d, ball (e, r) hides d -+ sqrt(d^2 - (|e|^2 - r^2)), and both ends move outwards as d grows: the least d hides what
-/// every ray of the patch has hidden, the largest what any may have.
+/// The part of the rays of a patch that a ball of the empty foam hides, as distances from A. On a ray with dot(e,
+/// direction) = d, ball (e, r) hides d -+ sqrt(d^2 - (|e|^2 - r^2)), and both ends move outwards as d grows: the least
+/// d gives the part hidden on every ray of the patch, the largest d the part hidden on any.
 struct Hidden {
   std::uint32_t ball;
   double from = 0, to = 0;                 // on every ray; nothing if to == 0
@@ -90,11 +90,12 @@ struct Hidden {
   double middle = 0, power = 0;  // dot(e, direction) on the middle ray, |e|^2 - r^2
 
   double length() const { return to - from; }
-  /// What the other hides here, this one hides as well, on every ray of the patch and of any part of it.
+  /// True if this one hides everything that the other hides, on every ray of the patch and of any part of it.
   bool covers(const Hidden& other) const { return from <= other.lowest_from && to >= other.highest_to; }
 };
 
-/// False if the ball hides nothing on any ray, or is so small beside its distance that rounding could hide too much.
+/// False if the ball hides nothing on any ray, or is so small compared with its distance that rounding could hide too
+/// much.
 bool find_hidden(const Patch& patch, const Ball& ball, Hidden& hidden) {
   const Along along = along_patch(patch, ball.centre);
   const double power = dot(ball.centre, ball.centre) - ball.radius * ball.radius;
@@ -139,7 +140,7 @@ const Hidden* best_hider(const Patch& patch, const FoamRegion& region, const Poi
   return best != nullptr && hides_end(patch, region, v, region.empty[best->ball]) ? best : nullptr;
 }
 
-/// How far the full foam reaches on the rays of the patch, less what single balls hide of the ends of its balls.
+/// The reach of the full foam on the rays of the patch, except for ends of its balls that single balls hide.
 double end_of_full_foam(const Patch& patch, const FoamRegion& region, const std::vector<Hidden>& hidden) {
   double reach = 0;
   for (const Point& v : region.centres) {
@@ -151,7 +152,7 @@ double end_of_full_foam(const Patch& patch, const FoamRegion& region, const std:
   return reach;
 }
 
-/// The patch's reach: from the full foam's reach inwards through what the empty foam hides.
+/// The patch's reach: from the full foam's reach inwards through the parts that the empty foam hides.
 void find_reach(const FoamRegion& region, Patch& patch) {
   std::vector<Hidden> hidden;
   hidden.reserve(patch.empty.size());
@@ -212,7 +213,8 @@ class Division {
     return std::max({p.reach, q.reach, length(p.reach * p.direction - q.reach * q.direction)});
   }
 
-  /// Divides the coarser patch of every pair that is about as wide as the widest; false if that is no use any more.
+  /// Divides the coarser patch of every pair that is about as wide as the widest; false if that cannot improve the
+  /// bound any more.
   bool divide() {
     std::vector<std::uint8_t> chosen(patches_.size(), 0);
     for_each_pair(kAboutAsWide * width_, [&](std::size_t i, std::size_t j, double width) {

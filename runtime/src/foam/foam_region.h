@@ -1,4 +1,4 @@
-// How far the region "full foam of one site minus empty foam" reaches (Section 3.4; docs/foam.md, "Width").
+// The extent of the region "full foam of one site minus empty foam" (Section 3.4; docs/foam.md, "Width").
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// The region of one site A, seen from A: all points X with |X - v| <= |v| + slack for some v of `centres` and
+/// The region of one site A, relative to A: all points X with |X - v| <= |v| + slack for some v of `centres` and
 /// |X - e| >= r for every ball (e, r) of `empty`.
 struct FoamRegion {
   std::vector<Point> centres;
@@ -17,8 +17,9 @@ struct FoamRegion {
   double slack = 0;
 };
 
-/// No two points of the region are further apart. Found by dividing the directions around A until the bound is at most
-/// `enough`, or is known to be above `too_much`, or is within 5 % of the least one, or the parts get too many.
+/// An upper bound of the diameter of the region. The directions around A are divided until the bound is at most
+/// `enough`, or the diameter is known to be above `too_much`, or the bound is within 5 % of the least one, or there are
+/// too many parts.
 double width_of_region(const FoamRegion& region, double enough, double too_much);
 
 }  // namespace medial_vk

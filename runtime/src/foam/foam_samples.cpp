@@ -1,4 +1,4 @@
-// Where foams come from: Algorithm 3 (Sections 3.1, 3.2) and the iteration of Section 3.5.
+// The samples of foams: Algorithm 3 (Sections 3.1, 3.2) and the iteration of Section 3.5.
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -21,7 +21,7 @@ Result<std::vector<Point>> ask(const NearestPointsFunction& nearest, const std::
   return answers;
 }
 
-/// Where the line through p leaves the ball in the given unit direction; p itself if it leaves there already.
+/// The point where the line through p leaves the ball in the given unit direction; p itself if it leaves there already.
 Point exit_of(const Ball& sphere, const Point& p, const Point& direction) {
   const Point from = p - sphere.centre;
   const double along = dot(from, direction);
@@ -37,7 +37,7 @@ struct Segment {
 };
 
 /// Adds the far ends as samples. A medial point lies on a segment if the ball around its far end through the near
-/// end's contact is not empty: the nearest boundary point changes on the way (Lemma 2.2).
+/// end's contact is not empty: the nearest boundary point changes along it (Lemma 2.2).
 Status test_segments(SphereSamples& out, const std::vector<Segment>& segments, double query_error,
                      const NearestPointsFunction& nearest) {
   std::vector<Point> queries;
@@ -49,7 +49,7 @@ Status test_segments(SphereSamples& out, const std::vector<Segment>& segments, d
     const Point& far_end = segments[k].far_end;
     const double through_near = length(far_end - segments[k].near_contact);
     const double distance = length(far_end - answers.value()[k]);
-    // A few units in the last place of what goes into a distance, 2^-49 each.
+    // A few units in the last place of the operands of a distance, 2^-49 each.
     const double rounding = 0x1p-46 * (through_near + length(far_end) + out.sphere.radius);
     if (through_near - distance > 2 * query_error + rounding) out.holds_medial_point = true;
     out.samples.push_back({far_end, answers.value()[k]});
@@ -58,7 +58,7 @@ Status test_segments(SphereSamples& out, const std::vector<Segment>& segments, d
 }
 
 /// The segment from a sample through the ball, away from its contact or, if that leaves the ball at once, towards it.
-/// Nothing if the sample lies on the boundary, or the way towards the contact leads through it.
+/// No value if the sample lies on the boundary, or the line towards the contact passes through it.
 void add_segment(const Ball& sphere, const FoamSample& sample, std::vector<Segment>& segments,
                  std::vector<FoamSample>& towards) {
   const double distance = length(sample.query - sample.nearest);
@@ -70,7 +70,7 @@ void add_segment(const Ball& sphere, const FoamSample& sample, std::vector<Segme
     return;
   }
   const Point near_end = exit_of(sphere, sample.query, -1.0 * away);
-  // All of the way to the contact has the same contact: no query is needed.
+  // All points on the line to the contact have the same contact: no query is needed.
   if (length(near_end - sample.query) < distance) towards.push_back({near_end, sample.nearest});
 }
 
@@ -98,8 +98,8 @@ Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sa
     add_segment(sphere, sample, segments, towards);
   }
   if (sampling.deep_samples) {
-    // The centre's segment ends in c_in; c_out lies the other way, on the way to the contact unless the sphere meets
-    // it.
+    // The centre's segment ends in c_in; c_out lies in the other direction, on the line to the contact unless the
+    // sphere meets it.
     const FoamSample& centre = out.samples.back();
     const double distance = length(centre.query - centre.nearest);
     if (distance > sphere.radius)

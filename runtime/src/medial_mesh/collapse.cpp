@@ -16,7 +16,7 @@ namespace {
 class Sets {
  public:
   explicit Sets(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0u); }
-  /// False: they were one already.
+  /// False: they were in one set already.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);
@@ -32,7 +32,7 @@ class Sets {
   std::vector<std::uint32_t> parents_;
 };
 
-/// By triangle: the tetrahedra at it, the number of tetrahedra standing for what is outside.
+/// By triangle: the tetrahedra at it, where the number of tetrahedra denotes the outside.
 std::vector<std::array<std::uint32_t, 2>> tetrahedra_at_triangles(const DualComplex& complex) {
   const auto outside = static_cast<std::uint32_t>(complex.tetrahedra.size());
   std::vector<std::array<std::uint32_t, 2>> at(complex.triangles.size(), {outside, outside});
@@ -47,9 +47,9 @@ std::vector<std::array<std::uint32_t, 2>> tetrahedra_at_triangles(const DualComp
   return at;
 }
 
-/// Each tetrahedron goes with one of its faces: from outside in, along a tree that joins all tetrahedra and the outside
-/// by faces, the face towards the outside is in no other tetrahedron when its turn comes. The tree of the largest faces
-/// (Kruskal 1956) leaves the smallest that any collapse of all tetrahedra can leave.
+/// Each tetrahedron collapses with one of its faces: from outside in, along a tree that joins all tetrahedra and the
+/// outside by faces, the face towards the outside is in no other tetrahedron in its turn. The tree of the largest faces
+/// (Kruskal 1956) leaves the smallest faces that any collapse of all tetrahedra can leave.
 std::vector<bool> faces_that_go(const DualComplex& complex, const CollapseRule& rule) {
   std::vector<double> sizes;
   sizes.reserve(complex.triangles.size());
@@ -91,7 +91,7 @@ class Trimming {
     }
   }
 
-  /// Small ones first: what bears a fin is often a fin when that one has gone.
+  /// Small ones first: the support of a fin is often a fin after that one has collapsed.
   void take_fins() {
     for (std::size_t limit = 1; limit <= complex_.triangles.size();) limit = take_fins(limit) ? 1 : 2 * limit;
   }
@@ -118,9 +118,9 @@ class Trimming {
     return taken;
   }
 
-  /// A fin is what can be reached from a free edge across edges of two triangles, if it is a tree of triangles that
-  /// has no other free edge: one edge goes with each triangle, and every vertex is on an edge of three triangles or
-  /// more that bears the fin. Fills in the edges, each of which is free when those before it have collapsed.
+  /// A fin is the set of triangles reached from a free edge across edges of two triangles, if it is a tree that has no
+  /// other free edge: one edge collapses with each triangle, and every vertex is on an edge of three triangles or more
+  /// that bears the fin. Fills in the edges, each of which is free when those before it have collapsed.
   bool find_fin(std::uint32_t free_edge, std::size_t limit) {
     fin_.assign(1, free_edge);
     triangles_.assign(1, surface_.triangle_at(free_edge));
@@ -141,7 +141,7 @@ class Trimming {
   const DualComplex& complex_;
   const CollapseRule& rule_;
   SurfaceComplex& surface_;
-  std::vector<std::uint32_t> fin_, triangles_;  // the edge, and the triangle that goes with it
+  std::vector<std::uint32_t> fin_, triangles_;  // the edge, and the triangle that collapses with it
 };
 
 }  // namespace

@@ -47,8 +47,8 @@ class Builder {
     return dot(d, d);
   }
 
-  /// Points that crowd at the wall between two voxels are one point of the medial surface twice, in an order along the
-  /// normal that says nothing. The first of them that leads itself stands for them.
+  /// Points close together at the wall between two voxels are copies of one point of the medial surface, in an
+  /// arbitrary order along the normal. The first of them that has no representative itself represents them.
   void find_leader(std::uint32_t place) {
     const double reach = 2 * parameters_.epsilon;
     for (const std::uint32_t other : graph_.neighbours(place)) {
@@ -59,7 +59,7 @@ class Builder {
     }
   }
 
-  /// By place. All powers change by the same, so that the power diagram is that of the balls themselves.
+  /// By position. All powers change by the same amount, so that the power diagram is that of the balls themselves.
   std::vector<Ball> grown_balls() const {
     std::vector<Ball> balls;
     balls.reserve(graph_.size());
@@ -77,7 +77,7 @@ class Builder {
             [this](std::uint32_t a, std::uint32_t b) { return graph_.touch(a, b); }};
   }
 
-  /// A ball without a piece of the union: the one in whose piece its centre is bears it.
+  /// A ball without a share of the union: the ball in whose power cell its centre lies is its host.
   void host_hidden(const std::vector<std::uint32_t>& vertices) {
     for (std::uint32_t place = 0, n = 0; place < graph_.size(); ++place) {
       while (n < vertices.size() && vertices[n] < place) ++n;
@@ -101,8 +101,8 @@ class Builder {
 
   const VoxelGraph& graph_;
   const MedialMeshOptions& parameters_;
-  std::vector<std::uint32_t>
-      hosts_;  // by place: the point that stands for it, or none if it is a vertex of the complex
+  // by position: the point that represents it, or none if it is a vertex of the complex
+  std::vector<std::uint32_t> hosts_;
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ Status complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh
   topology.bare_edges -= hosted;
   topology.euler_characteristic = static_cast<std::int64_t>(points) - static_cast<std::int64_t>(mesh.edges.size()) +
                                   static_cast<std::int64_t>(mesh.triangles.size());
-  // Counted from what there is, not taken from the complex that it was made of.
+  // Counted from the mesh itself, independently of the complex that it comes from.
   Result<BettiNumbers> betti = betti_numbers(complex_of(points, mesh));
   if (!betti) return betti.error();
   topology.betti = betti.value();

@@ -1,4 +1,4 @@
-// What follows from the edges and triangles of a medial mesh.
+// Counts and marks derived from the edges and triangles of a medial mesh.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace medial_vk {
 
-/// Sorts triangles and edges and fills in the rest of `mesh` but for its hosted points, of which it takes the number.
+/// Sorts triangles and edges and fills in the rest of `mesh` except for its hosted points, whose number is an input.
 /// Precondition: the sides of the triangles are edges. Error: kOutOfMemory.
 [[nodiscard]] Status complete_medial_mesh(std::size_t points, const Sheets& sheets, MedialMesh& mesh);
 

@@ -1,4 +1,4 @@
-// A complex of triangles that loses triangles by collapses: what is left has the homotopy type of what there was.
+// A complex of triangles that loses triangles by collapses, which preserve its homotopy type.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace medial_vk {
 
-/// Edges and triangles are known by their places in the lists of a dual complex.
+/// Edges and triangles are identified by their indices in the lists of a dual complex.
 class SurfaceComplex {
  public:
   /// Without tetrahedra, and without the triangles of `gone`. The complex must outlive it.
@@ -23,12 +23,12 @@ class SurfaceComplex {
   const std::array<std::uint32_t, 3>& sides(std::uint32_t triangle) const { return sides_[triangle]; }
   /// The number of triangles at an edge.
   std::uint32_t count(std::uint32_t edge) const { return counts_[edge]; }
-  /// The first triangle at an edge, but for one. Precondition: there is one.
+  /// The first triangle at an edge, except a given one. Precondition: it exists.
   std::uint32_t triangle_at(std::uint32_t edge, std::uint32_t but_for = 0xffffffffu) const;
   /// Edges of one triangle, ascending.
   std::vector<std::uint32_t> free_edges() const;
 
-  /// Takes an edge away with its triangle. Precondition: it has one.
+  /// Removes an edge with its triangle. Precondition: it has exactly one.
   void collapse(std::uint32_t edge);
 
  private:

@@ -21,7 +21,7 @@ std::uint64_t mix(std::uint64_t h) {  // the finaliser of MurmurHash3
   return h ^ (h >> 33);
 }
 
-/// First come, first kept, among `count` items: for each, the first item that equals it.
+/// For each of `count` items, the first item that equals it.
 template <class Hash, class Equal>
 std::vector<std::uint32_t> first_equal(std::size_t count, Hash hash, Equal equal) {
   const std::size_t mask = std::bit_ceil(count * 2 + 1) - 1;
@@ -40,14 +40,14 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// An even permutation of its sorted corners?
+/// True if it is an even permutation of its sorted corners.
 bool is_even(const Triangle& t) {
   return (t[0] < t[1] && t[1] < t[2]) || (t[1] < t[2] && t[2] < t[0]) || (t[2] < t[0] && t[0] < t[1]);
 }
 
 bool has_repeated_corner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Three corners on a line, as far as doubles can tell. Needles with sines down to 1e-15 are no such thing.
+/// True if the three corners lie on a line, up to rounding. Needles with sines down to 1e-15 do not count as such.
 bool is_flat(const std::vector<Point>& vertices, const Triangle& t) {
   double shorter = 0;
   const Point area = double_area(vertices[t[0]], vertices[t[1]], vertices[t[2]], shorter);
@@ -97,7 +97,7 @@ std::uint64_t repair_caps_once(PreparedMesh& prepared) {
     if (changed[neighbour]) continue;
     Triangle t = triangles[neighbour];
     for (int k = 0; topology.edge_of(neighbour, k) != edge; ++k) t = {t[1], t[2], t[0]};
-    if (t[2] == middle) continue;  // the neighbour is the cap's own back
+    if (t[2] == middle) continue;  // the neighbour is the back of the cap
     triangles[neighbour] = {t[0], middle, t[2]};
     changed[neighbour] = changed[cap] = true;
     triangles[cap] = {middle, t[1], t[2]};
@@ -123,7 +123,7 @@ void drop_degenerate(PreparedMesh& prepared) {
     prepared.report.degenerate_dropped += dropped;
   };
   drop(has_repeated_corner);
-  // Each repair takes one cap away; the pieces of a neighbour that was a cap too are shorter caps, hence the rounds.
+  // Each repair removes one cap; the parts of a neighbour that was a cap too are shorter caps, hence the rounds.
   constexpr int kRounds = 16;
   for (int round = 0; round < kRounds; ++round) {
     const std::uint64_t repaired = repair_caps_once(prepared);
@@ -135,9 +135,10 @@ void drop_degenerate(PreparedMesh& prepared) {
 }
 
 /// Pairs of opposite faces between two solids that touch: removing both leaves the same points inside, and the mesh
-/// closed. Such a wall is a connected set of pairs, all of whose rim is held by an even number of other faces. A sheet
-/// that is covered on both sides has a free rim, a surface that is doubled all over has none, and where a closed
-/// surface has a face too much its rim is held by one face: all of these keep one face of each pair.
+/// closed. Such a wall is a connected set of pairs with an outline, at each edge of which there is an even number of
+/// other faces, at least two. A sheet that is covered on both sides has an outline without other faces, a surface that
+/// is doubled everywhere has no outline, and the outline of a surplus face on a closed surface has one other face: all
+/// of these keep one face of each pair.
 void mark_inner_walls(const PreparedMesh& prepared, const std::vector<std::uint32_t>& first,
                       std::vector<std::uint8_t>& copies, std::vector<bool>& is_wall) {
   const std::vector<Triangle>& triangles = prepared.mesh.triangles;

@@ -1,4 +1,4 @@
-// From what a file holds to triangles that can be worked with.
+// Cleaning: from the triangles of a file to triangles that the other steps can handle.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace medial_vk {
 
-/// Makes vertices at exactly the same place one (0 and -0 are the same); the first stays where it is in the order.
-/// Returns, by old vertex, the new one.
+/// Merges vertices at exactly the same position (0 and -0 are the same) into the first of them, in the order of first
+/// ones. Returns, by old vertex, the new one.
 std::vector<std::uint32_t> merge_equal_vertices(Mesh& mesh);
 
 /// Merges equal vertices, drops degenerate and duplicate triangles and unused vertices; fills the counts of the report

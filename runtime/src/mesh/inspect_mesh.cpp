@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-/// How many groups the triangles around a vertex form, joined over their edges there.
+/// Number of groups that the triangles around a vertex form, joined over their edges there.
 class FanCounter {
  public:
   FanCounter(const Mesh& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
@@ -44,7 +44,7 @@ class FanCounter {
 
   const Mesh& mesh_;
   const MeshTopology& topology_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides_;  // edge, place in `around`
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides_;  // edge, position in `around`
   std::vector<std::uint32_t> group_;                            // union-find
 };
 

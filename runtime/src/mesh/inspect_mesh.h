@@ -1,4 +1,4 @@
-// What the connectivity and the shape of a mesh say about it; nothing is changed.
+// Properties of a mesh derived from its connectivity and shape; nothing is changed.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace medial_vk {
 /// form one closed fan of one orientation.
 std::vector<bool> inspect_topology(const Mesh& mesh, const MeshTopology& topology, MeshReport& report);
 
-/// Bounding box of the vertices, all of which must be in use.
+/// Bounding box of the vertices. Precondition: every vertex belongs to a triangle.
 void measure_box(const Mesh& mesh, MeshReport& report);
 
 /// Volumes by the divergence theorem.
@@ -26,11 +26,11 @@ struct Volumes {
 };
 Volumes measure_volumes(const Mesh& mesh, const SurfaceParts& parts, const Point& centre);
 
-/// Of the solid that a closed mesh encloses: half that of its surface, as of every compact set with a surface for its
-/// boundary. Nothing if the mesh is not closed or not a surface.
+/// Euler characteristic of the solid that a closed mesh encloses: half that of its boundary, as for every compact set
+/// bounded by a surface. No value if the mesh is not closed or not a surface.
 std::optional<std::int64_t> euler_characteristic_of_solid(const PreparedMesh& mesh);
 
-/// Full sentences about everything in the report that a person should know before trusting the result.
+/// Full sentences about everything in the report that affects the trust in the result.
 void write_assumptions(MeshReport& report);
 
 }  // namespace medial_vk

@@ -5,7 +5,7 @@
 namespace medial_vk {
 namespace {
 
-/// One side of one triangle: the far end and where it comes from.
+/// One side of one triangle: the far end and the corner it starts from.
 struct Side {
   std::uint32_t high;
   std::uint32_t corner;  // 3 * triangle + k

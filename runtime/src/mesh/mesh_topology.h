@@ -1,4 +1,4 @@
-// Which triangles share which edges and vertices.
+// The incidence of triangles, edges and vertices.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace medial_vk {
 
-/// Undirected edges with any number of triangles. No triangle may repeat a corner. Corner positions do not matter, so
-/// it stays right when vertices move; turning a triangle over needs flip_triangle().
+/// Undirected edges with any number of triangles. No triangle may repeat a corner. Positions do not matter, so it stays
+/// valid when vertices move; turning a triangle over requires flip_triangle().
 class MeshTopology {
  public:
   explicit MeshTopology(const Mesh& mesh);
@@ -35,7 +35,7 @@ class MeshTopology {
   std::vector<std::uint32_t> starts_, incident_;    // per edge: its triangles
 };
 
-/// Does the triangle run along its side {low, high} from low to high?
+/// True if the triangle traverses its side {low, high} from low to high.
 inline bool runs_upwards(const Triangle& t, const std::array<std::uint32_t, 2>& ends) {
   return (t[0] == ends[0] && t[1] == ends[1]) || (t[1] == ends[0] && t[2] == ends[1]) ||
          (t[2] == ends[0] && t[0] == ends[1]);

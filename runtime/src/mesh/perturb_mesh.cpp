@@ -27,7 +27,7 @@ class SplitMix {
   std::uint64_t state_;
 };
 
-/// What was done to the mesh before its vertices were moved, and cannot be seen in it any more.
+/// Adds the counts of repairs made before the vertices were moved, which the moved mesh no longer shows.
 void carry_over(const MeshReport& before, MeshReport& after) {
   after.merged_vertices += before.merged_vertices;
   after.unused_vertices += before.unused_vertices;

@@ -1,4 +1,4 @@
-// From any triangles to a mesh with a defined inside, and an account of what that took.
+// From any triangles to a mesh with a defined inside, and a report of the changes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace {
 
 Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
 
-/// Of a coordinate: areas, and what decides whether there are any, are products of two lengths, and squares of these.
+/// Limit of a coordinate: areas, and the test for zero area, use products of two lengths, and their squares.
 constexpr double kLargest = 1e70;
-/// Of a coordinate, over the longest side: rounding a centre to a double then moves it by 2e-7 of that side at most, a
-/// tenth of what the certificate allows.
+/// Limit of a coordinate, over the longest side: rounding a centre to a double then moves it by 2e-7 of that side at
+/// most, a tenth of the allowance of the certificate.
 constexpr double kFarthest = 0x1p30;
 
 Status check_input(const Mesh& mesh) {
@@ -68,8 +68,8 @@ Status check_extent(const MeshReport& report) {
                   longest, farthest));
 }
 
-/// A normal is relied on only if it is known this well, in radians: far below the angles that matter, far above the
-/// rounding of a triangle of ordinary shape.
+/// Greatest error in radians of a trusted normal: far below the relevant angles, far above the rounding of a triangle
+/// of ordinary shape.
 constexpr double kNormalAccuracy = 1e-7;
 
 bool has_accurate_normal(const Mesh& mesh, const Triangle& t) {
@@ -81,7 +81,7 @@ bool has_accurate_normal(const Mesh& mesh, const Triangle& t) {
 void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const SelfIntersections& intersections,
                const Sidedness& sides) {
   MeshReport& report = prepared.report;
-  // The tree's winding numbers are good to this; where the sides are not clear, nothing is relied on.
+  // The error bound of the tree's winding numbers; where the sides are not certain, no normal is trusted.
   const float margin = report.closed ? 0.0f : 0.03f;
   prepared.flags.assign(prepared.mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < prepared.flags.size(); ++i) {
@@ -98,7 +98,7 @@ void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const S
   }
 }
 
-/// Only what certainly encloses nothing is refused.
+/// Refuses only a mesh that certainly encloses nothing.
 Status check_enclosure(const MeshReport& report, const Volumes& volumes, const Sidedness& sides) {
   if (report.closed) {
     if (volumes.parts > volumes.parts_rounding) return {};

@@ -28,13 +28,13 @@ bool expand(const TriangleTree& tree, const NodePair& pair, std::vector<NodePair
   return true;
 }
 
-/// Looks at all pairs of triangles below some pairs of nodes. Several searches may share one budget.
+/// Tests all pairs of triangles below some pairs of nodes. Several searches may share one budget.
 class Search {
  public:
   Search(const Mesh& mesh, const TriangleTree& tree, std::atomic<std::int64_t>& budget)
       : mesh_(mesh), tree_(tree), budget_(budget) {}
 
-  /// Pairs of nodes instead of a query per triangle: boxes that are apart are told apart once for all below them.
+  /// Pairs of nodes instead of a query per triangle: two disjoint boxes are tested once for all triangles below them.
   void run(const NodePair& start) {
     std::vector<NodePair> stack = {start};
     while (!stack.empty()) {
@@ -61,7 +61,7 @@ class Search {
   }
 
  private:
-  /// Takes what was done from the budget; false if that is used up.
+  /// Subtracts the finished work from the budget; false if that is used up.
   bool settle() {
     const std::int64_t cost = std::exchange(cost_, 0);
     return budget_.fetch_sub(cost) > cost;
@@ -91,7 +91,7 @@ class Search {
     crossed_[t] = crossed_[u] = true;
   }
 
-  /// But for what they share by index.
+  /// Except for vertices shared by index.
   bool certainly_apart(std::uint32_t i, std::uint32_t j) const {
     const Triangle &t = mesh_.triangles[tree_.order[i]], &u = mesh_.triangles[tree_.order[j]];
     const std::array<Point, 3>&a = tree_.corners[i], &b = tree_.corners[j];
@@ -115,7 +115,7 @@ class Search {
       const int t_free = 3 - t_sum, u_free = 3 - u_sum;
       return certainly_meet_at_side(a[(t_free + 1) % 3], a[(t_free + 2) % 3], a[t_free], b[u_free]);
     }
-    return false;  // duplicates are gone by now
+    return false;  // duplicates have been removed
   }
 
   static constexpr std::int64_t kSettle = 4096;
@@ -123,11 +123,11 @@ class Search {
   const Mesh& mesh_;
   const TriangleTree& tree_;
   std::atomic<std::int64_t>& budget_;
-  std::int64_t cost_ = 0;      // not yet taken from the budget
+  std::int64_t cost_ = 0;      // not yet subtracted from the budget
   std::vector<bool> crossed_;  // empty: none
 };
 
-/// Pairs that together stand for the whole search, enough for several threads. The same on every machine.
+/// Pairs that together cover the whole search, enough for several threads. The same on every machine.
 std::vector<NodePair> first_pairs(const TriangleTree& tree) {
   constexpr std::size_t kWanted = 200;
   std::vector<NodePair> pairs = {{0, 0}};
@@ -148,8 +148,8 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& 
   SelfIntersections result;
   result.crossed.assign(mesh.triangles.size(), false);
   if (tree.nodes.empty()) return result;
-  // Six pairs of neighbours per triangle and a few near misses are normal; far beyond that a mesh is a tangle, and
-  // the time is better spent elsewhere. A pair takes about 0.1 microseconds.
+  // Six pairs of neighbours per triangle and a few near misses are normal; far beyond that a mesh is a tangle, and the
+  // search is given up. A pair takes about 0.1 microseconds.
   const std::int64_t budget = kPairCost * (2'000'000 + 24 * static_cast<std::int64_t>(mesh.triangles.size()));
   std::atomic<std::int64_t> left = budget;
   const std::vector<NodePair> pairs = first_pairs(tree);
@@ -157,7 +157,7 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& 
   parallel_for(pairs.size(), 1, threads, [&](std::size_t i) { searches[i].run(pairs[i]); });
   result.known = left > 0;
   if (!result.known) {
-    // How far each search came depends on the others: what is found in a tangle is what one thread finds.
+    // The progress of each search depends on the others, so the result for a tangle is that of one thread.
     left = budget;
     Search alone(mesh, tree, left);
     alone.run({0, 0});

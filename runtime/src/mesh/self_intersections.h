@@ -1,4 +1,4 @@
-// Which triangles of a mesh meet others where they should not.
+// Self-intersections: triangles of a mesh that meet others outside shared vertices and edges.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace medial_vk {
 struct SelfIntersections {
   std::vector<bool> crossed;  ///< By triangle of the mesh.
   std::uint64_t count = 0;
-  bool known = true;  ///< False: too many pairs to look at, `crossed` is not complete.
+  bool known = true;  ///< False: there were too many pairs to test, and `crossed` is not complete.
 };
 
 /// A triangle counts as crossed unless double arithmetic proves, against rounding, that it is disjoint from every other
-/// triangle but for the vertices they share by index. Touching counts; so does folding back onto a neighbour.
+/// triangle except for the vertices they share by index. Touching counts; so does folding back onto a neighbour.
 /// The work is bounded by a number of pairs, not by a clock, so that the result is always the same.
 SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree, unsigned threads = 0);
 
-/// The tests below it, for two triangles that share no, one, or two vertices: true only if proven.
+/// The tests for two triangles that share no, one, or two vertices: true only if proven.
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b);
 /// (apex, a1, a2) and (apex, b1, b2) meet at the apex only.
 bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2, const Point& b1, const Point& b2);

@@ -56,7 +56,7 @@ class SideFinder {
   }
 
  private:
-  /// One value per patch, beside its largest triangle: the one that is farthest from everything, as a rule.
+  /// One value per patch, beside its largest triangle, which usually is the farthest from other triangles.
   void evaluate_patches(const std::vector<bool>& is_simple) {
     std::vector<std::uint32_t> largest(parts_.patches, kNoTriangle);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -84,8 +84,8 @@ class SideFinder {
     }
   }
 
-  /// Where patches are large and close to each other, a value from the tree takes a look at every triangle. So most are
-  /// those of their neighbours in the tree, and what lies between.
+  /// Where patches are large and close to each other, a value from the tree evaluates every triangle. So most values
+  /// are those of their neighbours in the tree, plus the crossings between.
   std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& places) const {
     std::vector<std::optional<int>> step(places.size());
     parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
@@ -106,19 +106,20 @@ class SideFinder {
   /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.
   static float half_integer(double w) { return static_cast<float>(std::floor(w) + 0.5); }
 
-  /// Where all groups of triangles overlap, one value takes a look at every triangle, and all of them the square of
-  /// their number. So each block of the tree has an allowance, which it spends evenly over its triangles; those left
-  /// over stay unknown. A block's work does not depend on other blocks, nor the result on the number of threads.
+  /// Where all groups of triangles overlap, one value evaluates every triangle, and all values take the square of their
+  /// number. So each block of the tree has an allowance, which it spends evenly over its triangles; the rest stay
+  /// unknown. A block's work does not depend on other blocks, nor the result on the number of threads.
   void evaluate(const std::vector<std::uint32_t>& triangles) {
     const WindingTree winding(tree_);
     std::vector<bool> wanted(mesh_.triangles.size(), false);
     for (const std::uint32_t t : triangles) wanted[t] = true;
     const std::size_t places = tree_.order.size();
-    // At most so many blocks: the last look of each may exceed its allowance by all triangles.
+    // The number of blocks is limited, as the last value of each may exceed its allowance by all triangles.
     constexpr std::size_t kMostBlocks = 1024;
     const std::size_t block = std::max<std::size_t>(256, (places + kMostBlocks - 1) / kMostBlocks);
     const std::size_t blocks = (places + block - 1) / block;
-    // Looks at a triangle, some seconds in all and more for larger meshes. Ordinary meshes take 70 to 500 a value.
+    // Evaluations of triangles, some seconds in total and more for larger meshes. Ordinary meshes take 70 to 500 per
+    // value.
     constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
     const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
     std::atomic<bool> complete = true;
@@ -128,7 +129,7 @@ class SideFinder {
     sides_.known = sides_.known && complete;
   }
 
-  /// By place: neighbours in the tree take the same way through it. False if the allowance was used up.
+  /// By position: neighbours in the tree take similar walks. False if the allowance was used up.
   bool evaluate_block(const WindingTree& winding, const std::vector<bool>& wanted, std::size_t first, std::size_t last,
                       std::uint64_t allowance) {
     std::uint64_t cost = 0;
@@ -139,7 +140,7 @@ class SideFinder {
         if (!wanted[t]) continue;
         if (cost > allowance) return false;
         const double w = winding.beside(static_cast<std::uint32_t>(place), cost);
-        // A crossed triangle has no one value.
+        // A crossed triangle has no single value.
         sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
       }
     }
@@ -147,7 +148,7 @@ class SideFinder {
   }
 
   bool turn_components(const std::vector<std::uint32_t>& triangles) {
-    // Half a percent of the surface of a sphere is no side; a sheet in the plane has 0 on both.
+    // Half a percent of the full solid angle does not define a side; a plane sheet has 0 on both.
     constexpr float kClear = 0.05f;
     struct Vote {
       double area = 0, for_it = 0, against = 0;

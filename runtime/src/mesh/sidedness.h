@@ -1,4 +1,4 @@
-// On which side of each triangle the inside lies, and parts that turn out to be inside out.
+// Sidedness: the side of each triangle on which the inside lies, and the correction of inside-out components.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,21 @@ namespace medial_vk {
 
 struct Sidedness {
   /// By triangle: the winding number at its centroid without itself; the inside lies behind and the outside in front
-  /// if it is in [0, 1), since the triangle adds 1/2 behind and takes 1/2 away in front. NaN: not looked at.
+  /// if it is in [0, 1), since the triangle adds 1/2 behind and subtracts 1/2 in front. NaN: not evaluated.
   std::vector<float> beside;
-  bool known = true;               ///< False if some were not looked at, because that would have taken too long.
+  bool known = true;               ///< False if some were not evaluated, because that would have taken too long.
   std::uint64_t turned_faces = 0;  ///< Turned over, with their whole component.
   std::uint64_t turned_components = 0;
 };
 
-/// Turns inside-out components over (mesh, topology and tree follow), then says what lies beside each triangle.
+/// Turns inside-out components over (mesh, topology and tree follow), then determines the winding number beside each
+/// triangle.
 ///
 /// Closed mesh: winding numbers are integers that change only across triangles, so one evaluation holds for a whole
-/// patch that nothing crosses. A patch between the levels -k and -k - 1 is inside out: turning all of these makes the
+/// patch without crossings. A patch between the levels -k and -k - 1 is inside out: turning all of these makes the
 /// field |w|, which has the same shape. Other meshes are evaluated triangle by triangle, and a component is turned over
-/// if most of it faces an inside that has a negative winding number, both by itself and in the company of the others.
-/// In a tangle of large triangles only some are evaluated, spread evenly, and speak for their component.
+/// if most of it faces an inside that has a negative winding number, both by itself and together with the others. In a
+/// tangle of large triangles only some are evaluated, spread evenly, and decide for their component.
 Sidedness decide_sides(Mesh& mesh, MeshTopology& topology, TriangleTree& tree, const SurfaceParts& parts, bool closed,
                        const SelfIntersections& intersections, unsigned threads);
 

@@ -10,7 +10,7 @@ namespace medial_vk {
 
 // The distance is the length of a difference of points that are themselves sums of at most three products: with
 // u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side.
-// The units of the mesh add one rounding of the coordinates, u times their magnitude, for whoever moves the origin.
+// The units of the mesh add one rounding of the coordinates, u times their magnitude, if the origin is moved.
 double distance_rounding(const Bvh& bvh) {
   constexpr double u = 0x1p-53;
   const BvhBox& box = bvh.nodes().front().box;
@@ -39,7 +39,8 @@ Result<Solid> Solid::create(const IndexedMesh& mesh) {
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
 bool Solid::contains(const Point& p) const {
-  // The tree is wrong by 0.03 at worst: of a closed mesh enough for the integer, of others not near 1/2.
+  // The error of the tree is at most 0.03, which suffices for the integer of a closed mesh, and for other meshes away
+  // from 1/2.
   constexpr double kDoubt = 0.05;
   const double winding = winding_->at(p);
   if (mesh().report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;

@@ -1,4 +1,4 @@
-// A prepared mesh as a solid that answers questions in double precision.
+// A prepared mesh as a solid that answers queries in double precision.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace medial_vk {
 
-/// How far a distance that `bvh` answers may be from the true one, by rounding.
+/// Bound of the rounding error of distances computed by `bvh`.
 double distance_rounding(const Bvh& bvh);
 
-/// Questions may come from several threads at once.
+/// Queries may come from several threads at once.
 class Solid {
  public:
   /// Shares the mesh, and refines its tree: small leaves suit scattered queries. Errors: kOutOfMemory.
@@ -25,15 +25,16 @@ class Solid {
   const Bvh& bvh() const { return bvh_; }
   /// Nearest point of the boundary.
   BvhHit closest(const Point& p) const { return bvh().closest(p); }
-  /// To the boundary, within rounding() of the exact distance.
+  /// The distance to the boundary, within rounding() of the exact one.
   double distance(const Point& p) const;
   double rounding() const { return rounding_; }
-  /// By the winding number, 1/2 and more being inside; closer to the boundary than rounding() either answer may come.
+  /// True if the winding number is at least 1/2; either answer may result for points closer to the boundary than
+  /// rounding().
   bool contains(const Point& p) const;
   /// Of the bounding box.
   double diagonal() const;
-  /// Does the mesh bound the solid and nothing else, so that its signed volume is the solid's? (Closed, and no face
-  /// lies within or outside it as far as that is known.)
+  /// True if the mesh bounds the solid and nothing else, so that its signed volume is the solid's. (It is closed, and
+  /// no face is known to lie within or outside the solid.)
   bool has_volume() const;
   double volume() const { return mesh().report.signed_volume; }
 

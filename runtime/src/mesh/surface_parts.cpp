@@ -48,7 +48,7 @@ SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology) {
   const auto is_plain = [&](std::uint32_t edge) { return topology.triangles_of(edge).size() <= 2; };
   bool all_plain = true;
   for (std::uint32_t edge = 0; all_plain && edge < topology.edge_count(); ++edge) all_plain = is_plain(edge);
-  if (all_plain) {  // as a rule; then these are the same pieces
+  if (all_plain) {  // the usual case; patches are then the components
     parts.patches = parts.components;
     parts.patch_of = parts.component_of;
   } else {

@@ -1,4 +1,4 @@
-// The pieces of a mesh, and a common orientation for each.
+// The components and patches of a mesh, and a consistent orientation for each patch.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct SurfaceParts {
 
 SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology);
 
-/// Turns over the minority of each patch until neighbours agree, if the patch can be oriented at all; a patch that
-/// cannot (a Möbius strip) keeps what has fewer disagreeing edges. Returns how many triangles were turned.
+/// Turns over the minority of each patch until neighbours agree, if the patch is orientable; a patch that is not (a
+/// Möbius strip) keeps the orientations with fewer disagreeing edges. Returns the number of triangles turned.
 std::uint64_t make_patches_consistent(Mesh& mesh, MeshTopology& topology);
 
 /// Turns one triangle over in both structures.

@@ -1,6 +1,6 @@
-// Proofs that two triangles are disjoint: a plane that separates them, with a gap that rounding cannot make up. A
-// separating axis may be any vector, so only the projections onto it have to be bounded, not the way it was found; and
-// where no axis is found, the answer is "not proven".
+// Proofs that two triangles are disjoint: a plane that separates them, with a gap that rounding cannot produce. A
+// separating axis may be any vector, so only the projections onto it have to be bounded, not its own errors; and where
+// no axis is found, the answer is "not proven".
 #include <algorithm>
 
 #include "base/point_ops.h"
@@ -9,8 +9,8 @@
 namespace medial_vk {
 namespace {
 
-/// The sign of det(a, b, c), or 0 if rounding could have made it. The arguments are differences of doubles and carry u
-/// each; with the products and sums of three terms the error stays below 9u times the sum of the magnitudes.
+/// The sign of det(a, b, c), or 0 if rounding could have produced it. The arguments are differences of doubles and
+/// carry u each; with the products and sums of three terms the error stays below 9u times the sum of the magnitudes.
 int sign_of_determinant(const Point& a, const Point& b, const Point& c) {
   double determinant = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ int sign_of_determinant(const Point& a, const Point& b, const Point& c) {
   return 0;
 }
 
-/// The sign of w.x, or 0 if rounding could have made it: w is taken as exact, x is a difference of doubles, so the
+/// The sign of w.x, or 0 if rounding could have produced it: w is taken as exact, x is a difference of doubles, so the
 /// error stays below 4u times the sum of the magnitudes.
 int sign_along(const Point& w, const Point& x) {
   const double product = dot(w, x);
@@ -38,7 +38,7 @@ Point unit(const Point& a) { return (1 / length(a)) * a; }
 }  // namespace
 
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
-  // Relative to a corner: each coordinate then has a relative error of u, whatever the distance to the origin.
+  // Relative to a corner: each coordinate then has a relative error of u, at any distance to the origin.
   std::array<Point, 6> p;
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
@@ -77,7 +77,7 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
   // until it touches a cone, and it holds one or two of the four directions. These are the candidates.
   const Point a[2] = {a1 - apex, a2 - apex};
   const Point b[2] = {b1 - apex, b2 - apex};
-  // First a guess that is right for most neighbours on a smooth surface.
+  // First a guess that succeeds for most neighbours on a smooth surface.
   const Point a_unit[2] = {unit(a[0]), unit(a[1])};
   const Point b_unit[2] = {unit(b[0]), unit(b[1])};
   const auto separates = [&](const Point& w) {
@@ -125,7 +125,7 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
 bool certainly_meet_at_side(const Point& p, const Point& q, const Point& a, const Point& b) {
   const Point side = q - p, to_a = a - p, to_b = b - p;
   if (sign_of_determinant(side, to_a, to_b) != 0) return true;
-  // In one plane, as far as can be told: then on different sides of the common one.
+  // In one plane, up to rounding: then on different sides of the common side.
   const Point normal = cross(side, to_a);
   const int sign_a = sign_of_determinant(normal, side, to_a);
   return sign_a != 0 && sign_of_determinant(normal, side, to_b) == -sign_a;

@@ -1,4 +1,5 @@
-// A plain tree of boxes over the triangles of a mesh, quick to build: for finding crossings and for far-field sums.
+// A simple tree of boxes over the triangles of a mesh, fast to build, for the search of crossings and for far-field
+// sums.
 #pragma once
 
 #include <array>
@@ -23,16 +24,16 @@ inline bool overlap(const TreeBox& a, const TreeBox& b) {
 struct TriangleTree {
   struct Node {
     TreeBox box;
-    std::uint32_t first = 0, count = 0;  ///< Its triangles, as places in `order`.
+    std::uint32_t first = 0, count = 0;  ///< Its triangles, as positions in `order`.
     std::uint32_t left = 0, right = 0;   ///< Children; 0: a leaf.
   };
 
   explicit TriangleTree(const Mesh& mesh);
 
   std::vector<Node> nodes;
-  std::vector<std::uint32_t> order;           ///< By place: triangle of the mesh.
-  std::vector<std::array<Point, 3>> corners;  ///< By place.
-  std::vector<TreeBox> boxes;                 ///< By place.
+  std::vector<std::uint32_t> order;           ///< By position: triangle of the mesh.
+  std::vector<std::array<Point, 3>> corners;  ///< By position.
+  std::vector<TreeBox> boxes;                 ///< By position.
 
  private:
   std::uint32_t add_node(const std::vector<std::uint64_t>& codes, std::uint32_t first, std::uint32_t count);

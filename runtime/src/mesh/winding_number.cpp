@@ -34,7 +34,7 @@ double exact_winding_number(const Mesh& mesh, const Point& p) {
 }
 
 WindingTree::WindingTree(const TriangleTree& tree) : tree_(tree), nodes_(tree.nodes.size()) {
-  // Children follow their parents: from the back, everything below a node is ready when it is reached.
+  // Children follow their parents: in reverse order, all descendants of a node are finished before it.
   std::vector<double> weight(nodes_.size(), 0);  // area
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const TriangleTree::Node& node = tree.nodes[i];

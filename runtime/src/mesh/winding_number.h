@@ -1,6 +1,6 @@
 // The generalised winding number of a triangle mesh (Jacobson, Kavan, Sorkine-Hornung 2013): the solid angle under
-// which a point sees the oriented surface, over 4 pi. 1 inside of a closed mesh, 0 outside, and a smooth guess between
-// them where the mesh is open.
+// which a point sees the oriented surface, over 4 pi. 1 inside of a closed mesh, 0 outside, and a smooth transition
+// between them where the mesh is open.
 #pragma once
 
 #include <cstdint>
@@ -24,21 +24,22 @@ class WindingTree {
   /// The tree must outlive this.
   explicit WindingTree(const TriangleTree& tree);
 
-  /// Against the sum term by term: at most 0.03 in the worst places near ordinary meshes, 0.005 in the mean (measured,
-  /// and held by a unit test). Enough to round to the integer of a closed mesh.
+  /// The error against the sum term by term is at most 0.03 near ordinary meshes, and 0.005 in the mean (measured, and
+  /// checked by a unit test). This suffices to round to the integer of a closed mesh.
   double at(const Point& p) const {
     std::uint64_t cost = 0;
     return sum(p, kNoPlace, cost);
   }
 
-  /// At the centroid of the triangle at a place of the tree, without that triangle. The surface itself adds 1/2 just
-  /// behind it and -1/2 just in front, so this one number gives both sides exactly, without a step off the surface.
+  /// At the centroid of the triangle at a position of the tree, without that triangle. The triangle itself adds 1/2
+  /// just behind it and -1/2 just in front, so this number gives the values on both sides without a step off the
+  /// surface.
   double beside(std::uint32_t place) const {
     std::uint64_t cost = 0;
     return beside(place, cost);
   }
-  /// The same; adds the triangles that were looked at one by one to `cost`: hundreds as a rule, all in a tangle of
-  /// large triangles, where no group is far from any point.
+  /// The same; adds the number of triangles evaluated one by one to `cost`: hundreds usually, all in a tangle of large
+  /// triangles, where no group is far from any point.
   double beside(std::uint32_t place, std::uint64_t& cost) const;
 
  private:
@@ -47,7 +48,7 @@ class WindingTree {
   /// sum over triangles of area vector n, centroid at c: f(p) = n.(c - p) / (4 pi |c - p|^3), expanded around `centre`.
   struct Expansion {
     Point centre;
-    double far_squared;            // from this squared distance on the expansion is good enough
+    double far_squared;            // from this squared distance on the expansion is sufficiently accurate
     Point area;                    // sum of n
     std::array<double, 9> moment;  // sum of n (x) (c - centre), row by row
     bool is_leaf;

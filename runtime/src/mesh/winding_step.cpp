@@ -12,8 +12,8 @@ namespace {
 constexpr double kRounding = 0x1p-53;
 constexpr std::uint32_t kNoPlace = 0xffffffffu;
 
-/// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have made it. The arguments
-/// are differences of doubles and carry u each: see sign_of_volume in triangle_pairs.cpp.
+/// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have produced it. The
+/// arguments are differences of doubles and carry u each: see sign_of_volume in triangle_pairs.cpp.
 int sign_of_volume(const Point& a, const Point& b, const Point& c, double slack = 0) {
   double determinant = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
@@ -26,20 +26,20 @@ int sign_of_volume(const Point& a, const Point& b, const Point& c, double slack 
   return determinant > bound ? 1 : determinant < -bound ? -1 : 0;
 }
 
-/// On which side of the plane of t a point lies: 1 in front, -1 behind, 0 in doubt. The point may be off by `shift`,
-/// which moves the determinant by at most the length of the normal times that.
+/// The side of the plane of t on which a point lies: 1 in front, -1 behind, 0 undecided. The point may have an error of
+/// `shift`, which changes the determinant by at most the length of the normal times that.
 int side_of_plane(const std::array<Point, 3>& t, const Point& p, double shift) {
   const double slack = shift * length(cross(t[1] - t[0], t[2] - t[0]));
   return -sign_of_volume(t[0] - p, t[1] - p, t[2] - p, 2 * slack);
 }
 
-/// A straight way, and the triangles on which it begins or ends.
+/// A straight leg of a path, and the triangles on which it begins or ends.
 struct Leg {
   Point p, q;
   std::uint32_t first = kNoPlace, last = kNoPlace;
 };
 
-/// Whether the leg may meet the box. The quotients are off by 2u of themselves, and so is their order by 4u.
+/// True if the leg may meet the box. The quotients have relative errors of 2u, and their comparison one of 4u.
 bool may_meet(const Leg& leg, const TreeBox& box) {
   double enter = 0, leave = 1;
   for (int k = 0; k < 3; ++k) {
@@ -55,7 +55,7 @@ bool may_meet(const Leg& leg, const TreeBox& box) {
   return enter <= leave * (1 + 8 * kRounding);
 }
 
-/// 1 if the leg goes through the triangle from its front, -1 from behind, 0 if it does not. Nothing: in doubt.
+/// 1 if the leg goes through the triangle from its front, -1 from behind, 0 if it does not. No value: undecided.
 std::optional<int> crossing(const Leg& leg, const std::array<Point, 3>& t, double shift) {
   const int begins = side_of_plane(t, leg.p, shift), ends = side_of_plane(t, leg.q, shift);
   if (begins == ends && begins != 0) return 0;
@@ -72,7 +72,7 @@ std::optional<int> crossing(const Leg& leg, const std::array<Point, 3>& t, doubl
   return begins;
 }
 
-/// The sum over all triangles but those on which the leg begins or ends.
+/// The sum over all triangles except those on which the leg begins or ends.
 std::optional<int> count_crossings(const TriangleTree& tree, const Leg& leg, double shift, std::uint64_t& cost) {
   int sum = 0;
   constexpr std::size_t kDepth = 128;  // 95 levels at most, see TriangleTree
@@ -99,9 +99,9 @@ std::optional<int> count_crossings(const TriangleTree& tree, const Leg& leg, dou
   return sum;
 }
 
-/// How a way goes: from which point of the one triangle to which of the other, given along two sides, and where between
-/// them it bends, as a share of its length. None of the numbers has a meaning, so that the way meets no corner or side
-/// but by ill luck. It must bend where both triangles lie in one plane.
+/// A path: its points on the two triangles, given along two sides, and the point between them where it bends, as a
+/// share of its length. The numbers are arbitrary, so that the path is unlikely to meet a corner or side. It must bend
+/// where both triangles lie in one plane.
 struct Way {
   double along_first, along_second;
   Point bend;
@@ -136,8 +136,9 @@ std::optional<int> step_along(const TriangleTree& tree, std::uint32_t from, std:
   return on ? std::optional(*there + *on + at_ends) : std::nullopt;
 }
 
-/// By how much rounding may move point_of() off the plane: in each coordinate by 3u of each of the two products, which
-/// are shorter than twice the largest coordinate, and by u of the sum; that is less than 14u of it in all directions.
+/// The distance by which rounding may move point_of() off the plane: in each coordinate by 3u of each of the two
+/// products, which are shorter than twice the largest coordinate, and by u of the sum; that is less than 14u of it in
+/// all directions.
 double shift_of(const TreeBox& box) {
   double largest = 0;
   for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.lower[k]), std::abs(box.upper[k])});

@@ -1,4 +1,4 @@
-// How the winding number of a closed mesh changes on the way from one triangle to another: by what lies between them.
+// The difference of the winding numbers of a closed mesh at two triangles, by the triangles crossed between them.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,9 @@
 
 namespace medial_vk {
 
-/// WindingTree::beside at place `to` minus that at place `from`, for a closed mesh: an integer, exact. A way between
-/// the two triangles adds 1 where it goes into the surface and takes 1 away where it comes out. Nothing if rounding
-/// leaves a crossing in doubt on each of some ways that were tried. Adds the boxes and triangles that were looked at to
-/// `cost`.
+/// WindingTree::beside at position `to` minus that at position `from`, for a closed mesh: an integer, exact. A path
+/// between the two triangles adds 1 where it enters the surface and subtracts 1 where it leaves. No value if rounding
+/// leaves a crossing undecided on each of the paths tried. Adds the number of boxes and triangles tested to `cost`.
 std::optional<int> winding_step(const TriangleTree& tree, std::uint32_t from, std::uint32_t to, std::uint64_t& cost);
 
 }  // namespace medial_vk

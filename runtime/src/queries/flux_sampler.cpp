@@ -10,9 +10,9 @@ namespace {
 
 using gpu::kNoCounter;
 
-// Along an edge, or from an edge to its end, a nearest point is only as good as squares can be told apart: sqrt(2^-22)
-// of its distance. A fan's two directions are compared within twice that; those of different features differ by more
-// unless a smooth surface has millions of triangles, and then their flux hardly does.
+// Along an edge, or from an edge to its end, a nearest point is only as accurate as squares can be distinguished:
+// sqrt(2^-22) of its distance. A fan's two directions are compared within twice that; those of different features
+// differ by more unless a smooth surface has millions of triangles, and then their flux hardly does.
 constexpr float kSameDirection = 1e-3f;
 
 }  // namespace
@@ -43,7 +43,7 @@ void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t sa
                          BufferRange directions, BufferRange slots, BufferRange fluxes) const {
   const bool counted = count.counters != nullptr;
   const gpu::SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSameDirection};
-  // A kernel that does not count on the device is given some buffer in place of the counters.
+  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
   const BufferRange counters = counted ? count.counters->range() : samples_.range();
   const auto run = [&](const char* shader, std::span<const BufferRange> buffers, bool per_sample) {
     const ProgramKey key{

@@ -20,13 +20,13 @@ struct SphereCount {
   Slices packets = {};
 };
 
-/// Buffers for the samples of as many spheres as a dispatch takes.
+/// Buffers for the samples of the spheres of one dispatch.
 class FluxSampler {
  public:
   /// `capacity` sample points. The queries must outlive the object. Errors: kOutOfMemory.
   static Result<FluxSampler> create(Context::Impl& context, const PacketQueries& queries, std::uint32_t capacity);
 
-  /// spheres: vec4, centre and radius (negative: passed over). directions: vec4, `samples` unit vectors. slots: of
+  /// spheres: vec4, centre and radius (negative: skipped). directions: vec4, `samples` unit vectors. slots: of
   /// make_slots() for the directions.
   /// fluxes: vec4, average outward flux, greatest distance of a sample, number of two-sided fans. Ends with a barrier.
   void record(Recorder& r, const SphereCount& count, std::uint32_t samples, BufferRange spheres, BufferRange directions,

@@ -12,7 +12,7 @@
 namespace medial_vk {
 namespace {
 
-/// Puts `places` into as many lanes as `room` has, halving both.
+/// Distributes `places` to the lanes of `room` by recursive halving of both.
 void fill_lanes(std::span<const Point> group, std::span<std::uint32_t> places, std::span<std::uint32_t> room,
                 std::uint32_t per_lane) {
   if (room.size() <= per_lane) {
@@ -88,7 +88,7 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
   gpu::QueryConstants constants = {
       count.groups, counted ? count.counter : gpu::kNoCounter, count.group_size, device_->triangle_count, 0, 0};
   const BufferRange order = device_->triangle_info.range();
-  // A kernel that does not count on the device is given some buffer in place of the counters.
+  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
   const std::array<BufferRange, 11> buffers = {device_->triangles.storage_range(tree_->use_texels),
                                                tree_->nodes.storage_range(tree_->use_texels),
                                                counted ? count.counters->range() : order,

@@ -1,5 +1,5 @@
-// Recording of the kernels that answer closest-point queries by packets: groups of points near each other, one walk of
-// the tree for up to some fifty of them.
+// Recording of the kernels that answer closest-point queries by packets: groups of points near each other, with one
+// walk of the tree for up to some fifty of them.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct GroupCount {
   Slices slices = {};
 };
 
-/// How many invocations walk together, and how many points each of them keeps.
+/// The number of invocations that walk together, and of the points that each of them keeps.
 struct PacketShape {
   std::uint32_t width = 8;  // 4 to 64, a power of two
   std::uint32_t per_lane = 7;
@@ -28,7 +28,7 @@ struct PacketShape {
 
   std::uint32_t slots() const { return width * per_lane; }
   std::uint32_t packets(std::uint32_t group_size) const { return (group_size + slots() - 1) / slots(); }
-  /// Children of a node: a lane looks at one.
+  /// Children of a node: each lane tests one.
   std::uint32_t arity() const { return width < 8 ? 4 : 8; }
   /// At least `points` slots on teams of `width`.
   static PacketShape of(std::uint32_t width, bool through_shared_memory, std::uint32_t points = 51);
@@ -38,16 +38,16 @@ struct PacketShape {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
 
-/// Places in a group by slot, per_lane slots for each lane of each packet (kNoPoint: none), so that a lane's points are
-/// neighbours: the group is halved along its longest side until the parts fit a lane. For points in an order that
-/// already keeps neighbours together, give none: consecutive runs, evenly long.
+/// Indices in a group by slot, per_lane slots for each lane of each packet (kNoPoint: none), so that a lane's points
+/// are neighbours: the group is halved along its longest side until the parts fit a lane. The second one is for points
+/// in an order that already keeps neighbours together: lanes get consecutive runs of equal length.
 std::vector<std::uint32_t> make_slots(const PacketShape& shape, std::span<const Point> group);
 std::vector<std::uint32_t> make_slots(const PacketShape& shape, std::uint32_t group_size);
 
 class PacketQueries {
  public:
-  /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is as it was given to
-  /// DeviceMesh::create(). With `counts`, what walks test is counted. Errors: kOutOfMemory, kInternal.
+  /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is the one given to
+  /// DeviceMesh::create(). With `counts`, the tests of walks are counted. Errors: kOutOfMemory, kInternal.
   static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, std::uint32_t capacity,
                                       const PacketShape& shape, bool counts = false);
 
@@ -60,7 +60,7 @@ class PacketQueries {
   void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const { resolver_->copy_tests(r, to, offset); }
 
   const PacketShape& shape() const { return shape_; }
-  /// Queries answered by looking at all triangles since creation. Blocks.
+  /// Number of queries since creation that were answered by a test of all triangles. Blocks.
   Result<std::uint32_t> read_unresolved_total() { return resolver_->read_unresolved_total(); }
 
  private:

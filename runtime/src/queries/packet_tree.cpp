@@ -16,7 +16,7 @@ struct Run {
   std::uint32_t count = 0;
 };
 
-/// Children come after their parents in a Bvh, so a pass from the back meets them first.
+/// Children come after their parents in a Bvh, so a pass in reverse order visits them first.
 std::vector<Run> all_runs(std::span<const BvhNode> nodes) {
   std::vector<Run> runs(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -63,7 +63,7 @@ Point rounded(const Point& p) {
   return {double{static_cast<float>(p[0])}, double{static_cast<float>(p[1])}, double{static_cast<float>(p[2])}};
 }
 
-/// `v` with length 1, or `otherwise` if it has none to speak of.
+/// `v` scaled to length 1, or `otherwise` if its length is negligible.
 Point unit_or(const Point& v, const Point& otherwise) {
   const double size = length(v);
   return size > 1e-30 ? (1 / size) * v : otherwise;
@@ -75,7 +75,7 @@ Point any_perpendicular(const Point& t) {
 }
 
 /// The normal is that of the exact triangle, as in make_triangle_texels(): rounded corners may turn a thin one visibly.
-/// Edges without length get the direction t, so that no point seems to lie inside.
+/// Edges without length get the direction t, so that no point counts as inside.
 void put_frame(Texel* out, const std::array<Point, 3>& exact, std::uint32_t index) {
   const Point a = rounded(exact[0]), ab = rounded(exact[1]) - a, ac = rounded(exact[2]) - a;
   const Point longer = dot(ab, ab) > 0 ? ab : (dot(ac, ac) > 0 ? ac : Point{1, 0, 0});

@@ -1,5 +1,5 @@
-// What the packet kernels read of a mesh besides DeviceMesh: a wide tree over the same leaf order, and triangles in
-// frames of their own (shaders/shared/tree/tree_packet.glsl, triangle_frame.glsl).
+// The data of a mesh that packet kernels read besides DeviceMesh: a wide tree over the same leaf order, and triangles
+// in local frames (shaders/shared/tree/tree_packet.glsl, triangle_frame.glsl).
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@ namespace medial_vk {
 constexpr std::uint32_t kTexelsPerWideChild = 2;
 constexpr std::uint32_t kTexelsPerFrame = 5;
 
-/// Nodes of `arity` children (at least 2), root first: a binary tree with levels left out, the largest box opened
-/// first. Subtrees of at most gpu::kMostLeafTriangles triangles become leaves.
+/// Nodes of `arity` children (at least 2), root first: a binary tree with levels omitted, where the largest box is
+/// opened first. Subtrees of at most gpu::kMostLeafTriangles triangles become leaves.
 std::vector<Texel> make_wide_tree_texels(std::span<const BvhNode> nodes, const UnitTransform& to_unit,
                                          std::uint32_t arity);
 

@@ -10,7 +10,7 @@
 namespace medial_vk {
 namespace {
 
-/// Items of both kinds, one behind the other.
+/// The items of both kinds, one after the other.
 VkDeviceSize second_items_at(std::uint32_t capacity) { return VkDeviceSize{capacity} * QuerySet::kMostItemBytes[0]; }
 
 }  // namespace
@@ -54,7 +54,7 @@ Status QueryBatches::create_buffers(Place& place) const {
   return create(place.for_download, place.download, c * (kItem[0] + kItem[1]), MemoryKind::kReadback);
 }
 
-/// Places are made when they are first needed: few queries need one.
+/// Sets of resources are created at their first use: few queries need only one.
 Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
   std::unique_ptr<Place>& place = places_[number % at_once()];
   if (place == nullptr) {
@@ -65,7 +65,7 @@ Result<QueryBatches::Place*> QueryBatches::place(std::size_t number) {
   return place.get();
 }
 
-/// After an error a semaphore may have been signalled for nobody, and a batch may be under way.
+/// After an error a semaphore may have been signalled without a wait, and a batch may be pending.
 void QueryBatches::start_over() noexcept {
   for (const std::unique_ptr<Place>& place : places_) {
     if (place == nullptr) continue;
@@ -86,7 +86,7 @@ Status QueryBatches::run(const QuerySet& queries) {
   }
 }
 
-// A download waits on its queue for the kernels before it. So it is submitted after the next upload, which can go on
+// A download waits on its queue for the kernels before it. So it is submitted after the next upload, which can run
 // meanwhile.
 Status QueryBatches::run_all(const QuerySet& queries) {
   std::size_t number = 0;
@@ -119,7 +119,7 @@ Status QueryBatches::write(const QuerySet& queries, const Place& place) const {
 
 Status QueryBatches::ask(const QuerySet& queries, Place& place) const {
   if (Status written = write(queries, place); !written.ok()) return written;
-  // A batch alone has nothing to overlap with: one submission does.
+  // A single batch has nothing to overlap with: one submission suffices.
   place.is_apart = !place.is_shared && context_->transfer_queue != VK_NULL_HANDLE && queries.count > queries.batch;
   const auto record_upload = [&place](Recorder& r) {
     r.copy(place.upload, 0, place.asked, 0, place.padded * sizeof(Texel));

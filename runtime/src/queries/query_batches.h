@@ -1,4 +1,4 @@
-// Queries that the host gives and whose answers it takes, batch by batch.
+// Batches of queries from the host, and their answers to the host.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@
 
 namespace medial_vk {
 
-/// What is asked. A query is a texel; an answer is one item or two, in a buffer each.
+/// A set of queries. A query is a texel; an answer is one item or two, in a buffer each.
 struct QuerySet {
   static constexpr std::array<std::uint32_t, 2> kMostItemBytes = {16, 4};
 
   std::size_t count = 0;
   std::size_t batch = 0;         // queries of a submission: a multiple of group_size, at most the capacity
-  std::uint32_t group_size = 1;  // the last batch is padded to a multiple of this, with queries to pass over
+  std::uint32_t group_size = 1;  // the last batch is padded to a multiple of this, with queries to be skipped
   std::array<std::uint32_t, 2> item_bytes = {0, 0};
-  /// Queries [first, first + out.size()). Error: one of them cannot be asked.
+  /// Queries [first, first + out.size()). Error: one of them is invalid.
   std::function<Status(std::size_t first, std::span<Texel> out)> write;
   /// Records the kernels for `count` queries, padding included, with a barrier behind the last.
   std::function<void(Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items)> record;
@@ -32,33 +32,33 @@ struct QuerySet {
   std::function<Status(std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items)> read;
 };
 
-/// Two batches are under way at a time, or one where the device is the host's processors. While the device computes
-/// one, the host reads the one before and writes the next; where the device has a queue for transfers, they go down and
-/// up meanwhile, if there is more than one. Buffers are kept, for two batches if there ever were two: some 25 MiB each
-/// of 262,144 queries (lavapipe: 16). Fresh memory would cost as much as the queries.
+/// Two batches are in progress at a time, or one where the device is the host's processors. While the device computes
+/// one, the host reads the previous one and writes the next; if there are several and the device has a queue for
+/// transfers, downloads and uploads run meanwhile. Buffers are kept, for two batches if there ever were two: some 25
+/// MiB for each batch of 262,144 queries (lavapipe: 16). New memory would cost as much time as the queries.
 class QueryBatches {
  public:
-  /// Of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same speed: nothing
-  /// is copied, as far as it can be mapped.
+  /// For batches of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same
+  /// speed, and nothing is copied where memory can be mapped.
   QueryBatches(Context::Impl& context, std::uint32_t capacity, bool shares_memory)
       : context_(&context), capacity_(capacity), shares_memory_(shares_memory) {}
 
-  /// Blocks until all are answered; on errors too, nothing is under way then. Errors: kOutOfMemory, kInternal (device
+  /// Blocks until all are answered; after an error nothing is pending either. Errors: kOutOfMemory, kInternal (device
   /// lost; batches or items that are too large), and those of `write` and `read`.
   Status run(const QuerySet& queries);
 
  private:
-  /// What a batch needs from its first query on to its last answer.
+  /// The resources of a batch.
   struct Place {
     explicit Place(Context::Impl& context);
-    Arena on_device, for_upload, for_download;  // blocks of an arena grow: each kind by itself takes what it needs
+    Arena on_device, for_upload, for_download;  // separate, as blocks of an arena grow: none takes more than it needs
     Buffer asked;
     std::array<Buffer, 2> items;
     Buffer upload, download;  // none where the host uses the others
     bool is_shared = false;
-    bool is_apart = false;  // transfers are, on their queue: of the run that is under way
+    bool is_apart = false;  // of the current run: transfers are on their own queue
     Semaphore uploaded, computed;
-    // One after the other; without transfers apart all is in the middle one, and the rest not used.
+    // Run one after the other; without a separate queue the middle one has all commands, and the others are unused.
     Commands upload_commands, compute, download_commands;
     enum class State { kFree, kAsked, kDownloading } state = State::kFree;
     std::size_t first = 0, count = 0;

@@ -1,5 +1,5 @@
-// Scene: batches of queries go up, through the kernels of tree_queries.h and flux_sampler.h, and come back in the units
-// of the mesh.
+// Scene: batches of queries are uploaded, answered by the kernels of tree_queries.h and flux_sampler.h, and returned in
+// the units of the mesh.
 #include "medial_vk/scene.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Status Scene::Impl::make_queries() {
 
 Status Scene::update(const IndexedMesh& moved) {
   return catch_out_of_memory("updating a scene", [&]() -> Status {
-    if (moved.bvh().order() == impl_->mesh.order) impl_->packets.reset();  // they are of the mesh as it was
+    if (moved.bvh().order() == impl_->mesh.order) impl_->packets.reset();  // they belong to the previous positions
     return impl_->mesh.update(moved);
   });
 }

@@ -1,4 +1,4 @@
-// What the files that answer the queries of a Scene share.
+// The data shared by the files that answer the queries of a Scene.
 #pragma once
 
 #include <cmath>
@@ -40,24 +40,24 @@ class Scene::Impl {
  public:
   Impl(Context::Impl& context_in, DeviceMesh mesh_in) : context(&context_in), mesh(std::move(mesh_in)) {}
 
-  /// A query for kernels: where `point` is in the unit box, and w. Error: it is not finite, or too far away.
+  /// A query for kernels: the position of `point` in the unit box, and w. Error: it is not finite, or too far away.
   Status write_query(std::size_t index, const Point& point, float w, Texel& out) const {
     const Point unit = mesh.to_unit(point);
     if (Status status = check_point(unit, index); !status.ok()) return status;
     out = {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), w};
     return {};
   }
-  /// What answers queries: made before the first one, and the wide tree again after an update, since it is collapsed
-  /// from the refitted binary one. Errors: as usable(); kOutOfMemory.
+  /// Creates the objects that answer queries before the first query, and the wide tree again after an update, since it
+  /// is derived from the refitted binary tree. Errors: as usable(); kOutOfMemory.
   Status make_queries();
-  /// Error: the last update failed half-way.
+  /// Error: the last update failed.
   Status usable() const {
     if (mesh.intact) return {};
     return Error{ErrorCode::kOutOfMemory, "the scene could not be updated and must be created anew"};
   }
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
   Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
-  /// What is asked of closest points: of points[order[i]], or points[i] if there is no order.
+  /// A batch of closest-point queries: of points[order[i]], or of points[i] without an order.
   struct ClosestQueries {
     std::span<const Point> points;
     std::span<const std::uint32_t> order;
@@ -75,7 +75,7 @@ class Scene::Impl {
   Status answer(const QuerySet& asked);
 
   Context::Impl* context;
-  /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies turn it off before
+  /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies clear it before
   /// the first query.
   bool shares_memory = context->description.type == "cpu";
   DeviceMesh mesh;

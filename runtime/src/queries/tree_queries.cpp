@@ -28,7 +28,7 @@ Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh
   if (!list.ok()) return list.error();
   Result<Buffer> total = queries.arena_.create_buffer(4, MemoryKind::kReadback, "a count of unresolved queries");
   if (!total.ok()) return total.error();
-  Buffer never;  // in place of a stop that nobody can ask for
+  Buffer never;  // in place of a stop word that is never raised
   if (!stop) {
     Result<Buffer> word = queries.arena_.create_buffer(4, MemoryKind::kDevice, "a word that stays 0");
     if (!word.ok()) return word.error();
@@ -48,7 +48,7 @@ Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh
 
 void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
                          BufferRange queries, float tolerance) const {
-  // A kernel that does not count on the device is given some buffer in place of the counters.
+  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
   const BufferRange counters = count.counters != nullptr ? count.counters->range() : mesh_->triangle_info.range();
   std::vector<BufferRange> buffers = {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree), counters,
                                       unresolved_.range(), queries};
@@ -89,7 +89,7 @@ void TreeQueries::resolve(Recorder& r, ProgramKey key, std::span<const BufferRan
 
 void TreeQueries::resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits,
                                   Ties ties) const {
-  const BufferRange info = mesh_->triangle_info.range();  // also in place of counters, which it does not read
+  const BufferRange info = mesh_->triangle_info.range();  // also in place of counters, which the kernel does not read
   const std::array<BufferRange, 8> buffers = {mesh_->storage_of(mesh_->triangles),
                                               mesh_->storage_of(mesh_->tree),
                                               info,

@@ -11,9 +11,9 @@
 
 namespace medial_vk {
 
-/// Dispatches, one after the other, of a number of workgroups that only the device knows: none of them takes long, and
-/// between two of them the device can be told to stop. `prepare` records what writes the group counts of slice k, for
-/// workgroups k * groups to (k + 1) * groups of all, and says where among the arguments they are.
+/// A sequence of short dispatches for a number of workgroups that only the device knows, between which the device can
+/// stop. `prepare` records the computation of the group counts of slice k, for workgroups k * groups to (k + 1) *
+/// groups of all, and returns their position among the arguments.
 struct Slices {
   std::uint32_t count = 0;
   std::uint32_t groups = 0;
@@ -30,7 +30,7 @@ void record_slices(Recorder& r, const Slices& slices, const Dispatch& dispatch) 
   }
 }
 
-/// How many queries a dispatch answers: a number the host knows, or a counter on the device.
+/// The number of queries of a dispatch: a number the host knows, or a counter on the device.
 struct QueryCount {
   std::uint32_t items = 0;
   const Buffer* counters = nullptr;  // if given: counters[counter] * multiplier queries,
@@ -47,17 +47,17 @@ class TreeQueries {
   static constexpr std::uint32_t kWorkgroupSize = 64;
 
   /// For dispatches of at most `capacity` queries. The mesh must outlive the object. Once the word at `stop` is not 0,
-  /// workgroups of empty() and winding() that begin return at once: what they should have written is then left as it
-  /// was. (Looking at all triangles takes milliseconds for each query; a dispatch of thousands took ten seconds.)
-  /// With `counts`, boxes and triangles that walks test are counted. Errors: kOutOfMemory, kInternal.
+  /// workgroups of empty() and winding() return at their start and leave their results unchanged. (A test of all
+  /// triangles takes milliseconds for each query; a dispatch of thousands took ten seconds.) With `counts`, boxes and
+  /// triangles that walks test are counted. Errors: kOutOfMemory, kInternal.
   static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
                                     std::optional<BufferRange> stop = {}, bool counts = false);
 
-  /// Queries are vec4 in the unit box: xyz, and in w the squared distance within which a point is of interest; negative
-  /// to pass the query over (its results are left as they are). Each call is followed by a barrier.
+  /// Queries are vec4 in the unit box: xyz, and in w the square of the greatest distance of the search; negative to
+  /// skip the query (its results are left unchanged). Each call is followed by a barrier.
   ///
   /// nearest: vec4, the point and its squared distance (3.4e38: none). hits: uint, feature << 24 | leaf position, or
-  /// 0xffffffff. Among exact ties the smallest leaf position wins, or, for a little more time, the smallest index.
+  /// 0xffffffff. Among exact ties the smallest leaf position wins, or, at a small cost, the smallest index.
   enum class Ties : std::uint32_t { kLeafPosition = 0, kIndex = 1 };
   void closest(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange nearest, BufferRange hits,
                Ties ties = Ties::kLeafPosition) const;
@@ -66,7 +66,8 @@ class TreeQueries {
   /// numbers: vec2, the winding number and a bound of its error, at most `tolerance`.
   void winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers, float tolerance) const;
 
-  /// The list of queries that gave up, and what answers those of closest(): for kernels elsewhere that share them.
+  /// The list of queries that gave up, and the kernel that answers those of closest(), for kernels elsewhere that share
+  /// them.
   BufferRange unresolved() const { return unresolved_.range(); }
   void resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits, Ties ties) const;
 
@@ -74,7 +75,7 @@ class TreeQueries {
   void clear_tests(Recorder& r) const;
   void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const;
 
-  /// Queries answered by looking at all triangles since creation. Blocks.
+  /// Number of queries since creation that were answered by a test of all triangles. Blocks.
   Result<std::uint32_t> read_unresolved_total();
 
  private:

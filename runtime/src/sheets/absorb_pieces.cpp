@@ -52,7 +52,7 @@ class Absorption {
     for (const std::uint32_t place : piece) is_small_[place] = small;
   }
 
-  /// Those that touch others.
+  /// Frees the points of small components that touch others.
   void set_small_pieces_free() {
     std::vector<std::uint8_t> goes(places_.size());
     parallel_for(places_.size(), 16, parameters_.threads, [&](std::size_t piece) {
@@ -72,8 +72,9 @@ class Absorption {
     double radii = 0;
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
     const double diameter = 2 * radii / static_cast<double>(piece.size());
-    // Edges lie somewhere in their voxels: the piece is at least as wide as it is deep on both sides. Between them
-    // there may be a voxel more: where that is wide enough for these balls, the grid cannot tell what is narrow.
+    // Rims lie somewhere in their voxels: the component is at least as wide as the sum of its depths on both sides, and
+    // may be wider by a voxel. Where a voxel is wide enough for these balls, the grid cannot distinguish narrow
+    // components.
     if (voxel_size_ >= parameters_.width * diameter) return false;
     return 2 * greatest_depth(piece) < parameters_.width * diameter;
   }
@@ -83,8 +84,8 @@ class Absorption {
                                [&](std::uint32_t other) { return piece_of_[other] != piece_of_[place]; });
   }
 
-  /// Of the widest strip that fits, half the width: voxel by voxel from borders and rims inwards, with the nearest
-  /// point of these that a point heard of from those before it, the distance of the farthest.
+  /// Half the width of the widest strip that fits. Proceeds voxel by voxel from borders and rims inwards; every point
+  /// receives the nearest border or rim point from its predecessors, and the greatest of these distances is the result.
   double greatest_depth(std::span<const std::uint32_t> piece) {
     const std::uint32_t own = piece_of_[piece.front()];
     std::vector<std::uint32_t> front;
@@ -127,7 +128,7 @@ class Absorption {
     return front;
   }
 
-  /// Layer by layer: those of one layer do not see each other's pieces.
+  /// Assigns components layer by layer; points of one layer do not depend on each other's components.
   void hand_out(std::vector<std::uint32_t> front) {
     std::vector<std::uint32_t> pieces, next;
     while (!front.empty()) {
@@ -145,7 +146,7 @@ class Absorption {
     }
   }
 
-  /// Of most of the voxels around; of equals, the first. Precondition: not all of these are free.
+  /// The component that has most of the voxels around; of equals, the first. Precondition: not all of these are free.
   std::uint32_t piece_around(std::uint32_t place) const {
     std::array<std::uint32_t, 26> pieces;
     std::size_t count = 0;
@@ -164,7 +165,7 @@ class Absorption {
     return best;
   }
 
-  /// All free places that hang together with this one become a piece, which is judged in its turn.
+  /// All free points connected with this one become a component, which is judged in turn.
   void unite(std::uint32_t place, std::uint32_t piece) {
     std::vector<std::uint32_t> united = {place};
     piece_of_[place] = piece;
@@ -194,10 +195,10 @@ class Absorption {
   const VoxelGraph& graph_;
   double voxel_size_;
   const SheetOptions& parameters_;
-  std::vector<std::uint32_t>& piece_of_;            // by place: its piece, or none while it is free
-  std::vector<std::vector<std::uint32_t>> places_;  // by piece, as they were at first
-  std::vector<std::uint32_t> nearest_;  // by place: the nearest place at the edge of its piece, once measured
-  std::vector<std::uint8_t> is_small_;  // by place
+  std::vector<std::uint32_t>& piece_of_;            // by position: its component, or kNone while it is free
+  std::vector<std::vector<std::uint32_t>> places_;  // by component, as at the beginning
+  std::vector<std::uint32_t> nearest_;  // by position: the nearest border or rim point of its component, once measured
+  std::vector<std::uint8_t> is_small_;  // by position
 };
 
 }  // namespace

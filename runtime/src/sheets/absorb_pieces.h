@@ -1,4 +1,4 @@
-// Pieces that are too small for sheets of their own go to those around.
+// Absorption of components that are too small for sheets of their own by their neighbours.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace medial_vk {
 
 struct Absorbed {
-  std::uint64_t pieces = 0;  ///< By how many there are fewer.
-  std::uint64_t points = 0;  ///< Whose piece is another now.
-  /// By place: 1 if its piece is too small for a sheet, and so is what it has become one with, else 0. That does not
-  /// ask for neighbours, but a piece with neither borders nor rims is large.
+  std::uint64_t pieces = 0;  ///< Number of components that have disappeared.
+  std::uint64_t points = 0;  ///< Number of points whose component has changed.
+  /// By position: 1 if its component is too small for a sheet, also after union with others, else 0. Neighbours do not
+  /// matter, but a component with neither borders nor rims is large.
   std::vector<std::uint8_t> is_small;
 };
 
-/// Rewrites `piece_of` (by place, numbers from 0 without gaps): pieces that have a neighbour and are narrower than
-/// parameters.width allows or have fewer points than parameters.absorb_fragments, all at once, go to the pieces around,
-/// voxel by voxel from their borders inwards, each point to the piece that has most of the voxels around it. Small
-/// pieces that hang together and touch no other become one, which may be large enough. Numbers are those of pieces that
-/// there were, with gaps. `voxel_size` is the side of the graph's voxels: what is no wider cannot be told from what is.
+/// Rewrites `piece_of` (by position, numbers from 0 without gaps). Components that have a neighbour and are narrower
+/// than parameters.width allows, or have fewer points than parameters.absorb_fragments, are all absorbed at once: voxel
+/// by voxel from their borders inwards, each point by the component that has most of the voxels around it. Small
+/// components that are connected and touch no other are united, and their union may be large enough. The numbers are
+/// those of former components, with gaps. `voxel_size` is the side of the graph's voxels, the resolution of widths.
 Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
                        std::vector<std::uint32_t>& piece_of);
 

@@ -1,4 +1,4 @@
-// Disjoint sets that many threads join at once.
+// Disjoint sets that many threads unite at once.
 #pragma once
 
 #include <atomic>
@@ -10,20 +10,20 @@
 namespace medial_vk {
 
 /// Lock-free union-find (Anderson and Woll 1991): a root is only ever put below a smaller one, so that in the end the
-/// root of a set is its least member, whatever the threads did in which order.
+/// root of a set is its least member, for any schedule of the threads.
 class ConcurrentSets {
  public:
   explicit ConcurrentSets(std::size_t size) : parents_(size) {
     for (std::size_t i = 0; i < size; ++i) parents_[i].store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
   }
 
-  /// The least member once all joining is over; before, any member that some thread saw as the root.
+  /// The least member once all unions are finished; before that, any member that some thread read as the root.
   std::uint32_t root(std::uint32_t x) {
     for (;;) {
       std::uint32_t parent = parents_[x].load(std::memory_order_relaxed);
       if (parent == x) return x;
       const std::uint32_t above = parents_[parent].load(std::memory_order_relaxed);
-      // Paths are halved on the way; it does not matter whether another thread was faster.
+      // Path halving; an update by another thread in between does no harm.
       if (above != parent) parents_[x].compare_exchange_weak(parent, above, std::memory_order_relaxed);
       x = above;
     }

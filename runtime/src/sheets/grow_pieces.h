@@ -1,4 +1,4 @@
-// The links of Section 2.5, and the pieces that they hold together.
+// The links of Section 2.5, and the components that they connect.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace medial_vk {
 
-/// Are neighbours of one sheet? Two spokes that differ by 2 theta or more are those of a salient sheet, which may pass
-/// between the two points: then it does not help that their normals agree (docs/theory.md, "Sheets").
+/// The test whether two neighbours are linked. Two spokes that differ by 2 theta or more are those of a salient sheet,
+/// which may pass between the two points: agreement of their normals is then no evidence (docs/theory.md, "Sheets").
 class LinkTest {
  public:
   LinkTest(double object_angle, const SheetOptions& parameters);
@@ -20,7 +20,7 @@ class LinkTest {
   double normals_, crease_, salient_;  // cosines
 };
 
-/// By place: a number of its piece, ascending from 0 in the order of their first voxels.
+/// By position: the number of its component. Numbers ascend from 0 in the order of first voxels.
 std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& parameters);
 
 }  // namespace medial_vk

@@ -17,21 +17,22 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Degrees: by how much a point speaks for a join at most, and against it. What turns by kOpen less than the limit is
-/// as open as anything, what turns by kClosed more as closed; in between a sum does not jump where a count would.
+/// Degrees: the greatest attraction of a point, and its greatest repulsion. A turn that is smaller than the limit by
+/// kOpen counts as fully open, one that is greater by kClosed as fully closed; in between a sum is continuous where a
+/// count would jump.
 constexpr double kOpen = 30, kClosed = 4;
 
-/// Around a compact piece of n points there are 2 sqrt(pi n), so a border around all of it has twice as many, counted
-/// on either side. No border counts as less than about a quarter of that.
+/// A compact component of n points has a perimeter of 2 sqrt(pi n) points, so a border around all of it has twice as
+/// many, counted on both sides. No border counts as less than about a quarter of that.
 constexpr double kLeastBorder = 1.75;
 
 /// Degrees are added up in millionths: sums of whole numbers are the same in any order.
 constexpr double kUnit = 1e-6;
 
-/// Of the points of either of two pieces with a point of the other beside it. One that is beside several pieces counts
-/// for each, also once these are one.
+/// The border of two components: the points of either with a point of the other beside them. A point beside several
+/// components counts for each, also after these have been joined.
 struct Border {
-  std::int64_t pull = 0;  // in units: by how much their least turns to these are below the limit, the sum
+  std::int64_t pull = 0;  // sum of the weights of the points, in kUnit degrees
   std::uint64_t points = 0;
 
   void add(const Border& other) {
@@ -40,7 +41,8 @@ struct Border {
   }
 };
 
-/// What a point has to say of the border of two pieces, the first number below the second.
+/// The least turn at a point towards another component, for the border of the two; the first number is below the
+/// second.
 struct LeastTurn {
   std::uint32_t first, second;
   float cosine;
@@ -49,7 +51,7 @@ struct LeastTurn {
 void add_least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& piece_of, std::uint32_t place,
                      std::vector<LeastTurn>& out) {
   const std::uint32_t own = piece_of[place];
-  std::array<std::pair<std::uint32_t, float>, 26> others;  // pieces, and cosines, negative
+  std::array<std::pair<std::uint32_t, float>, 26> others;  // components, and negated cosines
   std::size_t count = 0;
   for (const std::uint32_t other : graph.neighbours(place)) {
     if (piece_of[other] == own) continue;
@@ -63,7 +65,7 @@ void add_least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& 
   }
 }
 
-/// Of all points, ascending by pieces.
+/// Of all points, ascending by components.
 std::vector<LeastTurn> least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& piece_of) {
   std::vector<LeastTurn> turns;
   for (std::uint32_t place = 0; place < graph.size(); ++place) add_least_turns(graph, piece_of, place, turns);
@@ -98,8 +100,8 @@ class Joining {
       queue_.pop();
       const auto& [a, b] = strongest.pieces;
       const auto border = borders_.find(key(a, b));
-      if (border == borders_.end()) continue;  // one of the two is part of another now
-      // A border that has changed was queued anew. Others only pull less as pieces grow.
+      if (border == borders_.end()) continue;  // one of the two has been joined to another
+      // A border that has changed was queued again. Other weights only decrease as components grow.
       if (join_of(a, b, border->second) == strongest) {
         join(a, b);
       } else {
@@ -110,10 +112,10 @@ class Joining {
   }
 
  private:
-  /// The greater one comes first: the stronger pull, of equals one by the order of voxels.
+  /// The greater one comes first: by weight, of equals by the order of voxels.
   struct Join {
     double pull;
-    std::pair<std::uint32_t, std::uint32_t> first_voxels;  // of first_, with all bits turned
+    std::pair<std::uint32_t, std::uint32_t> first_voxels;  // of first_, with all bits inverted
     std::pair<std::uint32_t, std::uint32_t> pieces;
 
     auto operator<=>(const Join&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
@@ -136,7 +138,7 @@ class Joining {
     return {std::llround(std::clamp(limit_ - turn, -kClosed, kOpen) / kUnit), 1};
   }
 
-  /// Degrees times points, with what is missing to a border of the least length.
+  /// The weight in degrees times points, with the points missing to a border of the least length.
   double pull_of_border(std::uint32_t a, std::uint32_t b, const Border& border) const {
     const auto fewer = static_cast<double>(std::min(points_[a], points_[b]));
     const double missing = std::max(0.0, kLeastBorder * std::sqrt(fewer) - static_cast<double>(border.points));
@@ -153,7 +155,7 @@ class Joining {
     if (join.pull >= 0) queue_.push(join);
   }
 
-  /// The one with fewer neighbours goes into the other, so that all that is moved is n log n.
+  /// The component with fewer neighbours is joined to the other, so that n log n entries are moved in total.
   void join(std::uint32_t a, std::uint32_t b) {
     if (neighbours_[a].size() < neighbours_[b].size()) std::swap(a, b);
     into_[b] = a;
@@ -164,7 +166,7 @@ class Joining {
     for (const std::uint32_t neighbour : neighbours) {
       const std::uint32_t other = root(neighbour);
       auto border = borders_.extract(key(b, other));
-      if (border.empty()) continue;  // a itself, or one that has come before as part of another
+      if (border.empty()) continue;  // a itself, or one met before as part of another
       border.key() = key(a, other);
       const auto inserted = borders_.insert(std::move(border));
       if (inserted.inserted) {
@@ -193,11 +195,11 @@ class Joining {
 
   std::vector<std::uint32_t>& piece_of_;
   double limit_;                                       // degrees
-  std::vector<std::uint64_t> points_;                  // by piece
-  std::vector<std::uint32_t> into_;                    // by piece: itself, or the one that it went to
-  std::vector<std::uint32_t> first_;                   // by piece: the first of those that it is made of
-  std::unordered_map<std::uint64_t, Border> borders_;  // by two pieces
-  // By piece: those that it has borders with, by numbers that they had once.
+  std::vector<std::uint64_t> points_;                  // by component
+  std::vector<std::uint32_t> into_;                    // by component: itself, or the one that it was joined to
+  std::vector<std::uint32_t> first_;                   // by component: the first of its original components
+  std::unordered_map<std::uint64_t, Border> borders_;  // by two components
+  // By component: those that it has borders with, by former numbers.
   std::vector<std::vector<std::uint32_t>> neighbours_;
   std::priority_queue<Join> queue_;
 };

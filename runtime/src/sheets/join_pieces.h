@@ -1,4 +1,4 @@
-// Pieces whose common border is for the most part no crease are one.
+// Joins components whose common border is for the most part no crease.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace medial_vk {
 
-/// Rewrites `piece_of` (by place, numbers from 0 without gaps, ascending in the order of first voxels) and keeps that
-/// order. Each point at the border of two pieces pulls them together by as much as its spokes turn by less than
-/// parameters.border (30 degrees at most), or apart by as much as they turn by more (4 at most); so do points that a
-/// border lacks that is short for the smaller of its two pieces, by 4. Joins the two pieces with the greatest sum (of
-/// equals, one by the order of voxels), as long as that is not negative; borders with a third add up. Nothing if
-/// parameters.crease is 0. docs/theory.md, "Sheets".
+/// Rewrites `piece_of` (by position, numbers from 0 without gaps, ascending in the order of first voxels) and keeps
+/// that order. The weight of a point at the border of two components is the difference of parameters.border and the
+/// turn of its spokes, clamped to 30 degrees of attraction and 4 of repulsion; each point that the border lacks, if it
+/// is short for the smaller of the two components, has a repulsion of 4. Joins the two components with the greatest sum
+/// (ties are broken by the order of voxels), as long as that is not negative; borders with a third component are then
+/// added up. Does nothing if parameters.crease is 0. docs/theory.md, "Sheets".
 void join_pieces(const VoxelGraph& graph, const SheetOptions& parameters, std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

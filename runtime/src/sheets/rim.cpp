@@ -9,9 +9,9 @@
 
 namespace medial_vk {
 
-// Within a sheet voxels have neighbours all around, and a gap is half of that at most, however points lie in their
-// voxels. A sheet does not rise by 70 degrees from a voxel to the next, so what is steeper is another layer of it, as
-// in a wall between voxels, or another sheet.
+// Within a sheet voxels have neighbours all around, and a gap is at most half of that, for any positions of points in
+// their voxels. A sheet does not rise by 70 degrees from a voxel to the next, so steeper neighbours belong to another
+// layer of it, as in a wall between voxels, or to another sheet.
 bool is_rim(const VoxelGraph& graph, std::uint32_t place) {
   constexpr double kGap = 2 * std::numbers::pi / 3;
   constexpr double kSteep = 0.9;  // the square of the sine of 71.6 degrees

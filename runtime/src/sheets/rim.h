@@ -1,4 +1,4 @@
-// Where a sheet ends.
+// The rim of a sheet.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace medial_vk {
 
-/// Is there a gap of a third of a turn or more between the directions to the points around, seen along the normal?
-/// Points above it or below, within 18 degrees of the normal, do not count.
+/// True if the directions to neighbours, projected along the normal, leave a gap of a third of a turn or more.
+/// Neighbours within 18 degrees of the normal do not count.
 bool is_rim(const VoxelGraph& graph, std::uint32_t place);
 
 }  // namespace medial_vk

@@ -18,7 +18,7 @@
 namespace medial_vk {
 namespace {
 
-/// Numbers of sheets for pieces with any numbers: by decreasing number of points, of equals the first voxel's first.
+/// Numbers of sheets for components with any numbers: by decreasing number of points, of equals by first voxels.
 std::vector<std::int32_t> number_sheets(const std::vector<std::uint32_t>& piece_of, std::size_t& sheets) {
   std::vector<std::uint64_t> points(piece_of.size(), 0);
   std::vector<std::uint32_t> pieces;  // in the order of their first voxels
@@ -35,9 +35,10 @@ std::vector<std::int32_t> number_sheets(const std::vector<std::uint32_t>& piece_
   return sheet_of;
 }
 
-/// In voxels squared: the part of the sheet in the voxel of a point, as the plane through the point across its normal.
-/// The plane is known to within epsilon along its normal; the mean of the two outermost is taken. So where a sheet lies
-/// in a wall between two voxels and both have a point of it, each gets half.
+/// In voxels squared: the area of the sheet in the voxel of a point, where the plane through the point perpendicular to
+/// its normal approximates the sheet. The plane is known to within epsilon along its normal, and the area is the mean
+/// for the two extreme positions. So where a sheet lies in a wall between two voxels and both have a point of it, each
+/// gets half.
 double area_in_voxel(const MedialSphere& sphere, const VoxelGrid& grid, double epsilon) {
   const Point normal = sheet_normal(sphere);
   const double norm = length(normal);
@@ -57,7 +58,7 @@ std::uint8_t marks_of(const VoxelGraph& graph, const std::vector<std::int32_t>& 
   return static_cast<std::uint8_t>((seam ? kSeam : 0) | (is_rim(graph, place) ? kRim : 0));
 }
 
-/// Sums in voxel order, so that they come out the same whatever the order of the points.
+/// Sums in voxel order, so that they do not depend on the order of the points.
 void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of, std::size_t count, unsigned threads,
               Sheets& out) {
   std::vector<std::uint8_t> marks(graph.size());
@@ -87,7 +88,7 @@ void describe(const VoxelGraph& graph, const std::vector<std::int32_t>& sheet_of
   }
 }
 
-/// Sums in voxel order, too. After describe().
+/// Sums in voxel order, too. Precondition: describe() has run.
 void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilon,
                    const std::vector<std::int32_t>& sheet_of, unsigned threads, Sheets& out) {
   const double voxel_area = grid.voxel_size * grid.voxel_size;

@@ -124,7 +124,7 @@ void SheetsAround::find_parts(std::uint32_t index, const Point& at, double reach
   }
 }
 
-/// What nodes were given, theirs and those above them, goes to the sheets of their points.
+/// Distributes the amounts of nodes and of their ancestors to the sheets of their points.
 void SheetsAround::hand_down(std::uint32_t index, double per_weight, Given& given) const {
   const Node& node = nodes_[index];
   per_weight += given.nodes[index];

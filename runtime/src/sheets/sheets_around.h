@@ -1,4 +1,4 @@
-// Amounts divided among the points around places, and summed by their sheets.
+// Amounts divided among the points around a location, and summed by sheets.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,24 @@
 
 namespace medial_vk {
 
-/// A k-d tree over the centres of balls. What lies close together for what is asked counts as one, so that a question
-/// takes about as long on any grid, however many sheets there are.
+/// A k-d tree over the centres of balls. Points that lie close together in comparison with the reach of a query count
+/// as one, so that the time of a query hardly depends on the resolution of the grid or the number of sheets.
 class SheetsAround {
  public:
-  /// `weight_of`: what each ball counts, not negative; those with 0 are as if they were not there. `order`: the balls
-  /// in an order that does not depend on how they came in; sums are then the same to the last bit. Sheets are numbered
-  /// from 0 up to below `sheets`.
+  /// `weight_of`: the weight of each ball, not negative; balls of weight 0 are ignored. `order`: the balls in an order
+  /// that does not depend on the input order; sums are then the same to the last bit. Sheets have numbers from 0 to
+  /// `sheets` - 1.
   SheetsAround(std::span<const Ball> balls, std::span<const std::int32_t> sheet_of, std::span<const double> weight_of,
                std::size_t sheets, std::vector<std::uint32_t> order);
 
-  /// Has a sheet other than this one a point at a distance below `reach`?
+  /// True if a sheet other than this one has a point at a distance below `reach`.
   bool others_near(const Point& at, double reach, std::int32_t sheet) const;
 
-  /// What points have been given.
+  /// The amounts that points have received.
   struct Given {
     std::vector<double> sheets;  ///< By sheet.
-    std::vector<double> nodes;   ///< By node that has points of several sheets: to its points, for a weight of 1.
+    /// By node with points of several sheets: the amount for its points, per unit of weight.
+    std::vector<double> nodes;
 
     void add(const Given& other);
   };
@@ -33,7 +34,7 @@ class SheetsAround {
 
   /// Divides an amount among the points at a distance d < reach, in proportion to their weights and 1 - d / reach.
   /// Points of a node count as if they were at its centre of mass if it is no wider than reach / 4 and all of one
-  /// sheet, or than reach / 8. If there is no such point, nothing is given, and the answer is false.
+  /// sheet, or than reach / 8. If there is no such point, returns false and leaves `to` unchanged.
   [[nodiscard]] bool divide(double amount, const Point& at, double reach, Given& to) const;
 
   std::vector<double> by_sheet(const Given& given) const;
@@ -42,16 +43,16 @@ class SheetsAround {
   struct Node {
     Point least, greatest, centroid;
     std::uint32_t first, last;  ///< In order_.
-    std::uint32_t right;        ///< The left one comes next; 0: a leaf.
+    std::uint32_t right;        ///< The right child; the left one comes next; 0: a leaf.
     double weight;              ///< Of all its points.
     std::int32_t sheet;         ///< -1: several.
   };
-  /// Points that count alike.
+  /// Points with a common distance.
   struct Part {
     double weight;  ///< Of all of them.
     double nearness;
-    std::uint32_t node;  ///< Which they are all of, if it has several sheets.
-    std::int32_t sheet;  ///< Otherwise.
+    std::uint32_t node;  ///< The node of the points, if it has several sheets.
+    std::int32_t sheet;  ///< The sheet of the points otherwise.
   };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);

@@ -66,8 +66,8 @@ class Removing {
  private:
   enum class State : std::uint8_t { kNotTried, kStays, kGone };
 
-  /// Whether a sheet may go depends for the most part on what is around it: one that had to stay is tried again, before
-  /// all that are more significant, when cells of its balls have changed.
+  /// Whether a sheet may be removed depends mostly on its surroundings: a sheet that had to stay is tried again, before
+  /// all more significant ones, when cells of its balls have changed.
   Status remove_least_first() {
     for (std::size_t n = 0; n < order_.size() && removal_.sheets.size() + 1 < order_.size();) {
       const std::uint32_t sheet = order_[n++];
@@ -86,8 +86,8 @@ class Removing {
     return {};
   }
 
-  /// Of what has been tried and what is sure to be tried yet: sheets that have not been, and with the topology kept
-  /// once more in a last round all that stay.
+  /// The finished share of past and certain future trials: the untried sheets, and with kTopology a last round over all
+  /// that stay.
   double done() {
     std::size_t ahead = 0;
     for (const State state : state_) {
@@ -133,7 +133,7 @@ class Removing {
   std::vector<State> state_;
   BettiNumbers topology_;
   SheetRemoval removal_;
-  bool too_little_ = false;  // the next would leave less than the least volume
+  bool too_little_ = false;  // the next removal would leave less than the least volume
   std::size_t tries_ = 0;
   double done_ = 0;
 };
@@ -144,7 +144,7 @@ std::vector<double> sum_by_sheet(const SheetBalls& sheets, const std::vector<dou
   return of_sheet;
 }
 
-/// What a ball has goes to the sheets around it; where there are none, or none but its own, to that.
+/// Assigns the amount of a ball to the sheets around it; where there is none other than its own, to its own.
 void give(const SheetBalls& sheets, std::uint32_t index, double amount, double weight, const SheetsAround& around,
           SheetsAround::Given& to) {
   const Ball& ball = sheets.balls[index];
@@ -155,8 +155,8 @@ void give(const SheetBalls& sheets, std::uint32_t index, double amount, double w
   to.sheets[static_cast<std::size_t>(own)] += amount;
 }
 
-/// In voxel order, whatever the order of the balls, and in as many parts for any number of cores: sums do not depend on
-/// these. Precondition: there is a graph.
+/// In voxel order, for any order of the balls, and in the same number of parts for any number of cores: sums do not
+/// depend on either. Precondition: there is a graph.
 std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vector<double>& of_ball, unsigned threads) {
   constexpr std::size_t kParts = 16;
   const std::size_t count = of_ball.size();

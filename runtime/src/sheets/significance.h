@@ -1,5 +1,5 @@
-// What share of the volume each sheet accounts for, and what is left when sheets go (Chapter 6). docs/theory.md,
-// "Significance".
+// The share of the volume that each sheet accounts for, and the volume left after removal of sheets (Chapter 6).
+// docs/theory.md, "Significance".
 #pragma once
 
 #include <cstdint>
@@ -14,37 +14,37 @@
 
 namespace medial_vk {
 
-/// Balls in sheets: sheet_of[i] is that of ball i, from 0 to `sheets` - 1.
+/// Balls in sheets: sheet_of[i] is the sheet of ball i, from 0 to `sheets` - 1.
 struct SheetBalls {
   std::span<const Ball> balls;
   std::span<const std::int32_t> sheet_of;
   std::size_t sheets = 0;
-  /// The same balls by the voxels they lie in, or nothing: then every ball is of its own sheet only.
+  /// The same balls by the voxels they lie in, or null: then every ball belongs to its own sheet only.
   const VoxelGraph* graph = nullptr;
   double voxel_size = 0;  ///< Of these voxels; above 0 if there is a graph.
-  /// How much of a sheet each ball stands for, where it is asked which sheets are around: seam_weights(). All alike if
-  /// empty.
+  /// The weight of each ball as a neighbour in the division of shares at seams: seam_weights(). Empty: equal weights.
   std::span<const double> weights = {};
 };
 
-/// By point: its area; 0 for those of pieces that were too small for a sheet. Precondition: areas were measured. A ball
-/// whose plane just touches its voxel has little or no weight and is of the sheets around it, as if it were at a seam.
+/// By point: its area; 0 for points of components that were too small for a sheet. Precondition: areas were measured. A
+/// ball whose plane just touches its voxel has little or no weight and belongs to the sheets around it, as if at a
+/// seam.
 std::vector<double> seam_weights(const Sheets& sheets);
 
-/// Errors: those of measure_ball_union(); kInternal for sheets or weights that are not as said.
+/// Errors: those of measure_ball_union(); kInternal for invalid sheets or weights.
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads);
 
-/// Called before each sheet that is tried, with the share of the work done, as far as it can be told: what had to stay
-/// may have to be tried again. It never falls. False stops.
+/// Called before the trial of each sheet with an estimate of the finished share of the work, since sheets that had to
+/// stay may be tried again. The share never decreases. The return value false stops the work.
 using RemovalProgress = std::function<bool(double done)>;
 
 /// Removes sheets by the rule until the next would leave less than `least_volume` of the whole volume; with 0, all that
-/// may go. So what goes is a first part of what goes with 0. At least one stays. Of equal significance, the sheet with
-/// the larger number goes first. Errors: those of ShrinkingUnion, kInterrupted.
+/// the rule permits. The removed sheets are thus the first ones of those removed with 0. At least one stays. Of equal
+/// significance, the sheet with the larger number is removed first. Errors: those of ShrinkingUnion, kInterrupted.
 Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
                                    double least_volume, unsigned threads, const RemovalProgress& progress);
 
-/// The first part of a removal that leaves at least `least_volume`: what remove_sheets() would have found for it.
+/// The first part of a removal that leaves at least `least_volume`: the result of remove_sheets() for that value.
 SheetRemoval stop_at_volume(SheetRemoval removal, const Significance& significance, double least_volume);
 
 }  // namespace medial_vk

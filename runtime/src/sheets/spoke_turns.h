@@ -1,4 +1,4 @@
-// How far spokes and normals turn from a medial point to its neighbour.
+// Turns of spokes and normals from a medial point to its neighbour.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline double cosine(const std::array<float, 3>& a, const std::array<float, 3>& 
   return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
 }
 
-/// Cosine of the greater turn of the two spokes, paired so that it is smaller: which of them is the nearer one may
+/// Cosine of the greater turn of the two spokes, paired such that it is smaller: the nearer one of the two contacts may
 /// change from voxel to voxel.
 inline double cosine_of_turn(const MedialSphere& p, const MedialSphere& q) {
   const double straight = std::min(cosine(p.spoke_a, q.spoke_a), cosine(p.spoke_b, q.spoke_b));

@@ -15,7 +15,7 @@ inline Point sheet_normal(const MedialSphere& sphere) {
   return n;
 }
 
-/// Two axes across a normal of any length; those of z if it is none.
+/// Two axes perpendicular to a normal of any length; those perpendicular to z if the normal is zero.
 class TangentFrame {
  public:
   explicit TangentFrame(const Point& normal) {
@@ -27,7 +27,7 @@ class TangentFrame {
     v_ = cross(n, u_);
   }
 
-  /// Of a direction, seen along the normal, from -pi to pi.
+  /// The angle of a direction, seen along the normal, from -pi to pi.
   double angle(const Point& direction) const { return std::atan2(dot(direction, v_), dot(direction, u_)); }
 
  private:

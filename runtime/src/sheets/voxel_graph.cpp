@@ -8,17 +8,17 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  // places that one thread takes at a time
+constexpr std::size_t kBlock = 4096;  // positions that one thread processes at a time
 constexpr std::uint64_t kY = std::uint64_t{1} << 21;
 constexpr std::uint64_t kZ = std::uint64_t{1} << 42;
 
-/// One more than each coordinate, so that 1 less of any is still a key of its own.
+/// Keys are of each coordinate plus one, so that a coordinate of -1 has a key of its own, too.
 std::uint64_t key_of(const MedialSphere& sphere) {
   return (sphere.voxel[2] + 1) * kZ + (sphere.voxel[1] + 1) * kY + (sphere.voxel[0] + 1);
 }
 
-/// Walks places in order with one cursor for each of the nine rows of three voxels around a voxel: as keys ascend,
-/// cursors never go back, so that a walk takes linear time.
+/// Visits positions in order with one cursor for each of the nine rows of three voxels around a voxel: as keys ascend,
+/// cursors never go back, so that a pass takes linear time.
 class NeighbourWalk {
  public:
   NeighbourWalk(std::span<const std::uint64_t> keys, std::size_t first) : keys_(keys) {
@@ -28,7 +28,7 @@ class NeighbourWalk {
     }
   }
 
-  /// Places must be asked for in ascending order.
+  /// Positions must be passed in ascending order.
   void append_neighbours(std::size_t place, std::vector<std::uint32_t>& out) {
     for (std::size_t row = 0; row < 9; ++row) {
       const std::uint64_t middle = keys_[place] + offset(row);
@@ -41,7 +41,7 @@ class NeighbourWalk {
   }
 
  private:
-  /// Unsigned numbers wrap around, so that a row below or before is a sum as well.
+  /// Unsigned numbers wrap around, so that a row below or before is a sum, too.
   static std::uint64_t offset(std::size_t row) { return (row / 3 - 1) * kZ + (row % 3 - 1) * kY; }
 
   std::span<const std::uint64_t> keys_;
@@ -58,7 +58,7 @@ VoxelGraph::VoxelGraph(std::span<const MedialSphere> spheres, unsigned threads)
     : spheres_(spheres), order_(spheres.size()), starts_(spheres.size() + 1, 0) {
   std::iota(order_.begin(), order_.end(), 0u);
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return key_of(spheres[a]) < key_of(spheres[b]); };
-  // As a rule they are in order already.
+  // The input usually is in order already.
   if (!std::is_sorted(order_.begin(), order_.end(), before)) std::stable_sort(order_.begin(), order_.end(), before);
   std::vector<std::uint64_t> keys(order_.size());
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = key_of(spheres[order_[i]]);

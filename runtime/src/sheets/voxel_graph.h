@@ -1,4 +1,4 @@
-// Which medial points lie in voxels that touch: the 26-neighbourhood of Section 2.5.
+// The graph of medial points in voxels that touch: the 26-neighbourhood of Section 2.5.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace medial_vk {
 
-/// Points are known by their *place* in voxel order (z slowest, then y, then x), whatever order they came in.
+/// Points are identified by their position in voxel order (z slowest, then y, then x), for any order of the input.
+/// Parameters named `place` are such positions.
 class VoxelGraph {
  public:
   /// Precondition: at most one sphere per voxel; coordinates of voxels below 2^20.
@@ -17,13 +18,13 @@ class VoxelGraph {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
   const MedialSphere& sphere(std::uint32_t place) const { return spheres_[order_[place]]; }
-  /// The index among the spheres that were given.
+  /// The index of the point in the input.
   std::uint32_t index(std::uint32_t place) const { return order_[place]; }
-  /// Places of the points in the 26 voxels around, ascending.
+  /// Positions of the points in the 26 voxels around, ascending.
   std::span<const std::uint32_t> neighbours(std::uint32_t place) const {
     return {neighbours_.data() + starts_[place], starts_[place + 1] - starts_[place]};
   }
-  /// Do the voxels of the two touch?
+  /// True if the voxels of the two touch.
   bool touch(std::uint32_t a, std::uint32_t b) const;
 
  private:

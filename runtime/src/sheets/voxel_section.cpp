@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-/// A convex polygon: each of six half-spaces adds a corner at most to the first four.
+/// A convex polygon: each of six half-spaces adds at most one corner to the first four.
 struct Polygon {
   std::array<Point, 12> corners;
   std::size_t size = 0;
@@ -39,7 +39,7 @@ double section_area(const std::array<double, 3>& point, const std::array<double,
   const double norm = length(normal);
   if (!(norm > 0)) return 0;
   const Point n = 1 / norm * normal;
-  // Away from the axis that is nearest to the normal.
+  // Perpendicular to the axis that is nearest to the normal.
   std::size_t least = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
     if (std::abs(n[axis]) < std::abs(n[least])) least = axis;
@@ -51,7 +51,7 @@ double section_area(const std::array<double, 3>& point, const std::array<double,
   const Point across = cross(n, along);
 
   Polygon polygon;
-  // Twice the diagonal of the cube: all of the plane that can lie within.
+  // Twice the diagonal of the cube, so that the polygon contains the plane's whole section of the cube.
   const std::array<std::pair<double, double>, 4> square = {{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}};
   for (const auto& [u, v] : square) polygon.add(point + u * along + v * across);
   for (std::size_t axis = 0; axis < 3; ++axis) {

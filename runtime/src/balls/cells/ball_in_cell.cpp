@@ -9,21 +9,22 @@
 namespace medial_vk {
 namespace {
 
-/// What an edge adds, in a ball of radius 1: to volume, to the sphere's area, and to that of its face in the ball.
+/// The contribution of an edge, in a ball of radius 1: to the volume, to the sphere's area, and to that of its face in
+/// the ball.
 struct Part {
   double volume = 0, area = 0, face = 0;
 };
 
 /// One edge of one face, in a ball of radius 1. The triangle between the foot of the centre on the face's plane and the
-/// edge is the base of a pyramid with its apex at the centre; what the ball has of it is measured. Odd in `height` and
-/// in `gap`: the sum over the edges of all faces is that of the polyhedron, wherever the centre is.
+/// edge is the base of a pyramid with its apex at the centre; the part of it in the ball is measured. Odd in `height`
+/// and in `gap`: the sum over the edges of all faces is that of the polyhedron, for any position of the centre.
 struct Pyramid {
   double height, gap, foot_squared;
   Part sum;
 
   double rho(double t) const { return std::sqrt(foot_squared + t * t); }
 
-  /// The part of the edge within the ball: a pyramid, whole.
+  /// The part of the edge within the ball: a whole pyramid.
   void add_inside(double a, double b) {
     sum.volume += height * gap * (b - a) / 6;
     sum.face += gap * (b - a) / 2;
@@ -64,9 +65,9 @@ Part measure_pyramid(const CellEdge& edge, std::size_t side) {
   return pyramid.sum;
 }
 
-// Where more than three planes meet in a point, or nearly, rounding leaves edges whose direction says nothing: taken
-// for one, they would be seen from the foot of the centre under any angle. Of edges this short, terms of their length
-// squared are below a rounding, so that the integrands at their middles do.
+// Where more than three planes meet in a point, or nearly, rounding leaves edges whose direction is arbitrary, so that
+// they would subtend any angle at the foot of the centre. Of edges this short, terms of their length squared are below
+// a rounding, so that the integrands at their middles do.
 constexpr double kShortEdge = 0x1p-26;
 
 Part measure_short_edge(const PowerCell& cell, const CellEdge& edge, std::size_t side) {
@@ -97,11 +98,11 @@ BallInCell measure_ball_in_cell(const PowerCell& cell, double radius) {
       const Part part = is_short ? measure_short_edge(cell, edge, side) : measure_pyramid(edge, side);
       sum.volume += part.volume;
       sum.area += part.area;
-      // The sphere's part and the faces close up: their normals, weighted by area, sum to nothing.
+      // The sphere's part and the faces form a closed surface: their normals, weighted by area, sum to zero.
       sum.area_vector = sum.area_vector - part.face * cell.planes()[edge.planes[side]].normal;
     }
   });
-  // Each is a sum of terms of both signs: what rounding leaves of nothing may be below 0.
+  // Each is a sum of terms of both signs: a zero may become negative by rounding.
   sum.volume = std::max(0.0, sum.volume) * radius * radius * radius;
   sum.area = std::max(0.0, sum.area) * radius * radius;
   sum.area_vector = (radius * radius) * sum.area_vector;

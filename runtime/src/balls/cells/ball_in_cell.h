@@ -8,7 +8,7 @@ namespace medial_vk {
 struct BallInCell {
   double volume = 0;              ///< Of the ball in the cell.
   double area = 0;                ///< Of the sphere in the cell.
-  Point area_vector = {0, 0, 0};  ///< The same as a sum of outward normals, each weighted by its share of the area.
+  Point area_vector = {0, 0, 0};  ///< The integral of the outward unit normals over that part, by area.
 };
 
 /// `radius` of the cell's ball.

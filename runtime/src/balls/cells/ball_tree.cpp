@@ -14,8 +14,8 @@ namespace {
 
 using Matrix = std::array<Point, 3>;
 
-/// Principal axes of a symmetric matrix by Jacobi's rotations. Four sweeps; how exactly they diagonalise it decides how
-/// tight boxes are, not whether they are right.
+/// Principal axes of a symmetric matrix by Jacobi's rotations. Four sweeps; their accuracy affects the tightness of
+/// boxes, not their correctness.
 Matrix principal_axes(Matrix m) {
   Matrix axes = {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
   for (int step = 0; step < 12; ++step) {

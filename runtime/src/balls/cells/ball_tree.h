@@ -1,4 +1,4 @@
-// A hierarchy of balls that says which of them may take something from a power cell.
+// A hierarchy of balls, to find those that may cut a power cell.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class BallTree {
     Point half;                 ///< Half extents of the box of the centres, along the axes.
     Point slope;                ///< With `least`: |c - middle|^2 - r^2 >= least + slope . (c - middle) for its balls,
     double least;               ///< slope and c - middle along the axes.
-    double size;                ///< Of its balls none reaches farther from `middle`.
+    double size;                ///< None of its balls reaches farther from `middle`.
     double radius;              ///< The largest; below 0 in an empty node.
   };
   static constexpr std::uint32_t kLeaf = 4;
@@ -31,7 +31,7 @@ class BallTree {
   /// Balls as scaled_balls() makes them: coordinates and radii up to 1.
   BallTree(std::span<const Ball> balls, unsigned threads);
 
-  /// The balls, leaf by leaf: neighbours in space are mostly neighbours here.
+  /// The balls, leaf by leaf: most neighbours in space are neighbours in this order.
   std::span<const std::uint32_t> order() const { return order_; }
   /// Node 0 is the root; children of k: 2 k + 1 and 2 k + 2.
   const Node& node(std::uint32_t k) const { return nodes_[k]; }
@@ -50,10 +50,10 @@ class BallTree {
   std::uint32_t leaves_ = 1;
 };
 
-/// Which balls of a tree are in, and which nodes have any.
+/// The balls of a tree that are included, and the nodes that have any.
 class BallMask {
  public:
-  /// All are.
+  /// Includes all balls.
   explicit BallMask(const BallTree& tree);
 
   bool holds(std::uint32_t ball) const { return is_in_[ball] != 0; }

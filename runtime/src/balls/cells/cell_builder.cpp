@@ -33,7 +33,7 @@ bool CellBuilder::may_cut(const BallTree::Node& node, const Point& offset) const
   return false;
 }
 
-/// The least of some corners, without node.least. Lane by lane in every step: compilers make vectors of that.
+/// The least value over some corners, without node.least. Every step is lane by lane, which compilers vectorise.
 double CellBuilder::least_power(const BallTree::Node& node, const Point& offset, std::size_t first) const {
   using Lanes = std::array<double, kLanes>;
   Lanes x, y, z, power;
@@ -71,7 +71,7 @@ void CellBuilder::cut_by(std::uint32_t j) {
   const std::uint32_t i = cell_.ball();
   if (j == i || (mask_ != nullptr && !mask_->holds(j))) return;
   if (are_apart(balls_[i], balls_[j])) return;
-  // Corners on a plane that is there already would be in doubt, all of them.
+  // All corners on a plane that bounds the cell already would be undecided.
   if (!cell_.was_cut_by(j)) cell_.clip(j);
 }
 

@@ -1,4 +1,4 @@
-// Power cells, one after the other: which balls cut a cell, found in the hierarchy.
+// Construction of power cells, one after the other; the hierarchy yields the balls that cut a cell.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace medial_vk {
 
-/// For one thread. Neighbours of the ball before are asked first, which makes the cell small before the tree is walked;
-/// so cells of balls that follow each other in BallTree::order() cost least.
+/// For one thread. Neighbours of the previous ball cut first, which makes the cell small before the tree is walked; so
+/// cells of balls that follow each other in BallTree::order() cost least.
 class CellBuilder {
  public:
-  /// With a mask, only its balls are there.
+  /// With a mask, only its balls count.
   CellBuilder(std::span<const Ball> balls, const BallTree& tree, const BallMask* mask = nullptr)
       : balls_(balls), tree_(tree), mask_(mask), cell_(balls) {}
 
-  /// The power cell of ball i among all balls, exact where it meets the ball; outside the ball it may be larger.
-  /// Until the next call.
+  /// The power cell of ball i among all balls, exact where it meets the ball; outside the ball it may be larger. Valid
+  /// until the next call.
   const PowerCell& build(std::uint32_t i);
-  /// The balls whose bisectors bound the cell that was built last; the ball itself first. Of an empty cell: those of
-  /// the cell before.
+  /// The balls whose bisectors bound the cell that was built last, after the ball itself. If that cell is empty: those
+  /// of the cell before.
   std::span<const std::uint32_t> neighbours() const { return hints_; }
-  /// Forgets the ball before: the rounding of cells then depends only on the calls that follow.
+  /// Forgets the previous ball: the rounding of cells then depends only on later calls.
   void forget() { hints_.clear(); }
 
  private:
@@ -39,8 +39,8 @@ class CellBuilder {
   const BallTree& tree_;
   const BallMask* mask_;
   PowerCell cell_;
-  std::vector<std::uint32_t> hints_;       // balls to ask first
-  std::vector<double> x_, y_, z_, power_;  // of the cell's corners: place, and power of its ball with all slack
+  std::vector<std::uint32_t> hints_;       // balls that cut first
+  std::vector<double> x_, y_, z_, power_;  // of the cell's corners: position, and power of its ball with all slack
   std::vector<std::uint8_t> is_used_;
 };
 

@@ -1,4 +1,4 @@
-// The edges of a power cell, as its ball's centre sees them.
+// The edges of a power cell, relative to the centre of its ball.
 #pragma once
 
 #include <algorithm>
@@ -27,16 +27,16 @@ struct CellEdge {
   double leave(double half_chord) const { return std::clamp(half_chord, from, to); }
 };
 
-/// The ends say little of the direction of an edge that is hardly longer than their rounding, and a direction that is
-/// not in both planes can put the foot anywhere; normals say little if planes are nearly parallel. The longer vector
-/// decides.
+/// The direction of an edge. Its ends are inaccurate for an edge hardly longer than their rounding, and a direction
+/// that is not in both planes can put the foot anywhere; normals are inaccurate if planes are nearly parallel. The
+/// longer vector decides.
 inline Point direction_of_edge(const Point& between_ends, const Point& between_normals) {
   const double ends = dot(between_ends, between_ends), normals = dot(between_normals, between_normals);
   if (ends >= normals) return ends > 0 ? (1 / std::sqrt(ends)) * between_ends : Point{};
   return (1 / std::sqrt(normals)) * between_normals;
 }
 
-/// Calls f(edge) for every edge, for those that rounding leaves without a length, too: they say where their faces are.
+/// Calls f(edge) for every edge, also for those whose length rounding reduces to zero: they locate their faces.
 template <class Function>
 void for_each_edge(const PowerCell& cell, double radius, const Function& f) {
   const double unit = 1 / radius;
@@ -55,7 +55,7 @@ void for_each_edge(const PowerCell& cell, double radius, const Function& f) {
       edge.from = dot(edge.direction, begin);
       edge.to = edge.from + std::max(0.0, dot(edge.direction, along));  // rounding may swap the ends
       edge.foot = begin - edge.from * edge.direction;
-      // Both from the same foot, so that near an edge through the centre they agree with each other.
+      // Both are relative to the same foot, so that they are consistent near an edge through the centre.
       edge.height = {dot(p, edge.foot), dot(q, edge.foot)};
       edge.gap = {dot(cross(edge.direction, p), edge.foot), dot(cross(q, edge.direction), edge.foot)};
       edge.half_chord_squared = 1 - dot(edge.foot, edge.foot);

@@ -7,9 +7,9 @@
 namespace medial_vk {
 namespace {
 
-// Closed balls that touch belong together. Two do so up to rounding (are_apart); where three or four spheres meet, what
-// comes this near to a sphere, in radii, lies on it. Far above the rounding of a corner that is worth a simplex, and
-// far below what anybody calls a gap.
+// Closed balls that touch have a simplex. Two balls touch up to rounding (are_apart); where three or four spheres meet,
+// a corner this near to a sphere, in radii, counts as on it. The limit is far above the rounding of a corner that makes
+// a simplex, and far below any relevant gap.
 constexpr double kTouch = 0x1p-36;
 // A foot this near to an edge's line, in radii, counts as outside: if it is on the edge, the edge meets the ball, too,
 // and if it is on the line beyond the edge, the sign of the gap is rounding.

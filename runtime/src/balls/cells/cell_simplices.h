@@ -1,4 +1,4 @@
-// Which of a power cell's faces, edges and corners lie in its ball: the simplices of the dual complex.
+// The simplices of the dual complex: the faces, edges and corners of a power cell that lie in its ball.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace medial_vk {
 
 /// Appends the simplices whose first ball is the cell's, and the vertices of the envelope likewise. Scratch memory is
-/// kept from call to call.
+/// reused between calls.
 class SimplexCollector {
  public:
   void collect(const PowerCell& cell, const Ball& ball, DualComplex& complex, std::vector<EnvelopeVertex>& vertices);

@@ -11,7 +11,7 @@
 namespace medial_vk {
 namespace {
 
-// Room between the ball and the box: corners on walls must lie outside the ball, whatever rounding does.
+// Margin between the ball and the box: corners on walls must lie outside the ball, for any rounding.
 constexpr double kRoom = 1 + 0x1p-20;
 
 std::size_t index_of(std::uint32_t ball, const std::array<std::uint32_t, 4>& balls) {
@@ -75,7 +75,7 @@ void PowerCell::start(std::uint32_t i, const RegularTriangulation& triangulation
   cut_to_box();
 }
 
-/// The place of a ball's plane, which is made when it is asked for first.
+/// The index of a ball's plane, which is created at its first use.
 std::uint32_t PowerCell::plane_of(std::uint32_t j) {
   plane_of_.resize(balls_.size());
   const std::uint32_t known = plane_of_[j];
@@ -134,7 +134,7 @@ bool PowerCell::find_cut_corners(const Bisector& plane) {
   return !cut_.empty();
 }
 
-/// Where three planes meet.
+/// The intersection of three planes.
 PowerCell::Corner PowerCell::corner_of(const std::array<std::uint32_t, 3>& planes) const {
   const auto [at, slack] = meeting_point(planes_[planes[0]], planes_[planes[1]], planes_[planes[2]]);
   Corner corner{at, slack, planes, {}};
@@ -231,7 +231,7 @@ bool PowerCell::clip(std::uint32_t j) {
   return true;
 }
 
-/// Takes away the corners that find_cut_corners() found.
+/// Removes the corners that find_cut_corners() found.
 void PowerCell::cut_by(std::uint32_t plane) {
   if (cut_.size() == corners_.size()) {
     corners_.clear();

@@ -20,13 +20,13 @@ class PowerCell {
     Point at;                             ///< Relative to the ball's centre.
     double slack;                         ///< The true corner is at most this far from `at`.
     std::array<std::uint32_t, 3> planes;  ///< Into planes(), with det(normals) > 0.
-    std::array<std::uint32_t, 3>
-        neighbours;  ///< neighbours[k] is at the other end of the edge that is not in planes[k].
+    /// neighbours[k] is at the other end of the edge that is not in planes[k].
+    std::array<std::uint32_t, 3> neighbours;
   };
 
   explicit PowerCell(std::span<const Ball> balls) : balls_(balls), exact_(balls, walls_) {}
 
-  /// What restore() needs to go on with a cell later.
+  /// The state that restore() needs to continue with a cell.
   struct Kept {
     std::uint32_t ball = 0;
     std::vector<Wall> walls;
@@ -36,15 +36,15 @@ class PowerCell {
   void keep(Kept& kept) const;
   void restore(const Kept& kept);
 
-  /// Starts again: a box that holds ball i with some room.
+  /// Starts a cell: a box that holds ball i with a margin.
   void start(std::uint32_t i);
-  /// Starts again with the whole cell, cut to that box. The triangulation is of the same balls, and its far points are
-  /// among those that the constructor got.
+  /// Starts with the whole cell, cut to that box. Precondition: the triangulation is of the same balls, and its far
+  /// points are among those given to the constructor.
   void start(std::uint32_t i, const RegularTriangulation& triangulation);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before. False if nothing was cut off.
   bool clip(std::uint32_t j);
-  /// Places corners of planes that nearly share a line with more digits. Most corners do not last until the last cut,
-  /// so this waits for it.
+  /// Recomputes corners of planes that nearly share a line with more digits. Most corners do not last until the last
+  /// cut, so this is done after it.
   void sharpen();
   bool was_cut_by(std::uint32_t j) const;
   std::uint32_t ball() const { return ball_; }
@@ -75,12 +75,12 @@ class PowerCell {
   std::vector<Corner> corners_;
   double farthest_ = 0;  // no corner is farther away from the centre
 
-  // Of the cut in progress.
+  // State of the current cut.
   std::vector<double> heights_;  // of the corners over the plane
   std::vector<std::uint8_t> is_cut_;
   std::vector<std::uint32_t> cut_;       // corners
   std::vector<std::uint32_t> added_;     // corners
-  std::vector<std::uint32_t> leaving_;   // by plane: the new corner from which its edge with the new plane goes on
+  std::vector<std::uint32_t> leaving_;   // by plane: the new corner at which its edge with the new plane starts
   std::vector<std::uint32_t> arriving_;  // by plane: the new corner at which that edge ends
   std::vector<std::uint32_t> plane_of_;  // by ball: its plane, where that plane names the ball
 };

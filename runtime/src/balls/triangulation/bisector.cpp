@@ -190,7 +190,7 @@ bool ExactSide::keeps_tied(std::uint32_t i, const std::array<std::int32_t, 4>& n
   for (std::size_t k = 0; k < 4; ++k) {
     if (names[k] >= 0) consider(names[k], -signs.cofactors[k]);
   }
-  // Without a decision m is a wall: walls are imagined a little farther out.
+  // Without a decision m is a wall: walls are perturbed outwards symbolically.
   return decision.sign == 0 || decision.sign == signs.cofactors[3];
 }
 

@@ -1,4 +1,4 @@
-// Numbers of twice the precision of double, to decide what double leaves open before exact arithmetic is needed.
+// Numbers of twice the precision of double, for decisions that double leaves open, before exact arithmetic is needed.
 #pragma once
 
 #include <cmath>
@@ -26,11 +26,11 @@ inline std::pair<double, double> two_product(double a, double b) {
   return {high, std::fma(a, b, -high)};
 }
 
-/// A sum of two doubles that do not overlap, with a bound of what it may be wrong by: each operation adds less than 8
-/// units of 2^-106 of the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
-/// basic building blocks of double-word arithmetic", 2017: 3 and 5 units), but nothing if one number is zero or both
-/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no
-/// product is below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
+/// A sum of two doubles that do not overlap, with an error bound: each operation adds less than 8 units of 2^-106 of
+/// the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building
+/// blocks of double-word arithmetic", 2017: 3 and 5 units), but nothing if one number is zero or both are single
+/// doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no product is
+/// below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
 class DoubleDouble {
  public:
   DoubleDouble() = default;
@@ -47,7 +47,7 @@ class DoubleDouble {
     return error_ == 0 ? std::optional(0) : std::nullopt;
   }
 
-  /// The nearest double, and how far the true number may be from it.
+  /// The nearest double, and a bound of the distance of the true number from it.
   double value() const { return high_; }
   double error() const { return 0x1p-102 * error_ + 0x1p-53 * std::fabs(high_); }
 
@@ -73,7 +73,7 @@ class DoubleDouble {
   DoubleDouble(double high, double low, double size, double error)
       : high_(high), low_(low), size_(size), error_(error) {}
 
-  /// Of a sum and of a product: nothing is lost.
+  /// True for a sum and for a product without rounding.
   static bool is_exact(const DoubleDouble& a, const DoubleDouble& b) {
     return (a.low_ == 0 && b.low_ == 0) || a.high_ == 0 || b.high_ == 0;
   }

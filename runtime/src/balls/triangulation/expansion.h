@@ -11,7 +11,7 @@
 
 namespace medial_vk {
 
-/// Memory for the components of expansions, given back all at once.
+/// Memory for the components of expansions, released all at once.
 class ExpansionArena {
  public:
   /// Room for `count` doubles, until reset().
@@ -22,7 +22,7 @@ class ExpansionArena {
     used_ += count;
     return room;
   }
-  /// Gives back the last `count` doubles of what was taken last.
+  /// Releases the last `count` doubles of the latest allocation.
   void give_back(std::size_t count) { used_ -= count; }
   void reset() { block_ = used_ = 0; }
 

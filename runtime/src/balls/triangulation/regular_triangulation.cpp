@@ -15,7 +15,7 @@ namespace {
 using Tetrahedron = RegularTriangulation::Tetrahedron;
 constexpr std::uint32_t kNone = RegularTriangulation::kNone;
 
-/// A coordinate difference and one more number, and how large they can be.
+/// Bounds of a coordinate difference and of one more number.
 struct Row {
   Point d;
   double lift, size, lift_size;
@@ -23,8 +23,8 @@ struct Row {
 
 double largest_of(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-/// The faces of a cavity meet in edges, two in each: an edge is put here when it is met first, and found when it is met
-/// again.
+/// The faces of a cavity meet in edges, two in each: an edge is inserted here at its first face, and found at its
+/// second.
 class CavityEdges {
  public:
   struct Side {
@@ -36,7 +36,7 @@ class CavityEdges {
     if (size > slots_.size()) slots_.assign(size, {});
     if (++stamp_ == 0) slots_.assign(slots_.size(), {}), stamp_ = 1;
   }
-  /// The side that was put here for this edge, or none and `side` is put here.
+  /// The side that was inserted for this edge; if there is none, inserts `side`.
   const Side* meet(std::uint32_t a, std::uint32_t b, Side side) {
     const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
     const std::size_t mask = slots_.size() - 1;
@@ -60,14 +60,14 @@ class CavityEdges {
   std::uint32_t stamp_ = 0;
 };
 
-/// Adds ball after ball: the tetrahedra whose orthogonal sphere the new ball is too near to are taken out, and the
-/// cavity is filled with tetrahedra from its faces to the new ball (A. Bowyer; D. F. Watson, 1981; with weights: H.
+/// Adds ball after ball: the tetrahedra whose orthogonal sphere is too near to the new ball are removed, and the cavity
+/// is filled with tetrahedra from its faces to the new ball (A. Bowyer; D. F. Watson, 1981; with weights: H.
 /// Edelsbrunner, N. R. Shah, "Incremental Topological Flipping Works for Regular Triangulations", 1996).
 class Inserting {
  public:
   explicit Inserting(std::span<const Ball> balls) : balls_(balls), exact_(balls, no_walls_) {}
 
-  /// One tetrahedron that holds all centres that are to come.
+  /// One tetrahedron that holds all later centres.
   void start(const std::array<std::uint32_t, 4>& corners) {
     tetrahedra_.reserve(8 * balls_.size());
     tetrahedra_.push_back({corners, {kNone, kNone, kNone, kNone}});
@@ -78,13 +78,13 @@ class Inserting {
 
   void insert(std::uint32_t ball) {
     const std::uint32_t t = locate(ball);
-    // The lower hull of the lifted balls is convex: what is above it over its own centre is above all of it.
+    // The lower hull of the lifted balls is convex: a point above it over its own centre is above all of it.
     if (!conflicts(t, ball)) return;
     find_cavity(t, ball);
     fill_cavity();
   }
 
-  /// Without what was taken out.
+  /// Without removed tetrahedra.
   std::vector<Tetrahedron> take() {
     std::vector<std::uint32_t> name(tetrahedra_.size(), 0);
     for (const std::uint32_t t : free_) name[t] = kNone;
@@ -118,7 +118,7 @@ class Inserting {
     return {d, square - radii, largest_of(d), square + std::fabs(radii)};
   }
 
-  /// On which side of the face without balls[k] of t the centre of the ball is: below 0 outside.
+  /// The side of the face without balls[k] of t on which the centre of the ball lies; below 0: outside.
   int side_of_face(const Tetrahedron& t, std::size_t k, std::uint32_t ball) {
     const std::array<std::size_t, 3> others = RegularTriangulation::kOthers[k];
     const Point& at = balls_[ball].centre;
@@ -246,19 +246,20 @@ class Inserting {
   std::vector<Wall> no_walls_;
   ExactSide exact_;
   std::vector<Tetrahedron> tetrahedra_;
-  std::vector<std::uint32_t> marks_;  // by tetrahedron: twice the insertion that asked it last; 1 more: in its cavity
+  // by tetrahedron: twice the number of the last insertion that tested it; 1 more: in its cavity
+  std::vector<std::uint32_t> marks_;
   std::vector<std::uint32_t> free_;
   std::uint32_t last_ = 0, stamp_ = 0;
 
-  // Of the insertion in progress.
+  // State of the current insertion.
   std::vector<std::uint32_t> cavity_;
   std::vector<Face> faces_;
   CavityEdges edges_;
 };
 
-/// Rounds at random, each half as large as the next, and neighbours after each other in each: few tetrahedra are made
-/// that do not last, and the next place is never far (N. Amenta, S. Choi, G. Rote, "Incremental Constructions con
-/// BRIO", 2003).
+/// Random rounds, each half as large as the next, with neighbours after each other in each: few tetrahedra are created
+/// in vain, and the next position is never far (N. Amenta, S. Choi, G. Rote, "Incremental Constructions con BRIO",
+/// 2003).
 std::vector<std::uint32_t> in_rounds(std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> result(order.begin(), order.end());
   const auto round = [](std::uint32_t i) {
@@ -311,7 +312,7 @@ void RegularTriangulation::add_far_points() {
   }
   if (balls_.empty()) low = high = {};
   const Point middle = 0.5 * (low + high);
-  // Never so small that the rounding of the middle, 2^-53, and of radii next to it matters.
+  // Large enough that the rounding of the middle, 2^-53, and of radii next to it does not matter.
   const double far = 16 * std::max(0.5 * largest_of(high - low), 0x1p-40);
   for (const Point& sign : {Point{-1, -1, -1}, Point{1, 1, -1}, Point{-1, 1, 1}, Point{1, -1, 1}}) {
     balls_.push_back({middle + far * sign, 0});
@@ -336,7 +337,7 @@ void RegularTriangulation::list_stars() {
   }
 }
 
-// Once here, not in each of the four cells.
+// Computed once here, not in each of the four cells.
 void RegularTriangulation::place_corners(unsigned threads) {
   corners_.resize(tetrahedra_.size());
   parallel_blocks(tetrahedra_.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
@@ -349,7 +350,7 @@ void RegularTriangulation::place_corners(unsigned threads) {
 RegularTriangulation::Corner RegularTriangulation::place_corner(const Tetrahedron& t, ExactSide& exact) const {
   const auto& [i, p, q, s] = t.balls;
   const auto [at, slack] = meeting_point(bisector(balls_, i, p), bisector(balls_, i, q), bisector(balls_, i, s));
-  // Whether it is in the box of a cell, each cell asks again (PowerCell::sharpen).
+  // Each cell tests whether it is in its box (PowerCell::sharpen).
   const double distance = length(at), radius = balls_[i].radius;
   const bool may_be_in_box = distance <= 2 * radius + slack;
   double smallest = HUGE_VAL;  // of those that have a part of the union

@@ -14,9 +14,9 @@
 namespace medial_vk {
 
 /// Two balls are joined by an edge if their power cells share a face, four by a tetrahedron if theirs share a corner.
-/// Ties are decided as ExactSide decides them, so that the result depends neither on rounding nor on the order of
-/// insertion. Four points far from all balls are in it: every cell is bounded, and no point of a ball is nearer to one
-/// of them than to that ball. O(n log n) for balls of which each has a bounded number of neighbours.
+/// Ties are broken as in ExactSide, so that the result depends neither on rounding nor on the order of insertion. Four
+/// points far from all balls are in it: every cell is bounded, and no point of a ball is nearer to one of them than to
+/// that ball. O(n log n) for balls of which each has a bounded number of neighbours.
 class RegularTriangulation {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -28,20 +28,20 @@ class RegularTriangulation {
   /// The corners but number k, such that det(c_a - c_k, c_b - c_k, c_c - c_k) > 0.
   static constexpr std::array<std::array<std::size_t, 3>, 4> kOthers = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-  /// Where four power cells meet, relative to the centre of balls[0], and how far rounding may have moved it.
+  /// The intersection of four power cells, relative to the centre of balls[0], and a bound of its rounding.
   struct Corner {
     Point from_first;
     double slack;
   };
 
-  /// Balls as scaled_balls() makes them: coordinates and radii up to 1; fewer than 2^30. `order`: all of them,
-  /// neighbours in space mostly after each other. Nothing if there are more than 24 tetrahedra a ball, with some room
-  /// for few balls: medial and random balls have 7, but two rods that pass each other, or a ring and its axis, n^2 / 4,
-  /// as every ball of one may be joined to all of the other, however far away.
+  /// Balls as scaled_balls() makes them: coordinates and radii up to 1; fewer than 2^30. `order`: all of them, with
+  /// most neighbours in space after each other. No value if there are more than 24 tetrahedra per ball, with an
+  /// allowance for few balls: medial and random balls have 7, but two rods that pass each other, or a ring and its
+  /// axis, n^2 / 4, as every ball of one may be joined to all of the other, at any distance.
   static std::optional<RegularTriangulation> create(std::span<const Ball> balls, std::span<const std::uint32_t> order,
                                                     unsigned threads);
 
-  /// All balls as given, and the far points, as balls without a radius, after them.
+  /// All input balls, followed by the far points as balls of radius 0.
   std::span<const Ball> balls() const { return balls_; }
   bool is_far(std::uint32_t ball) const { return ball + kFarPoints >= balls_.size(); }
   std::span<const Tetrahedron> tetrahedra() const { return tetrahedra_; }
@@ -50,7 +50,7 @@ class RegularTriangulation {
   std::span<const std::uint32_t> around(std::uint32_t ball) const {
     return std::span(around_).subspan(first_[ball], first_[ball + 1] - first_[ball]);
   }
-  /// Where tetrahedron t is among those around its ball number k.
+  /// The position of tetrahedron t among those around its ball number k.
   std::uint32_t place_around(std::uint32_t t, std::size_t k) const { return places_[t][k]; }
 
  private:

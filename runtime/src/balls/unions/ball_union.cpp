@@ -17,8 +17,9 @@
 namespace medial_vk {
 namespace {
 
-/// Balls that one thread measures in a row. It depends on nothing but their number, so that bytes do not depend on
-/// threads. Every block has a PowerCell, which makes a table of all balls: at most 65 of these.
+/// Number of consecutive balls that one thread measures. It depends only on their total number, so that results are the
+/// same to the byte for any number of threads. Every block has a PowerCell, which holds a table of all balls: at most
+/// 65 of these.
 std::size_t block_of(std::size_t balls) { return std::max<std::size_t>(balls / 64, 64); }
 
 std::vector<std::uint32_t> order_of(std::span<const Ball> balls) {
@@ -28,7 +29,7 @@ std::vector<std::uint32_t> order_of(std::span<const Ball> balls) {
   return order_by_halving(centres);
 }
 
-/// What one block of balls adds to the lists.
+/// The contribution of one block of balls to the lists.
 struct Pieces {
   DualComplex complex;
   std::vector<EnvelopeVertex> vertices;
@@ -100,7 +101,7 @@ class Measuring {
   std::size_t block_;
   std::vector<std::uint32_t> order_;
   std::optional<RegularTriangulation> triangulation_;
-  std::optional<BallTree> tree_;  // without a triangulation: each cell is cut by itself
+  std::optional<BallTree> tree_;  // used without a triangulation: each cell is cut by itself
   std::vector<Pieces> pieces_;
   BallUnion result_;
 };

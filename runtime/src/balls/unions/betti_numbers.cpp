@@ -1,4 +1,4 @@
-// Homology of a complex in space, by collapses first and by elimination for what is left.
+// Homology of a complex in space, by collapses first and by elimination for the rest.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Cofaces of the faces of one dimension, of those not yet collapsed: how many, and the sum of their numbers, which is
-/// the coface's number where there is one.
+/// Cofaces, not yet collapsed, of the faces of one dimension: their number, and the sum of their indices, which is the
+/// index of the coface where there is only one.
 struct Cofaces {
   std::vector<std::uint32_t> count;
   std::vector<std::uint64_t> sum;
@@ -41,8 +41,8 @@ std::vector<std::array<std::uint32_t, N>> faces_by_place(const std::vector<std::
   return result;
 }
 
-/// Removes pairs of a simplex and a face of it that is in no other, as long as there are any: the homotopy type stays.
-/// `gone_faces` holds marks of faces that were removed before or are now.
+/// Removes pairs of a simplex and a face of it that is in no other, as long as there are any, which preserves the
+/// homotopy type. `gone_faces` marks all removed faces.
 template <std::size_t N>
 std::vector<bool> collapse(const std::vector<std::array<std::uint32_t, N>>& sides, std::vector<bool>& gone_faces,
                            std::vector<bool> gone) {
@@ -70,8 +70,8 @@ std::vector<bool> collapse(const std::vector<std::array<std::uint32_t, N>>& side
   return gone;
 }
 
-/// The rank over Z/2 of the boundary operator from the triangles that are left to edges: columns are added to each
-/// other until no two have the same last edge.
+/// The rank over Z/2 of the boundary operator from the remaining triangles to edges: columns are added to each other
+/// until no two have the same last edge.
 std::uint64_t boundary_rank(const std::vector<std::array<std::uint32_t, 3>>& sides, const std::vector<bool>& gone,
                             std::size_t edges) {
   std::vector<std::vector<std::uint32_t>> columns;
@@ -100,8 +100,8 @@ std::uint64_t left_over(const std::vector<bool>& gone) {
 }
 
 // A complex of finitely many tetrahedra in space has a triangle that is in one of them only, so all of them collapse.
-// Of the triangles that are left, those that bound nothing are cycles around cavities: their number less their
-// boundary's rank. Tunnels follow from the Euler characteristic, which collapses do not change.
+// The number of cavities is the dimension of the cycles of remaining triangles: the number of these triangles less the
+// rank of their boundary operator. Tunnels follow from the Euler characteristic, which collapses do not change.
 BettiNumbers count_homology(const DualComplex& complex) {
   const auto tetrahedra = faces_by_place(complex.tetrahedra, complex.triangles);
   const auto triangles = faces_by_place(complex.triangles, complex.edges);
@@ -111,7 +111,7 @@ BettiNumbers count_homology(const DualComplex& complex) {
 
   BettiNumbers betti;
   betti.components = count_components(complex);
-  // Tetrahedra that are left fill cavities; there are none in a complex that lies in space.
+  // Remaining tetrahedra would fill cavities; a complex that lies in space has none.
   betti.cavities =
       left_over(gone_triangles) - boundary_rank(triangles, gone_triangles, complex.edges.size()) - left_over(gone);
   const auto size = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };

@@ -19,10 +19,11 @@ namespace {
 
 constexpr std::uint32_t kWorkgroupSize = 64;
 constexpr std::uint32_t kBallsPerDispatch = 1u << 15;  // milliseconds on a GPU
-/// Of loops, in one invocation, or on lavapipe in those of a subgroup together: it ends all loops silently after 65,535
-/// iterations, counting one that any of them makes.
+/// Iterations of loops in one invocation. lavapipe silently ends all loops after 65,535 iterations, and counts an
+/// iteration if any invocation of the subgroup makes it.
 constexpr std::uint32_t kIterations = 60'000;
-/// Of what the host measures, per cube or square of the radius: it must hold against other roundings in double.
+/// Error bound of balls measured by the host, per cube or square of the radius: it must hold for any other order of
+/// rounding in double.
 constexpr double kHostBound = 0x1p-36;
 
 static_assert(gpu::kBallsPerLeaf == BallTree::kLeaf);
@@ -49,7 +50,7 @@ class DeviceMeasuring {
   DeviceBallUnionOptions options_;
   unsigned threads_;
   BallTree tree_;
-  std::vector<gpu::MeasuredBall> found_;  // by place in the tree's order; negative bounds: not found
+  std::vector<gpu::MeasuredBall> found_;  // by position in the tree's order; negative bounds: not found
   DeviceBallUnion result_;
 };
 
@@ -71,7 +72,7 @@ Result<DeviceBallUnion> DeviceMeasuring::run() {
 Status DeviceMeasuring::ask_device() {
   if (balls_.empty()) return {};
   const SplitBalls split = split_balls(balls_, tree_.order());
-  if (!split.exact) return {};  // numbers that float does not reach: all is left to the host
+  if (!split.exact) return {};  // numbers outside the range of float: the host measures all balls
   Arena arena(context_);
   Uploads uploads(context_);
   const std::vector<gpu::BallNode> split_tree = split_nodes(tree_, threads_);
@@ -116,7 +117,7 @@ void DeviceMeasuring::record(Recorder& r, const std::array<BufferRange, 4>& buff
   r.barrier();
 }
 
-/// Takes what the device found well enough.
+/// Takes the results of the device within the tolerance.
 void DeviceMeasuring::accept() {
   for (std::size_t n = 0; n < found_.size(); ++n) {
     const std::uint32_t i = tree_.order()[n];
@@ -136,7 +137,7 @@ void DeviceMeasuring::accept() {
   }
 }
 
-/// The others, in the tree's order, each for itself, so that nothing depends on which they are.
+/// Measures the others, in the tree's order, each by itself, so that no result depends on which balls these are.
 void DeviceMeasuring::redo() {
   constexpr std::size_t kBlock = 512;
   const std::span<const std::uint32_t> names = result_.redone;

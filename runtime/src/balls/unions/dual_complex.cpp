@@ -32,7 +32,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// True if they were apart.
+  /// True if they were in different sets.
   bool join(std::size_t a, std::size_t b) {
     a = find(a);
     b = find(b);

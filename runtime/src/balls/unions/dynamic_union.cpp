@@ -19,7 +19,7 @@
 namespace medial_vk {
 namespace {
 
-// Of balls: the one that gain() asks about stands before those in the places.
+// Index of the ball of gain(), before those in the slots.
 constexpr std::uint32_t kTrial = 0, kFirst = 1, kNoBall = 0xffffffffu;
 
 constexpr Ball kGone = {{0, 0, 0}, std::numeric_limits<double>::quiet_NaN()};  // touches nothing
@@ -31,7 +31,7 @@ bool touch(const Ball& a, const Ball& b) {
   return dot(between, between) <= both * both * (1 + 16 * DBL_EPSILON);
 }
 
-/// Of the plane between two balls, from the centre of the first towards the other.
+/// The offset of the plane between two balls, from the centre of the first towards the other.
 double offset_of(const Ball& ball, const Ball& other) {
   const Point between = other.centre - ball.centre;
   const double squared = dot(between, between);
@@ -41,20 +41,20 @@ double offset_of(const Ball& ball, const Ball& other) {
 
 /// A plane that is farther from the centre than this cuts no corner off. The offset is a sum of three terms of at most
 /// 4 over a length: where it is above `reach` >= 0 and the length small, so is the difference of the squared radii, and
-/// the 8 roundings stay below the 2^-40 that are added for balls that are not tiny; those that are are cut in vain.
+/// the 8 roundings stay below the 2^-40 that are added for balls that are not tiny; tiny balls are cut in vain.
 double reach_of(const std::vector<PowerCell::Corner>& corners) {
   double reach = 0;
   for (const PowerCell::Corner& corner : corners) reach = std::max(reach, length(corner.at) + corner.slack);
   return reach * (1 + 0x1p-30) + 0x1p-40;
 }
 
-/// A power cell that is kept, and what was measured of it.
+/// A stored power cell with its measures.
 struct Piece {
   PowerCell::Kept cell;
   BallInCell measured;
   double reach = 0;
 
-  /// Was anything cut from it by ball i, or by a ball that is not known?
+  /// True if ball i, or an unknown ball, cut anything from it.
   bool may_grow_without(std::uint32_t i) const {
     const auto name = static_cast<std::int32_t>(i);
     return cell.corners.empty() || std::any_of(cell.planes.begin(), cell.planes.end(),
@@ -112,7 +112,7 @@ class DynamicUnion::Impl {
     return found;
   }
 
-  /// What is wrong with a ball that comes or moves.
+  /// The error of an invalid ball to be added or moved, if any.
   Status check(const Ball& ball) const {
     if (const Status status = check_balls({&ball, 1}); !status.ok()) return status.error();
     double most = ball.radius;
@@ -141,7 +141,7 @@ class DynamicUnion::Impl {
   void remove(std::uint32_t place) { change(kFirst + place, kGone); }
   void move(std::uint32_t place, const Ball& to) { change(kFirst + place, to); }
 
-  /// Needs no memory.
+  /// Allocates no memory.
   void undo() {
     if (last_.ball == kNoBall) return;
     set_ball(last_.ball, last_.given_before);
@@ -192,14 +192,15 @@ class DynamicUnion::Impl {
     }
   }
 
-  /// The cell of i among all balls but `without`, the nearest planes first: most others are then beyond all corners.
+  /// The cell of i among all balls except `without`, cut by the nearest planes first: most others are then beyond all
+  /// corners.
   void build(std::uint32_t i, std::uint32_t without) {
     find_touching(balls_[i], cutting_);
     order_.clear();
     for (const std::uint32_t j : cutting_) {
       if (j != i && j != without) order_.emplace_back(offset_of(balls_[i], balls_[j]), j);
     }
-    // Few of them are needed: a heap gives these in order, and leaves the others alone.
+    // Few of them are needed: a heap yields these in order, without sorting the others.
     std::make_heap(order_.begin(), order_.end(), std::greater<>());
     cell_.start(i);
     double reach = reach_of(cell_.corners());
@@ -210,7 +211,7 @@ class DynamicUnion::Impl {
     cell_.sharpen();
   }
 
-  /// The kept cell of j, cut by i too. False if that changes nothing.
+  /// The stored cell of j, also cut by i. False if that changes nothing.
   bool cut(std::uint32_t j, std::uint32_t i) {
     const Piece& piece = pieces_[j];
     if (piece.cell.corners.empty() || offset_of(balls_[j], balls_[i]) > piece.reach) return false;
@@ -220,14 +221,14 @@ class DynamicUnion::Impl {
     return true;
   }
 
-  /// Of the cell at hand, which is that of i.
+  /// Measures the current cell, which is that of i.
   BallInCell measure(std::uint32_t i) const {
     if (cell_.empty() || balls_[i].radius == 0) return {};
     return measure_ball_in_cell(cell_, balls_[i].radius);
   }
 
-  /// A ball comes (from kGone), goes (to kGone) or moves. If memory runs out meanwhile, all is as before, and the
-  /// change before can still be undone.
+  /// Adds a ball (from kGone), removes it (to kGone) or moves it. If memory runs out, the state is unchanged, and the
+  /// previous change can still be undone.
   void change(std::uint32_t i, const Ball& to) {
     const std::uint32_t end_before = end_;
     std::swap(last_, change_before_);
@@ -238,7 +239,7 @@ class DynamicUnion::Impl {
       make_change(i, to);
     } catch (...) {
       undo();
-      if (end_ > end_before) {  // the place is the last that was given back
+      if (end_ > end_before) {  // the slot is the last one freed
         free_.pop_back();
         end_ = end_before;
       }
@@ -260,7 +261,7 @@ class DynamicUnion::Impl {
     for (const std::uint32_t j : affected_) update(j, i, was_there);
   }
 
-  /// The piece of j after a change of ball i.
+  /// The cell of j, with its measures, after a change of ball i.
   void update(std::uint32_t j, std::uint32_t i, bool was_there) {
     if (j == i && is_gone(balls_[i])) return;
     if (j == i || (was_there && pieces_[j].may_grow_without(i))) {
@@ -299,13 +300,13 @@ class DynamicUnion::Impl {
   double largest_;
   double scale_;
   std::uint32_t capacity_;
-  std::vector<Ball> balls_;  // scaled; kGone where there is none
+  std::vector<Ball> balls_;  // scaled; kGone in empty slots
   std::vector<Ball> given_;
   std::vector<Piece> pieces_;
   std::uint32_t end_ = kFirst;
   std::vector<std::uint32_t> free_;
   Change last_, change_before_;
-  // Of the question at hand.
+  // Scratch memory of the current call.
   PowerCell cell_;
   std::vector<std::uint32_t> near_, cutting_, affected_;
   std::vector<std::pair<double, std::uint32_t>> order_;

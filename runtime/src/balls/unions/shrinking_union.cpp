@@ -19,10 +19,10 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kBallsAtOnce = 64;
-// Of a radius cubed: below it rounding may have found a ball in a cell that it misses, or the other way round.
+// Per cube of the radius: for smaller volumes, rounding may decide whether a ball meets its cell.
 constexpr double kSliver = 0x1p-30;
 
-/// What the power cell of one ball says.
+/// The measures of the power cell of one ball.
 struct Share {
   double volume = 0;
   bool is_hidden = false;                 // none of the ball is in its cell, or nearly none
@@ -101,9 +101,9 @@ class ShrinkingUnion::Impl {
   }
   void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume / scale_ / scale_ / scale_; }
 
-  /// Balls whose share grows when others go. Where some of ball k is in its cell and more will be, the cell's face with
-  /// one that goes lies in both balls, as the cell that follows is convex: k is among that one's neighbours. A ball
-  /// that has no share may get one where it overlaps one that goes.
+  /// Balls whose share grows by the removal of others. If the share of ball k grows, the face of its cell with a
+  /// removed ball meets both balls, as the later cell is convex: k is among the neighbours of that ball. A ball without
+  /// a share may get one where it overlaps a removed ball.
   std::vector<std::uint32_t> touched_by(const std::vector<std::uint32_t>& gone) const {
     std::vector<std::uint32_t> touched;
     for (const std::uint32_t i : gone) append(touched, pieces_[i].neighbours);
@@ -123,7 +123,7 @@ class ShrinkingUnion::Impl {
     });
   }
 
-  /// Neighbours in space follow each other, which makes their cells cheap.
+  /// Neighbours in space follow each other, which reduces the cost of their cells.
   std::vector<std::uint32_t> in_tree_order(const std::vector<std::uint32_t>& sorted) const {
     std::vector<std::uint32_t> result;
     if (sorted.size() * 8 < pieces_.size()) return sorted;
@@ -168,7 +168,7 @@ class ShrinkingUnion::Impl {
   BallMask mask_;
   std::vector<Share> pieces_;
   std::vector<double> volumes_;
-  // Of the last removal.
+  // State of the last removal.
   std::vector<std::uint32_t> gone_, changed_;
   std::vector<std::pair<std::uint32_t, Share>> before_;
 };

@@ -39,7 +39,7 @@ std::array<std::uint32_t, N - 1> face(const std::array<std::uint32_t, N>& simple
   return result;
 }
 
-/// The place of a simplex in a sorted list that holds it.
+/// The index of a simplex in a sorted list that holds it.
 template <class T>
 std::size_t place_of(const std::vector<T>& list, const T& simplex) {
   return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), simplex) - list.begin());
@@ -47,8 +47,8 @@ std::size_t place_of(const std::vector<T>& list, const T& simplex) {
 
 std::uint64_t count_components(const DualComplex& complex);
 
-/// Sorts all lists and adds faces that are not there. Without rounding none is missing: where a simplex meets its ball
-/// by less than rounding, its faces may have been found to miss theirs.
+/// Sorts all lists and adds missing faces. Without rounding none would be missing: where a simplex meets its ball by
+/// less than rounding, its faces may have been found to miss theirs.
 void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
 
 }  // namespace medial_vk

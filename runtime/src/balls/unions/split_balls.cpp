@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t kBallsOfBlock = 4096;
 constexpr double kRounding = 0x1p-24;  // of a float
 
-/// What devices that flush tiny numbers keep of the rounded one.
+/// The rounded number as kept by devices that flush tiny numbers.
 float rounded(double x) {
   const auto nearest = static_cast<float>(x);
   return std::fabs(nearest) < FLT_MIN ? 0.0f : nearest;
 }
 
-/// Takes the greatest part off x.
+/// Splits the largest float part off x.
 float take_part(double& x) {
   const float part = rounded(x);
   x -= double{part};
@@ -38,7 +38,7 @@ gpu::BallNode split_node(const BallTree::Node& node) {
   }
   Point rest = node.middle;
   out.middle_high = {take_part(rest[0]), take_part(rest[1]), take_part(rest[2]), rounded_up(node.size)};
-  // The slope's product with a place in the box is rounded, and so is the slope: less than 8 roundings of its size.
+  // The slope's product with a position in the box is rounded, and so is the slope: less than 8 roundings of its size.
   double least = node.least - 0x1p-40;
   for (std::size_t k = 0; k < 3; ++k) least -= 8 * kRounding * std::fabs(node.slope[k]) * node.half[k];
   out.middle_low = vector(rest, rounded_down(least));

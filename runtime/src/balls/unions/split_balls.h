@@ -1,4 +1,4 @@
-// Balls and their tree as the device reads them.
+// Balls and their tree in the form that the device reads.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace medial_vk {
 
-/// By place in the tree's order. `exact`: every number is the sum of its three parts.
+/// By position in the tree's order. `exact`: every number is the sum of its three parts.
 struct SplitBalls {
   std::vector<gpu::SplitBall> balls;
   bool exact = true;
 };
 SplitBalls split_balls(std::span<const Ball> balls, std::span<const std::uint32_t> order);
 
-/// Nodes that promise no more than the tree's, whatever rounding does to them here and on the device, up to the margin
-/// that ball_walk.glsl keeps.
+/// Nodes whose bounds are no tighter than those of the tree, for any rounding here and on the device, up to the margin
+/// in ball_walk.glsl.
 std::vector<gpu::BallNode> split_nodes(const BallTree& tree, unsigned threads);
 
 }  // namespace medial_vk

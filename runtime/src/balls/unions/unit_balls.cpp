@@ -24,7 +24,7 @@ double scale_of(std::span<const Ball> balls) {
   for (const auto& [centre, radius] : balls) {
     largest = std::max({largest, std::fabs(centre[0]), std::fabs(centre[1]), std::fabs(centre[2]), radius});
   }
-  // Within the range in which both the scale and its inverse are numbers.
+  // Within the range in which both the scale and its inverse are finite.
   return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest) - 1, -1020, 1020)) : 1;
 }
 

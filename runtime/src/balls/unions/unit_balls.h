@@ -1,4 +1,4 @@
-// What every way to measure a union of balls begins and ends with.
+// The first and last steps of all methods that measure a union of balls.
 #pragma once
 
 #include <span>
@@ -9,14 +9,15 @@
 
 namespace medial_vk {
 
-/// Error: kUsage, naming the ball that is none.
+/// Error: kUsage (names the invalid ball).
 Status check_balls(std::span<const Ball> balls);
-/// A power of two that brings all numbers to at most 1, which costs no rounding.
+/// A power of two that scales all numbers to at most 1, without rounding.
 double scale_of(std::span<const Ball> balls);
-/// The balls by that scale, tiny numbers to multiples of 2^-150.
+/// The balls multiplied by that scale, with tiny numbers rounded to multiples of 2^-150.
 Ball scaled_ball(const Ball& ball, double scale);
 std::vector<Ball> scaled_balls(std::span<const Ball> balls, double scale);
-/// Sums with the rounding errors of the additions carried along (Neumaier): the result does not wear out with n.
+/// Sums with the rounding errors of the additions carried along (Neumaier): the error of the result does not grow with
+/// n.
 class CarefulSum {
  public:
   void add(double term);

@@ -1,5 +1,5 @@
-// The main job, chunk by chunk: ranges of top cells go through the recorded pipeline; a range that needs more memory
-// than there is runs again in halves.
+// The certified extraction, chunk by chunk: ranges of top cells run through the recorded pipeline; a range that needs
+// more memory than available runs again in halves.
 #include "extraction/certified/certified_extraction.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class CertifiedRun {
         download_(context) {}
   CertifiedRun(const CertifiedRun&) = delete;
   CertifiedRun& operator=(const CertifiedRun&) = delete;
-  /// After an error one part may be under way without the other.
+  /// After an error one part may be pending without the other.
   ~CertifiedRun() {
     for (Commands* part : {&search_, &collection_}) part->drain();
   }
@@ -72,14 +72,14 @@ class CertifiedRun {
   }
 
  private:
-  // Small enough that progress moves and an interruption is heard, large enough to keep a device busy.
+  // Small enough for frequent progress and a prompt stop, large enough to keep a device busy.
   static constexpr std::uint32_t kFirstChunk = 1024, kLargestChunk = 4096;
 
-  // How full the fullest buffer has been: 1 is full.
+  // The greatest fill of a buffer: 1 is full.
   struct Fill {
     double share = 0;
     bool overflow = false;
-    bool too_few_rounds = false;  // the overflow was none of a buffer
+    bool too_few_rounds = false;  // the overflow was not that of a buffer
   };
 
   std::uint32_t next_size(std::uint32_t count, const Fill& fill) const {
@@ -94,7 +94,7 @@ class CertifiedRun {
             "the contacts of a single top cell do not fit the memory budget; raise `memory_budget` or the resolution"};
   }
 
-  // The host takes the points of the chunk before while the device is at work.
+  // The host reads the points of the previous chunk while the device is busy.
   Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
     if (Status submitted = submit(first, count); !submitted.ok()) return submitted.error();
     if (Status taken = take_points(); !taken.ok()) return taken.error();
@@ -102,7 +102,7 @@ class CertifiedRun {
       if (Status done = part->wait([&] { watch_.stopped(); }); !done.ok()) return done.error();
       Result<std::vector<StageTime>> times = part->recorder().stage_times();
       if (!times.ok()) return times.error();
-      add_times(times.value(), extraction_.measurements.device_times);  // chunks that are run again cost time too
+      add_times(times.value(), extraction_.measurements.device_times);  // includes chunks that are run again
     }
     if (watch_.stopped()) return StopWatch::error();
     const auto counters = pipeline_.read_counters();
@@ -120,7 +120,7 @@ class CertifiedRun {
     return fill;
   }
 
-  // In two parts: only the second writes where points of the chunk before may still be read.
+  // In two parts: only the second writes to buffers from which points of the previous chunk may still be read.
   Status submit(std::uint32_t first, std::uint32_t count) {
     for (Commands* part : {&search_, &collection_})
       if (Status begun = part->begin(); !begun.ok()) return begun;

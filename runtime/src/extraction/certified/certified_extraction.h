@@ -1,4 +1,4 @@
-// Medial spheres that are certified, on the device.
+// Medial spheres by the certified mode, on the device.
 #pragma once
 
 #include "commands/stop_word.h"

@@ -19,17 +19,17 @@ constexpr uint kTopCellsAlongSide = 8;
 // Contact lists hold clusters as long as a cell's ball is this much larger than half of them.
 constexpr double kCellPerCluster = 1.0;
 
-// Kept cells that a piece of work should have on a CPU. There a dispatch over that many takes 0.1 s or so, which is how
-// long a stop takes; other devices are a hundred times as fast, and want as much work at a time as memory holds. An
-// aim, no limit: a top cell that has more takes longer.
+// The number of kept cells that a chunk should have on a CPU. There a dispatch over that many takes about 0.1 s, the
+// time of a stop; other devices are a hundred times as fast, and need as much work at a time as memory holds. This is a
+// target, not a limit: a top cell that has more takes longer.
 constexpr double kCellsAtOnceOfCpu = 40000;
 
-// A solid keeps so many voxels per square of the resolution (measured: 1 to 3 at the finest level, twice that below
-// it). A buffer that overflows costs the whole piece of work; one that is fuller than a CPU should have it costs
-// nothing, and small pieces cost as many dispatches as large ones.
+// Number of kept voxels of a solid per square of the resolution (measured: 1 to 3 at the finest level, twice that below
+// it). A buffer that overflows costs the whole chunk; one that is fuller than the target for a CPU costs nothing, and
+// small chunks cost as many dispatches as large ones.
 constexpr double kMostKept = 6, kLikelyKept = 1.5;
 
-// How full the fullest buffer should be: neighbouring pieces of work hold similar amounts of medial surface, not equal
+// The target for the fill of the fullest buffer: neighbouring chunks hold similar amounts of medial surface, not equal
 // ones.
 constexpr double kFull = 0.6;
 
@@ -39,14 +39,14 @@ constexpr float kSlack = 2e-6f;
 constexpr double kCentreError = 3e-7;
 
 // Below the finest voxel, the number of cells along a sheet that runs on a face of its voxel, or whose angle is the
-// threshold, grows fourfold with every level. Those smaller than this that can hide nothing else are not subdivided.
+// threshold, grows fourfold with every level. Cells smaller than this that can hide nothing else are not subdivided.
 constexpr double kSettleSize = 1.0 / 4096;
 
 const double kHalfDiagonal = std::sqrt(3.0) / 2.0;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
-// Steps that narrow a line of length `from` below `to`, nine parts a step.
+// The number of steps that narrow a line of length `from` below `to`, nine parts per step.
 std::uint32_t steps_to_narrow(double from, double to) {
   std::uint32_t steps = 1;
   for (double length = from / 9.0; length > to && steps < 12; length /= 9.0) ++steps;
@@ -64,7 +64,7 @@ Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, cons
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   CertifiedPipeline p(context, mesh, parameters, stop);
   // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side, but at least 4 voxels: their children's
-  // lists are of clusters, too, or expanded, before the finest ones ask triangles.
+  // lists are of clusters, too, or expanded, before the finest ones test triangles.
   const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
   p.top_shift_ = static_cast<std::uint32_t>(std::max(2, static_cast<int>(std::bit_width(coarsest)) - 1));
   p.coarse_levels_ = p.top_shift_ - 1;
@@ -101,7 +101,7 @@ std::uint32_t CertifiedPipeline::likely_chunk() const {
   return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
 }
 
-// Each takes an iteration, and one for every eight of its triangles.
+// Each cluster takes an iteration, and one more for every eight of its triangles.
 std::uint32_t CertifiedPipeline::clusters_per_round() const {
   const uint iterations = 1 + divide_up(mesh_->most_in_cluster, kEightLanes);
   return std::max(32u, gpu::kEntriesPerRound / iterations / 32 * 32);
@@ -169,7 +169,7 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&flux_tallies_, block * 16, "sums of flux samples"},
       {&opposite_nearest_, gpu::kFluxSamples * block * 8, "nearest triangles of opposite flux samples"},
   };
-  // Small ones fill what large ones leave of a block.
+  // Small ones fill the rest that large ones leave of a block.
   std::ranges::stable_sort(requests, std::greater(), &Request::bytes);
   VkDeviceSize all = 0;
   for (const Request& request : requests) all += request.bytes;
@@ -217,7 +217,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.settles = below && size < kSettleSize ? 1u : 0u;
   step.last_level = level + 1 == level_count() ? 1u : 0u;
   step.half_side = static_cast<float>(size / 2 + kCentreError);
-  // At the finest level lines are asked among the contacts that touch: they reach 2 epsilon beyond the voxel.
+  // At the finest level lines use only the contacts that touch: those for points up to 2 epsilon beyond the voxel.
   step.touch_half_side =
       level == coarse_levels_ ? static_cast<float>(size / 2 + 2 * epsilon + 4 * kCentreError) : step.half_side;
   step.cluster_count = mesh_->cluster_count;
@@ -235,7 +235,7 @@ void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
 
 VkDeviceSize CertifiedPipeline::prepare(Recorder& r, gpu::DispatchConstants constants) {
   constants.threads = context_->dispatch_threads;
-  // Kernels add to these while others read them.
+  // Kernels increment these while others read them.
   if (constants.items_counter == gpu::kAsked || constants.items_counter == gpu::kOpen) arguments_.counters_change();
   return arguments_.offset_of(r, constants);
 }
@@ -251,7 +251,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.list_counter = extent.list_counter;
   d.queries_per_item = extent.queries;
   d.entry_limit = extent.entry_limit;
-  // Of kernels that read no lists, all rounds are one.
+  // Kernels that read no lists run in a single round.
   d.first_entry = extent.list_counter == gpu::kNoCounter ? 0 : step.first_entry;
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
@@ -299,7 +299,7 @@ void CertifiedPipeline::run_rounds(Recorder& r, const Kernel& kernel, const Exte
   for (std::uint32_t i = 0; i < rounds_; ++i) {
     step.first_entry = i * entries;
     run(r, kernel, round, step);
-    round.queries = 0;  // further rounds go on with the same queries
+    round.queries = 0;  // further rounds continue the same queries
   }
 }
 

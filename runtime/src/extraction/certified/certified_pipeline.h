@@ -5,8 +5,8 @@
 //   for each level, coarse to fine and below the finest voxel:
 //     mark the contacts of every child -> dismiss -> decide its side -> write the kept ones
 //     at the finest level: one line across the nearest sheet for every voxel (the steps of lines are below)
-//     from the finest level on, for what is left: dismiss by pairs -> propose lines
-//       -> keep those that turn -> narrow -> verify -> elect one per voxel; say what is undecided
+//     from the finest level on, for the remaining cells: dismiss by pairs -> propose lines
+//       -> keep those that turn -> narrow -> verify -> elect one per voxel; list undecided voxels
 //   collect the points, measure their flux
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace medial_vk {
 
-/// What the pipeline holds at most; a chunk of top cells that needs more is run again in two halves.
+/// The capacity of the pipeline; a chunk of top cells that needs more is run again in two halves.
 struct PipelineCapacity {
   std::uint32_t cells = 0;         // kept cells of one level
   std::uint32_t lines = 0;         // lines being narrowed at one level
@@ -40,15 +40,15 @@ class CertifiedPipeline {
                                           const ExtractionOptions& parameters, const std::array<std::uint32_t, 3>& grid,
                                           const StopWord& stop);
 
-  /// Another box for the next record(), of the same longest side; memory stays that of create()'s.
+  /// Sets another box for the next record(), of the same longest side; memory stays that of create().
   void set_grid(const std::array<std::uint32_t, 3>& grid);
-  /// Number of top cells: ranges of [0, top_cells()) are what record() takes.
+  /// Number of top cells; record() takes ranges of [0, top_cells()).
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
   /// Most top cells that one recorded sequence can take: their states fit the buffers.
   std::uint32_t largest_chunk() const { return 8 * capacity_.cells; }
-  /// Share of the buffers that a piece of work should fill.
+  /// Share of the buffers that a chunk should fill.
   double aim() const;
-  /// A first guess of how many top cells do so.
+  /// A first guess of the number of top cells for that.
   std::uint32_t likely_chunk() const;
   std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
   double cell_size(std::uint32_t level) const;
@@ -64,19 +64,19 @@ class CertifiedPipeline {
   /// After kTooFewRounds: records twice as many rounds from now on. No list is longer than the mesh.
   void add_rounds() { rounds_ *= 2; }
 
-  /// Where the points, the undecided voxels and the counters will be once the recorded sequence has run.
+  /// The buffers of the points, the undecided voxels and the counters, valid once the recorded sequence has run.
   const Buffer& result() const { return result_; }
   const Buffer& undecided() const { return undecided_; }
   const Buffer& counters() const { return counters_; }
 
-  /// After the recorded sequence has run.
+  /// Precondition: the recorded sequence has run.
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
 
  private:
   CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
                     const StopWord& stop);
 
-  // Where one level reads and writes.
+  // The buffers that one level reads and writes.
   struct LevelBuffers {
     const Buffer* parents;
     const Buffer* parent_lists;
@@ -100,10 +100,10 @@ class CertifiedPipeline {
   void record_clustered_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   void decide_sides(Recorder& r, const gpu::StepConstants& step, std::uint32_t counter, const Buffer& parents);
   void decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
-  // The entries whose bits `first_masks` has come first in a child's list.
+  // The entries with a bit in `first_masks` come first in a child's list.
   void write_children(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& first_masks,
                       bool finest);
-  // One line for every cell. What it does not settle goes to `left`.
+  // One line for every cell. Cells without a point then are written to `left`.
   void record_first_search(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, const Buffer& left);
   void record_search(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level);
   // From the proposed lines to the points of the voxels.
@@ -115,12 +115,12 @@ class CertifiedPipeline {
   void record_collection(Recorder& r);
   void record_flux(Recorder& r, std::uint32_t first);
 
-  // What a kernel reads of the mesh: nothing, clusters of triangles, triangles, these and the tree, or these and links.
-  // Texel views follow its buffers; all but clusters may have to be read as storage instead.
+  // The data of the mesh that a kernel reads: none, clusters of triangles, triangles, these and the tree, or these and
+  // links. Texel views follow its buffers; all but clusters may have to be read as storage instead.
   enum class Reads : std::uint32_t { kNoMesh, kClusters, kTriangles, kTree, kLinks };
   std::vector<VkBufferView> texels_of(Reads reads) const;
   static constexpr std::uint32_t kEightLanes = 8;  // of a workgroup whose invocations walk together
-  // Do its invocations work alone, or eight together (shaders/shared/lanes/lanes.glsl)?
+  // Whether its invocations work alone, or eight together (shaders/shared/lanes/lanes.glsl).
   enum class Lanes : std::uint32_t { kAlone, kEight };
   // One kernel over counter * multiplier / divisor invocations.
   struct Kernel {
@@ -139,24 +139,25 @@ class CertifiedPipeline {
     std::uint32_t limit = 0xffffffffu;
     std::uint32_t list_counter = gpu::kNoCounter;
     std::uint32_t queries = 0;                // closest-point queries per invocation, for the statistics
-    std::uint32_t entry_limit = 0xffffffffu;  // of the lists that list_counter is about
+    std::uint32_t entry_limit = 0xffffffffu;  // of the lists counted by list_counter
   };
   void run(Recorder& r, const Kernel& kernel, const Extent& extent, const gpu::StepConstants& step);
   // The same for every round of so many entries of the lists.
   void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step,
                   std::uint32_t entries = gpu::kEntriesPerRound);
-  // A kernel that asks winding numbers: the tree comes before its own buffers, open edges after them.
+  // A kernel that evaluates winding numbers: the tree is bound before its own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
   // The pairs of carriers of cells from `first` on, before their search or after (step.second_task).
   void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,
                    std::uint32_t limit);
-  // What asks contacts, `asking`, and work_ says how many: invocations that walk together get about as many each.
+  // Sorts the items `asking` by their numbers of contacts in work_, so that invocations that work together get about
+  // equally many each.
   void sort_by_work(Recorder& r, gpu::StepConstants step, Extent asking);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
-  // Counters change: who needs what is counted here, or may not go on where it does not fit, says so.
+  // Changes counters: callers whose later dispatches depend on these, or on the overflow, must call counters_change().
   void scan(Recorder& r, const gpu::ScanConstants& constants);
-  // Where in arguments_ the group counts are.
+  // The position of the group counts in arguments_.
   VkDeviceSize prepare(Recorder& r, gpu::DispatchConstants constants);
 
   Context::Impl* context_;

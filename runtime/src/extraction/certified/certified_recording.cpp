@@ -49,7 +49,7 @@ void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint
     }
     parents = lists = target;
   }
-  // Below the finest voxel: what is left is packed into cells_[0], children go to cells_[1].
+  // Below the finest voxel: the remaining cells are packed into cells_[0], children are written to cells_[1].
   for (uint level = coarse_levels_ + 1; level < level_count(); ++level) {
     const uint target = lists == 0 ? 1 : 0;
     const LevelBuffers buffers{&cells_[0], &lists_[lists], &cells_[1], &lists_[target]};
@@ -103,7 +103,7 @@ void CertifiedPipeline::clear_counters(Recorder& r, std::initializer_list<std::u
 void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level,
                                         bool finest) {
   begin_stage(r, "dismissal");
-  const Buffer& axes = offsets_;  // as large as needed, and free until the prefix sums
+  const Buffer& axes = offsets_;  // large enough, and unused until the prefix sums
   const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
   Extent asking = children;
   asking.queries = 1;
@@ -133,7 +133,7 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   write_children(r, step, level, touch_masks_, finest);
 }
 
-// Of the children that ask (kAsked), or, as its second task, of all top cells (kParents).
+// For the children listed by kAsked, or, as its second task, for all top cells (kParents).
 void CertifiedPipeline::decide_sides(Recorder& r, const gpu::StepConstants& step, std::uint32_t counter,
                                      const Buffer& parents) {
   run(r,
@@ -145,7 +145,7 @@ void CertifiedPipeline::decide_sides(Recorder& r, const gpu::StepConstants& step
 void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
                                                    const LevelBuffers& level) {
   decide_sides(r, step, gpu::kAsked, *level.parents);
-  // Those that write children are sized before they know whether there is room: they look at the overflow themselves.
+  // Kernels that write children are sized before the overflow is known: they test it themselves.
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
 }
@@ -228,8 +228,8 @@ void CertifiedPipeline::record_search(Recorder& r, const gpu::StepConstants& ste
 void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
   const Extent seeds{gpu::kCells, step.lines_per_cell};
   if (step.depth <= gpu::kSortedDepth) sort_by_work(r, step, seeds);
-  // Their queries are counted where they are proposed: most seeds have none. The first round is for all: a cell's list
-  // has its nearest triangle at least (Lemma A), so no level that has cells goes without.
+  // Their queries are counted where they are proposed: most seeds have none. The first round always runs: a cell's list
+  // has at least its nearest triangle (Lemma A), so it is never empty at a level with cells.
   run_rounds(r,
              {"find_line_ends",
               {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
@@ -279,8 +279,8 @@ void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants st
   if (step.last_level == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.second_task = 1;
-  // Where little is subdivided these are many, with long lists; a stop waits for one block. Deeper they are few, and
-  // most blocks would be empty: there each is as large as all before it.
+  // At levels with little subdivision these cells are many, with long lists; a stop waits for one block. At deeper
+  // levels they are few, and most blocks would be empty: there each block is as large as all before it.
   constexpr uint kBlock = 4096;
   for (uint first = 0; first < capacity_.cells;) {
     const uint block = step.depth > 1 ? std::max(first, kBlock) : kBlock;
@@ -300,7 +300,7 @@ void CertifiedPipeline::record_drop_found(Recorder& r, const gpu::StepConstants&
        {counters_.range(), level.cells->range(), winners_.range(), lines_.range(), cells_[2].range(), given_up_.range(),
         voxel_points_.range(), states_.range()}},
       cells, drop);
-  // No more are kept than there are: this cannot overflow, and what gathers them is sized already.
+  // Only existing cells are kept: this cannot overflow, and the kernel that gathers them is sized already.
   scan(r, {gpu::kCells, 1, gpu::kKept, gpu::kIgnored, gpu::kIgnored, capacity_.cells, 0xffffffffu, 0xffffffffu});
   run(r, {"gather_cells", {counters_.range(), states_.range(), offsets_.range(), level.cells->range(), left.range()}},
       cells, step);
@@ -341,7 +341,7 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   gpu::StepConstants counted = of_groups;
   counted.second_task = 1;
   sort_by_work(r, counted, groups);
-  // Samples are where they are: no buffer holds them.
+  // The positions of samples are implicit: no buffer holds them.
   find_nearest(r, Source::kSamples, groups, of_groups, cells_[2], lists_[2], opposites_, sample_nearest_);
   clear_counters(r, {gpu::kAsked});
   run(r,

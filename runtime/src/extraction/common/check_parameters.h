@@ -1,4 +1,4 @@
-// Parameters of an extraction, before any work is done for them.
+// The check of the parameters of an extraction, before any other work.
 #pragma once
 
 #include "medial_vk/extraction.h"

@@ -10,7 +10,7 @@ VoxelGrid make_grid(const DeviceMesh& mesh, std::uint32_t resolution) {
   grid.origin = mesh.lower;
   grid.voxel_size = mesh.longest / resolution;
   for (int axis = 0; axis < 3; ++axis) {
-    // The longest side is `resolution` voxels up to rounding: that adds no layer.
+    // The longest side is `resolution` voxels up to rounding: rounding adds no layer.
     const double cells = std::ceil((mesh.upper[axis] - mesh.lower[axis]) / grid.voxel_size - 1e-9);
     grid.size[axis] = static_cast<std::uint32_t>(std::clamp(cells, 1.0, static_cast<double>(resolution)));
   }

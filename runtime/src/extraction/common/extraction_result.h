@@ -1,4 +1,4 @@
-// From what the device found to what the caller gets: the grid, units, order, times.
+// The conversion of the device's results to those of the caller: grid, units, order, times.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@ VoxelGrid make_grid(const DeviceMesh& mesh, std::uint32_t resolution);
 MedialSphere to_input_units(const gpu::FoundPoint& found, const DeviceMesh& mesh);
 UndecidedVoxel to_input_units(const gpu::UndecidedCell& cell, const DeviceMesh& mesh);
 
-/// Into voxel order.
+/// Sorts into voxel order.
 template <typename T>
 void sort_by_voxel(std::vector<T>& values) {
   std::sort(values.begin(), values.end(), [](const T& a, const T& b) { return is_earlier_voxel(a.voxel, b.voxel); });
 }
 
-/// Times of the same stage add up.
+/// Adds up times of the same stage.
 void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sum);
 
 }  // namespace medial_vk

@@ -14,7 +14,7 @@ std::span<const T> items(const Buffer& buffer, VkDeviceSize offset, std::uint32_
 
 }  // namespace
 
-// Elsewhere than on a CPU memory that is mapped may be slow to read.
+// Except on a CPU, mapped memory may be slow to read.
 ResultDownload::ResultDownload(Context::Impl& context)
     : context_(&context),
       is_shared_(context.description.type == "cpu"),
@@ -39,7 +39,7 @@ Status ResultDownload::make_room(VkDeviceSize bytes) {
   return {};
 }
 
-/// What kernels wrote becomes visible to the other queue.
+/// Makes writes of kernels visible to the other queue.
 Status ResultDownload::hand_over() {
   if (Status ready = computed_.prepare(); !ready.ok()) return ready;
   if (Status ready = copied_.prepare(); !ready.ok()) return ready;

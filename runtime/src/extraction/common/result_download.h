@@ -1,4 +1,4 @@
-// What a chunk of the certified extraction has found, on its way to the host.
+// The download of the results of a chunk of the certified extraction.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace medial_vk {
 
-/// While points of one chunk are copied, and looked at by the host, the next chunk may be computed: all but its end,
-/// which writes points of its own and waits for before_next(). On a CPU nothing is copied: is_shared(), and the host
-/// takes the points before the next chunk begins.
+/// While points of one chunk are copied and read by the host, the next chunk may be computed, except for its end, which
+/// writes its own points and waits for before_next(). On a CPU nothing is copied: is_shared() is true, and the host
+/// reads the points before the next chunk begins.
 class ResultDownload {
  public:
   explicit ResultDownload(Context::Impl& context);
@@ -23,15 +23,15 @@ class ResultDownload {
   ~ResultDownload();
 
   bool is_shared() const { return is_shared_; }
-  /// After a chunk has run: the first so many of its points and undecided voxels. The buffers outlive finish(). Errors:
-  /// kOutOfMemory, kInternal (device lost).
+  /// Precondition: a chunk has run. Copies the given numbers of its points and undecided voxels. The buffers outlive
+  /// finish(). Errors: kOutOfMemory, kInternal (device lost).
   Status start(const Buffer& points, std::uint32_t point_count, const Buffer& undecided, std::uint32_t undecided_count);
-  /// What the next chunk waits for before it writes points of its own; null: nothing, or something has waited already.
+  /// The signal that the next chunk waits for before it writes its own points; null: none is pending.
   const Semaphore* before_next();
-  /// Waits for the copies. False: there was no start() since. Errors: as start().
+  /// Waits for the copies. False: there was no start() since the last call. Errors: as start().
   Result<bool> finish();
 
-  /// After finish(), until the next start(): in no particular order.
+  /// Valid from finish() until the next start(); in no particular order.
   std::span<const gpu::FoundPoint> points() const { return points_; }
   std::span<const gpu::UndecidedCell> undecided() const { return undecided_; }
 

@@ -11,7 +11,7 @@ struct Tests {
   std::uint64_t nodes = 0, triangles = 0;
 };
 
-/// Of walks for one query and of packets together.
+/// Tests by walks for one query and of packets together.
 Tests tests_at(const std::uint32_t* words) {
   const auto sum = [&](int i) {
     const auto number = [&](int low) { return words[low] + (std::uint64_t{words[low + 1]} << 32); };
@@ -22,7 +22,7 @@ Tests tests_at(const std::uint32_t* words) {
 
 void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const ThesisPipeline& pipeline,
                   ExtractionCounters& sum) {
-  Tests before;  // up to the end of the level before
+  Tests before;  // up to the end of the previous level
   for (std::uint32_t level = 0; level < pipeline.level_count(); ++level) {
     const std::uint32_t* counts = &c[gpu::kThesisLevels + gpu::kThesisCountsPerLevel * level];
     sum.levels[level].visited += counts[0];

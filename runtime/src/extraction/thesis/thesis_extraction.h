@@ -1,4 +1,4 @@
-// Medial spheres as Sections 2.3 and 2.4 describe them, on the device: the mode that results can be compared in.
+// Medial spheres by the method of Sections 2.3 and 2.4, on the device: the mode for comparisons with the source.
 #pragma once
 
 #include "commands/stop_word.h"

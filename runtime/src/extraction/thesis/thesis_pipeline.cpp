@@ -21,16 +21,16 @@ constexpr uint kMostArguments = 4096;  // indirect dispatches of one recorded se
 
 // Bound of the rounding error of a distance in the unit box (shaders/shared/tree/closest_point.glsl).
 constexpr float kSlack = 2e-6f;
-// Made smaller by this, the ball around a point through its nearest boundary point does not seem to hold that point:
-// some times the error that is usual (1e-7), so that a change of B is seen late by about as much.
+// Reduction of the ball around a point through its nearest boundary point, so that rounding does not place that point
+// in the ball: several times the usual error (1e-7). A change of B is detected late by about this amount.
 constexpr float kBallMargin = 1e-6f;
 
-// What a top cell may need: 8^3 finest voxels with all their samples, and the segments of one round.
+// Bounds for a top cell: 8^3 finest voxels with all their samples, and the segments of one round.
 constexpr std::uint64_t kBytesPerVoxel = 256;
 constexpr std::uint64_t kBytesPerRetraction = 2 * sizeof(gpu::Retraction) + 2 * 16 + 8 + 4 + 4 + 2 * 16 + 20;
 // Some millions of samples a dispatch, or some hundreds of thousands: below 100 ms on a GPU, or on a CPU.
 constexpr std::uint32_t kLargestChunk = 128, kLargestChunkOfCpu = 16;
-// Walks of the tree take longest: of so many at a time, some ten milliseconds on two cores.
+// Walks of the tree take longest: this number of them takes some ten milliseconds on two cores.
 constexpr std::uint32_t kQueriesPerSlice = 1u << 20, kQueriesPerSliceOfCpu = 8192;
 
 std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
@@ -50,7 +50,7 @@ Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const Devi
   }
   ThesisPipeline p(context, mesh, parameters, stop);
   p.grid_ = grid;
-  // Four levels as in the source; fewer while a top cell would be more than half of the longest side.
+  // Four levels as in the source; fewer if a top cell would be more than half of the longest side.
   while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > parameters.resolution) --p.levels_;
   for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << (p.levels_ - 1));
   if (Status status = p.allocate(); !status.ok()) return status.error();
@@ -62,7 +62,7 @@ double ThesisPipeline::cell_size(std::uint32_t level) const {
   return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(levels_ - 1 - level));
 }
 
-// long: a table of all buffers, and what comes of it.
+// long: a table of all buffers, and the limits derived from it.
 Status ThesisPipeline::allocate() {
   std::uint64_t cells_per_top = 1;    // at the finest level
   std::uint64_t samples_per_top = 1;  // at any level, and never none
@@ -175,7 +175,7 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   step.cell_size = static_cast<float>(cell_size(level));
   step.voxel_size = static_cast<float>(cell_size(levels_ - 1));
   step.epsilon = static_cast<float>(parameters_.epsilon * cell_size(levels_ - 1));
-  // A little above the threshold, so that the angle between the spokes as they are written is not below it.
+  // Slightly above the threshold, so that the angle between the written spokes is not below it.
   step.angle = static_cast<float>(parameters_.object_angle + 4e-6);
   step.radius = parameters_.radius > 0 ? static_cast<float>(parameters_.radius) + kSlack : 1e30f;
   step.least_flux = finest ? static_cast<float>(0.375 * std::sin(parameters_.object_angle)) : 0.0f;

@@ -13,12 +13,12 @@
 namespace medial_vk {
 namespace {
 
-/// With so few balls where they start decides more than what it costs to start twice.
+/// With up to this number of balls a second start is worth its cost, as the result depends much on the start.
 constexpr std::size_t kFew = 64;
-/// Radii grow by this share of the diagonal before the proof, at the least.
+/// The least growth of radii before the proof, as a share of the diagonal.
 constexpr double kRoom = 1e-9;
 
-/// Of the boundary: enough that what a piece sticks out of a ball does not count.
+/// Number of pieces of the boundary: enough that the protrusion of a piece from a ball is negligible.
 std::size_t pieces_for(std::size_t balls) {
   if (balls <= 16) return 6'000;
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
@@ -29,8 +29,8 @@ CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, const Thread
   return {std::move(pieces), std::move(balls), 0.1 * solid.diagonal(), threads};
 }
 
-/// Points far from each other, then in the middles of what is nearest to them: a start that asks nothing of the balls
-/// inside.
+/// A start without the balls inside: points far from each other, then moved to the middles of the points nearest to
+/// them.
 std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t count) {
   constexpr int kRounds = 6;
   std::vector<Point> centres = {points.front()};
@@ -90,7 +90,7 @@ void Cover::polish() {
 }
 
 void Cover::shrink() {
-  constexpr std::size_t kPeriod = 8;  // all are improved when an eighth has gone
+  constexpr std::size_t kPeriod = 8;  // all are improved when an eighth has been removed
   search_.remove_one();
   search_.slide();
   keep();
@@ -101,7 +101,7 @@ void Cover::shrink() {
 
 double Cover::measure() const {
   const Result<BallUnion> measured = measure_ball_union(search_.balls(), {threads_.count, false});
-  if (!measured) throw std::bad_alloc();  // The balls are finite, so memory it is.
+  if (!measured) throw std::bad_alloc();  // The balls are finite, so the error is one of memory.
   return measured.value().volume;
 }
 
@@ -110,7 +110,7 @@ void Cover::keep() {
   best_ = search_.balls();
 }
 
-/// Until two steps gain less than a thousandth of the volume; the best set of balls is kept.
+/// Repeats steps until two gain less than a thousandth of the volume; keeps the best set of balls.
 void Cover::improve(int rounds, double from, double until) {
   constexpr double kGain = 1e-3;
   constexpr int kPatience = 2;
@@ -139,7 +139,7 @@ std::vector<Ball> Cover::enlarged(double by) const {
 }
 
 /// Vertices of the envelope in the solid border on cavities: a ball must hold those, too.
-/// Balls only grow, and so does their union: CoverFamily counts on it.
+/// Balls only grow, and so does their union: CoverFamily relies on it.
 bool Cover::fill(const Envelope& envelope) {
   std::vector<Point> inside;
   for (const EnvelopeVertex& vertex : envelope.vertices()) {
@@ -152,7 +152,7 @@ bool Cover::fill(const Envelope& envelope) {
 
 std::vector<Ball> Cover::certified() const {
   constexpr int kFillings = 12;
-  Cover filled = *this;  // What is filled here is no part of the search, which may go on.
+  Cover filled = *this;  // The filling is no part of the search, which may continue.
   double by = kRoom * solid_.diagonal();
   for (int attempt = 0;; ++attempt) {
     report_(0.95 + 0.05 * std::min(1.0, attempt / 60.0));

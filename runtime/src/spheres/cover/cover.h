@@ -1,4 +1,4 @@
-// One cover on its way: searched, made smaller, proved.
+// The search for one cover: its steps, its reduction, its proof.
 #pragma once
 
 #include <functional>
@@ -13,23 +13,24 @@ namespace medial_vk {
 /// Deterministic. Throws std::bad_alloc, and what `report` throws.
 class Cover {
  public:
-  /// Called with the share done, from any thread at any time; a smaller one than before is no news. May throw Stopped.
+  /// Called with the finished share, from any thread at any time; a smaller one than before is to be ignored. May throw
+  /// Stopped.
   using Report = std::function<void(double)>;
 
   /// Balls grow from these. Keeps a reference to the solid.
   Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report);
 
-  /// Steps until they gain little, between two shares of the work; then also with finer pieces.
+  /// Repeats steps until they gain little, between two shares of the work; then also with finer pieces.
   void search(double from, double until);
   void polish();
-  /// One ball less, and its neighbours after it; now and then all.
+  /// Removes one ball, and improves its neighbours; improves all balls each time an eighth has been removed.
   void shrink();
 
-  /// Balls, some of them perhaps with radius 0.
+  /// The balls; some may have radius 0.
   std::size_t count() const { return search_.balls().size(); }
-  /// Of the union, exactly; what certified() gives is not smaller.
+  /// The exact volume of the union; that of certified() is not smaller.
   double volume() const { return volume_; }
-  /// The proof decides. What it finds open is filled; at last all balls grow until it finds nothing.
+  /// Fills the gaps that the proof finds, and finally lets all balls grow until it finds none.
   std::vector<Ball> certified() const;
 
  private:
@@ -45,13 +46,13 @@ class Cover {
   CoverSearch search_;
   std::vector<Ball> best_;
   double volume_ = 0;
-  std::size_t improved_ = 0;  // how many balls there were when all were improved
+  std::size_t improved_ = 0;  // number of balls when all were last improved
 };
 
-/// From these, or, where balls are few, from others if that comes out smaller; as far as it goes.
+/// The full search from these balls, or, where balls are few, from others if the result is smaller.
 Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report);
 
-/// The smallest ball that holds all vertices, and a little more.
+/// The smallest ball that holds all vertices, with a margin.
 Ball ball_around(const Solid& solid);
 
 }  // namespace medial_vk

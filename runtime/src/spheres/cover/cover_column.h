@@ -1,4 +1,4 @@
-// What the search for covers counts by: columns between a piece of the boundary and where a ball ends.
+// The measure in the search for covers: columns between a piece of the boundary and the sphere of a ball.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace medial_vk {
 
-/// A radius is this much larger than it need be: what is held stays so however the distance is computed.
+/// Factor by which radii are enlarged, so that pieces stay held for any rounding of distances.
 inline constexpr double kCoverRoom = 1 + 1e-13;
 
-/// How far the ball reaches from a point in it along a direction of length 1.
+/// The reach of the ball from a point in it along a unit direction.
 inline double height_over(const Ball& ball, const Point& from, const Point& direction) {
   const Point w = from - ball.centre;
   const double along = dot(w, direction);

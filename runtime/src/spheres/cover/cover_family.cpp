@@ -16,9 +16,9 @@ CoverFamily::Answer CoverFamily::certify(const std::vector<Ball>& balls) const {
   return {balls, measured.value().volume};
 }
 
-/// A proof may add to a cover, and then one of fewer balls may be smaller: they are looked at as long as that can be.
-/// No cover of fewer balls that is not left out has less volume before its proof. Where all are left out, as of a solid
-/// that is nearly a ball, the smallest ball around it is the answer.
+/// A proof may enlarge a cover, and then one of fewer balls may be smaller: such covers are examined as long as that is
+/// possible. Before its proof, no remaining cover of fewer balls has less volume. Where all are left out, as for a
+/// solid that is nearly a ball, the smallest ball around it is the answer.
 CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, const Cover::Report& report,
                                             std::optional<Cover>& found) const {
   if (top == 1) return certify({ball_around(solid_)});
@@ -38,7 +38,7 @@ CoverFamily::Answer CoverFamily::best_below(std::size_t top, std::size_t count, 
   return best.balls.empty() ? certify({ball_around(solid_)}) : best;
 }
 
-/// `shown`: it says how far all are.
+/// `shown`: this search reports the progress of all.
 Cover::Report CoverFamily::report(bool shown) {
   return [this, shown](double done) {
     if (!progress_) return;
@@ -79,7 +79,7 @@ CoverFamily::Answer CoverFamily::of(std::size_t count) {
   return *best;
 }
 
-/// Balls are taken away while the volume allows it. What a proof adds may be too much: then that of some more balls.
+/// Removes balls while the volume permits it. If the proof adds too much, tries covers of more balls.
 std::vector<Ball> CoverFamily::few(std::size_t count, double volume) {
   constexpr std::size_t kKept = 8;
   Answer most = of(count);

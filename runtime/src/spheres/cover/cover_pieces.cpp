@@ -124,7 +124,7 @@ void CoverPieces::arrange() {
   if (!order_.empty()) arrange(0, static_cast<std::uint32_t>(size()));
 }
 
-/// Halves of halves, by the middle along the longest side of the box.
+/// Recursive halves, by the middle along the longest side of the box.
 void CoverPieces::arrange(std::uint32_t first, std::uint32_t count) {
   const auto begin = order_.begin() + first, end = begin + count;
   const std::size_t place = boxes_.size();

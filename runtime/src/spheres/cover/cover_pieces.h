@@ -1,4 +1,5 @@
-// What balls must hold to cover a solid: small pieces of its boundary and cells of its inside, each in one ball.
+// The pieces that balls must hold to cover a solid: small parts of its boundary and cells of its inside, each in one
+// ball.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +23,9 @@ class CoverPieces {
     return {points_.data() + first_[piece], first_[piece + 1] - first_[piece]};
   }
   const Point& middle(std::uint32_t piece) const { return middle_[piece]; }
-  /// Of a triangle; of others zero.
+  /// The area of a triangle; zero for other pieces.
   double area(std::uint32_t piece) const { return area_[piece]; }
-  /// Of a triangle, of length 1 and outwards; of others, and of triangles without area, zero.
+  /// The outward unit normal of a triangle; zero for other pieces and for triangles without area.
   const Point& normal(std::uint32_t piece) const { return normal_[piece]; }
   /// The least radius around a centre that holds the piece.
   double needed(const Point& centre, std::uint32_t piece) const;
@@ -32,13 +33,13 @@ class CoverPieces {
   void gather(const Ball& ball, std::vector<std::uint32_t>& found) const;
 
   void add(std::span<const Point> points);
-  /// Cuts these triangles in four; cells stay as they are. Other pieces may change their indices.
+  /// Divides these triangles in four; cells are unchanged. Other pieces may change their indices.
   void refine(const std::vector<bool>& which);
 
  private:
   void add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth);
   void add_cells(const Solid& solid, const Threads& threads);
-  /// Puts neighbours into a tree of boxes, so that a ball is told from most pieces by few of them.
+  /// Builds a tree of boxes of neighbours, so that few boxes exclude most pieces for a ball.
   void arrange();
   void arrange(std::uint32_t first, std::uint32_t count);
 
@@ -47,13 +48,13 @@ class CoverPieces {
   struct Box {
     Point lower, upper;          // of the middles
     std::uint32_t first, count;  // in order_; 0 pieces: not a leaf
-    std::uint32_t next;          // box after this one and all within it
+    std::uint32_t next;          // the box after this one and its descendants
   };
   std::vector<Point> middle_;
   std::vector<double> area_;
   std::vector<Point> normal_;
   std::vector<Box> boxes_;            // each before those within it
-  std::vector<std::uint32_t> order_;  // pieces by leaf; those added since are in none
+  std::vector<std::uint32_t> order_;  // pieces by leaf; pieces added later are in none
 };
 
 }  // namespace medial_vk

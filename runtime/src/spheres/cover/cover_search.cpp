@@ -147,7 +147,7 @@ bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const 
 }
 
 void CoverSearch::refine() {
-  constexpr double kSmall = 0.05;  // of the ball's radius: what such a piece sticks out does not count
+  constexpr double kSmall = 0.05;  // of the ball's radius: the protrusion of such a piece is negligible
   std::vector<bool> which(pieces_.size());
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
     for (const std::uint32_t piece : exclusive(i)) {

@@ -1,4 +1,4 @@
-// Balls that hold given pieces, and the search for such balls that stick out little.
+// Balls that hold given pieces, and the search for such balls with little volume outside the solid.
 #pragma once
 
 #include <array>
@@ -11,41 +11,41 @@
 
 namespace medial_vk {
 
-/// Every piece is held by a ball; steps keep it so. What sticks out is counted as columns: over each triangle, along
-/// its normal, up to where the last of the balls ends that hold its middle. Steps that do not lower the sum are undone.
+/// Every piece is held by a ball, also after each step. The volume outside is a sum of columns: over each triangle,
+/// along its normal, to the farthest end of the balls that hold its middle. Steps that do not lower the sum are undone.
 /// Deterministic.
 class CoverSearch {
  public:
-  /// Every ball grows until it holds the pieces that are nearest to it. `ease` is a length: columns shorter than this
-  /// count as if they were straight, longer ones as if they spread.
+  /// Every ball grows until it holds the pieces that are nearest to it. `ease` is a length: shorter columns count as
+  /// straight, longer ones as widening.
   CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, Threads threads);
 
   /// Each ball in turn moves, and shrinks around the pieces that no other holds.
   void slide();
-  /// The pieces that hold up a ball go to another one. Returns how many times that was done.
+  /// Assigns the pieces that determine the radius of a ball to another one. Returns the number of such changes.
   std::size_t trade();
-  /// Balls that are missed least are set down beside those that stick out most. Returns how many were.
+  /// Moves the most dispensable balls to those that protrude most. Returns the number moved.
   std::size_t relocate();
-  /// Takes away a ball that is missed little, after which others have other indices. There must be two.
+  /// Removes a dispensable ball, after which others have other indices. Precondition: two balls or more.
   void remove_one();
-  /// Cuts the pieces that hold up a ball, unless they are small beside it.
+  /// Divides the pieces that determine the radius of a ball, unless they are small compared with it.
   void refine();
-  /// More pieces, one for each point; the balls that must grow least take them.
+  /// Adds a piece for each point, held by the ball that must grow least for it.
   void add(std::span<const Point> points);
 
   const std::vector<Ball>& balls() const { return balls_; }
-  /// Back to balls that were there before; the pieces must be held by them.
+  /// Restores previous balls, which must hold the pieces.
   void restore(std::vector<Ball> balls);
 
  private:
   struct Holder {
     std::uint32_t ball = 0xffffffffu;
-    bool holds = false;  ///< All of it, not only the middle.
+    bool holds = false;  ///< The whole piece, not only its middle.
     double height = 0;   ///< Of the column.
   };
   /// The highest two of a piece's columns.
   using Highest = std::array<Holder, 2>;
-  /// What a ball was like when it had been moved.
+  /// The state of a ball after its last move.
   struct Slid {
     std::size_t alone = 0;
     double radius = -1, share = 0;
@@ -57,7 +57,7 @@ class CoverSearch {
   };
 
   void recount();
-  /// Changes a ball and what is known of the pieces around it, total_ included.
+  /// Changes a ball and the state of the pieces around it, total_ included.
   void replace(std::uint32_t i, const Ball& ball);
   void undo(const std::vector<Saved>& saved);
   double cost_of(std::uint32_t piece, double height) const;
@@ -70,15 +70,15 @@ class CoverSearch {
   std::vector<std::uint32_t> exclusive(std::uint32_t i) const;
   double needed(const Point& centre, const std::vector<std::uint32_t>& some) const;
   Ball around(const std::vector<std::uint32_t>& some) const;
-  /// What ball i costs that no other does.
+  /// The part of the sum that only ball i causes.
   double share(std::uint32_t i) const;
-  /// Does the ball with this radius stick out, over what it touches now, for more than `most` beyond what is paid?
+  /// True if the ball with this radius adds more than `most` to the columns over the pieces that it touches now.
   bool costs_more(std::uint32_t i, double radius, double most) const;
   Ball best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const;
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
-  /// All that are not idle, those that cost most first.
+  /// All balls that are not idle, by decreasing cost.
   std::vector<std::uint32_t> costliest_first() const;
-  /// What the others must at least grow by to do without this ball, as a volume; 0 if it holds nothing alone.
+  /// The least growth of the others, as a volume, that would replace this ball; 0 if it holds nothing alone.
   double price_to_leave(std::uint32_t i) const;
   bool is_same_as_slid(std::uint32_t i, std::size_t alone) const;
   void slide_batch(std::span<const std::uint32_t> batch);
@@ -86,7 +86,7 @@ class CoverSearch {
   bool leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved);
   void take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share);
   std::array<Point, 2> tips(std::uint32_t i) const;
-  /// Ball `free` leaves what it holds to others and takes a part of what `wide` holds, if that pays.
+  /// Ball `free` leaves its pieces to others and takes a part of those of `wide`, if that lowers the sum.
   bool move_to(std::uint32_t free, std::uint32_t wide);
 
   CoverPieces pieces_;

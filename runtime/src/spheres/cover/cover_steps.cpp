@@ -1,4 +1,4 @@
-// The steps of the search: each changes balls and keeps what lowers the sum.
+// The steps of the search: each changes balls and keeps changes that lower the sum.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,8 @@
 
 namespace medial_vk {
 
-/// By steps that are halved when none of them helps, from the present centre and from that of the smallest ball.
+/// By steps that are halved when none of them lowers the sum, from the present centre and from that of the smallest
+/// ball.
 Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const {
   std::vector<Point> points;
   for (const std::uint32_t piece : some) {
@@ -31,7 +32,7 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
   };
   const Point from = balls_[i].centre;
   Ball best = {from, radius_at(from)};
-  // All that a step may touch.
+  // All pieces that a step may touch.
   std::vector<std::uint32_t> near;
   const double reach = std::max(best.radius, smallest.radius + length(smallest.centre - from));
   pieces_.gather({from, 1.6 * reach}, near);
@@ -105,7 +106,7 @@ std::vector<std::uint32_t> CoverSearch::costliest_first() const {
   return balls;
 }
 
-/// Where nothing has changed since the last time, nothing would now.
+/// Without a change since the last call, this call would change nothing.
 bool CoverSearch::is_same_as_slid(std::uint32_t i, std::size_t alone) const {
   return slid_[i] == Slid{alone, balls_[i].radius, share(i)};
 }
@@ -124,8 +125,8 @@ void CoverSearch::slide() {
   slide_batch(batch);
 }
 
-/// Where each would go is asked for all at once, on all threads. By the time that its turn comes another may have left
-/// it with more to hold; it is asked again then.
+/// The moves of all balls are computed at once, on all threads. If another ball's move has left a ball with more to
+/// hold, its move is recomputed in its turn.
 void CoverSearch::slide_batch(std::span<const std::uint32_t> batch) {
   constexpr int kHalvings = 5;
   struct Plan {
@@ -198,7 +199,7 @@ bool CoverSearch::trade_one(std::uint32_t i) {
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = takers[k].second;
       const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, given));
-      if (costs_more(j, radius, own)) continue;  // What ball i may save is no more than its share.
+      if (costs_more(j, radius, own)) continue;  // The possible gain of ball i is at most its share.
       const std::vector<Saved> saved = {{j, balls_[j]}, {i, whole}};
       replace(j, {balls_[j].centre, radius});
       const std::vector<std::uint32_t> rest = exclusive(i);
@@ -218,7 +219,7 @@ std::size_t CoverSearch::trade() {
   return traded;
 }
 
-/// What only ball i holds goes to the neighbour that must grow least for it, which is not `but`.
+/// Assigns the pieces that only ball i holds to the neighbour that must grow least for them, except `but`.
 bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved) {
   threads_.check();
   const std::vector<std::uint32_t> left = exclusive(i);
@@ -259,7 +260,7 @@ void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& t
   }
 }
 
-/// The places where a ball sticks out most, and where it reaches farthest for a piece that only it holds.
+/// The points where a ball protrudes most, and where it reaches farthest for a piece that only it holds.
 std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
   std::array<Point, 2> tips{};
   std::array<double, 2> most = {-1, -1};
@@ -291,7 +292,7 @@ bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   return false;
 }
 
-/// That is not known before it is tried.
+/// Only a trial shows this.
 double CoverSearch::price_to_leave(std::uint32_t i) const {
   const std::vector<std::uint32_t> alone = exclusive(i);
   if (alone.empty()) return 0;
@@ -304,8 +305,8 @@ double CoverSearch::price_to_leave(std::uint32_t i) const {
 }
 
 std::size_t CoverSearch::relocate() {
-  // The shares of the volume that a ball adds are what may be saved by another beside it; what a ball holds alone must
-  // be held by a neighbour: those that can go cheaply are tried first.
+  // The share of the volume that a ball adds bounds the gain by another ball beside it; pieces that a ball holds alone
+  // must be held by a neighbour: the cheapest balls to remove are tried first.
   const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
   std::vector<std::pair<double, std::uint32_t>> free, wide;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
@@ -321,7 +322,7 @@ std::size_t CoverSearch::relocate() {
     const bool moved = from != wide[next].second && move_to(from, wide[next].second);
     relocated += moved;
     ++next;
-    // An idle ball costs nothing: it is offered to one after the other.
+    // An idle ball costs nothing: it is tried at one ball after the other.
     if (moved || !is_idle) ++at;
   }
   return relocated;

@@ -1,6 +1,6 @@
-// The farthest point outside of the smallest ball around a few points joins them, and those that no longer hold the
-// ball up leave (the pivot rule of B. Gaertner, "Fast and robust smallest enclosing balls", 1999). The radius grows
-// with every round, so no set of points comes back.
+// The farthest point outside of the smallest ball around a few points joins them, and points that no longer support the
+// ball leave (the pivot rule of B. Gaertner, "Fast and robust smallest enclosing balls", 1999). The radius grows with
+// every round, so no set of points recurs.
 #include "spheres/cover/smallest_ball.h"
 
 #include <algorithm>
@@ -15,14 +15,15 @@ namespace medial_vk {
 namespace {
 
 constexpr double kSlack = 1e-12;  // relative
-constexpr int kRounds = 200;      // many times what is needed; a round that gains nothing ends it before that
+constexpr int kRounds = 200;      // many times the usual number; a round without gain ends the loop earlier
 
 struct Sphere {
   Point centre{};
   double squared = std::numeric_limits<double>::infinity();
 };
 
-/// Through all given points, two to four, with its centre in their flat. Infinite if they are no simplex.
+/// The ball through all given points, two to four, with its centre in their affine hull. Infinite if they are no
+/// simplex.
 Sphere circumsphere(const std::vector<Point>& p) {
   Sphere sphere;
   const Point a = p[1] - p[0];
@@ -56,7 +57,8 @@ bool holds(const Sphere& sphere, const std::vector<Point>& points) {
   });
 }
 
-/// Of up to five points, by trying all subsets; `points` becomes the subset that holds the ball up.
+/// The smallest ball of up to five points, by trials of all subsets; `points` becomes the subset that supports the
+/// ball.
 Sphere of_few(std::vector<Point>& points) {
   Sphere best;
   std::vector<Point> support, chosen;

@@ -14,21 +14,23 @@
 
 namespace medial_vk {
 
-/// What is known of a function over a cell.
+/// Bounds of a function over a cell.
 struct CellBounds {
-  double value = -std::numeric_limits<double>::infinity();  ///< Taken somewhere in the region, or minus infinity.
-  double bound = -std::numeric_limits<double>::infinity();  ///< Not exceeded in the cell; minus infinity: out of it.
+  /// A value attained somewhere in the region, or minus infinity.
+  double value = -std::numeric_limits<double>::infinity();
+  /// Upper bound in the cell; minus infinity: the cell is outside the region.
+  double bound = -std::numeric_limits<double>::infinity();
 };
 
 struct SearchLimits {
-  double tolerance = 0;           ///< The bounds that are returned differ by no more ...
+  double tolerance = 0;           ///< Greatest difference of the returned bounds ...
   std::size_t cells = 2'000'000;  ///< ... unless so many cells were not enough.
   Threads threads = {};
 };
 
-/// `lower` is known to be reached. `evaluate(cell, lower)` gives CellBounds: values that are not above `lower` need not
-/// be told. `split(cell, children)` appends parts that cover the cell, for which its bound holds as well. The result
-/// does not depend on the number of threads: cells are divided in batches of a fixed size.
+/// `lower` is a value known to be attained. `evaluate(cell, lower)` returns CellBounds; values not above `lower` may be
+/// omitted. `split(cell, children)` appends parts that cover the cell, for which its bound holds too. The result does
+/// not depend on the number of threads: cells are divided in batches of a fixed size.
 template <class Cell, class Evaluate, class Split>
 Bounds bound_supremum(std::vector<Cell> cells, double lower, const SearchLimits& limits, Evaluate evaluate,
                       Split split) {

@@ -82,7 +82,8 @@ void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Poi
   const Point to = p - middle;
   const Point across = to - dot(to, axis) * axis;
   const double out = length(across);
-  // On the axis all points of the circle are as near, its ends too, if it has any: any of them will do.
+  // On the axis all points of the circle are equally near, also the ends of the arc, if it has any: any of them is
+  // valid.
   const Point away = out > 0 ? (1 / out) * across : perpendicular_to(axis);
   const Point near = middle + std::sqrt(squared) * away;
   const double distance = length(p - near);
@@ -111,7 +112,7 @@ void Envelope::improve(std::uint32_t ball, const Point& p, double& best) const {
 double Envelope::distance(const Point& p, double enough) const {
   const NearestBall outside = tree_.nearest(p);
   if (outside.distance >= 0) return outside.distance;
-  // A point of the envelope lies on a sphere; how near that is, boxes of centres and radii say.
+  // A point of the envelope lies on a sphere; boxes of centres and radii bound the distance to it.
   struct Entry {
     std::uint32_t node;
     double bound;

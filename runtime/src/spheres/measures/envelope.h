@@ -1,4 +1,4 @@
-// The envelope of a union of balls as pieces of spheres, arcs and points, and distances to it.
+// The envelope of a union of balls as parts of spheres, arcs and points, and distances to it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace medial_vk {
 
-/// The envelope E of balls is where f(p) = min |p - c_i| - r_i is 0. (docs/theory.md, "Tight spheres")
+/// The envelope E of balls is the set f = 0 of f(p) = min |p - c_i| - r_i. (docs/theory.md, "Tight spheres")
 class Envelope {
  public:
   /// At least one ball. Errors: those of measure_ball_union().
@@ -20,16 +20,16 @@ class Envelope {
 
   const NearestBallTree& tree() const { return tree_; }
   const BallUnion& measured() const { return union_; }
-  /// Points that belong to three balls at once and lie in none by more than tolerance(); where more spheres than three
-  /// meet there may be several of them.
+  /// Common points of three spheres that lie in no ball by more than tolerance(); where more than three spheres meet
+  /// there may be several of them.
   const std::vector<EnvelopeVertex>& vertices() const { return vertices_; }
-  /// How far a point may lie in a ball and still count as one of the envelope.
+  /// The greatest depth in a ball at which a point still counts as one of the envelope.
   double tolerance() const { return tolerance_; }
 
-  /// From a point to the envelope, on either side of it, within 4 tolerance(). Where the answer is no greater than
-  /// `enough`, a greater one may come that is not above `enough` either.
+  /// From a point to the envelope, on either side of it, within 4 tolerance(). If the exact answer is at most `enough`,
+  /// the result may be any number between it and `enough`.
   double distance(const Point& p, double enough = 0) const;
-  /// The same as distance(), negative in the balls (Figure 8-2's sign is the other way round for the boundary).
+  /// The same as distance(), negative in the balls (Figure 8-2 has the opposite sign for the boundary).
   double signed_distance(const Point& p) const;
 
  private:
@@ -47,7 +47,7 @@ class Envelope {
   std::vector<std::uint32_t> first_arc_, first_vertex_;
 };
 
-/// The points where three spheres meet, up to two: where they only touch, within `tolerance` of their radii, the one.
+/// The common points of three spheres, up to two; one where they only touch, within `tolerance` of their radii.
 std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, std::array<Point, 2>& points);
 
 }  // namespace medial_vk

@@ -75,8 +75,8 @@ class Measure {
  public:
   Measure(const Solid& solid, const Envelope& envelope, const DistanceOptions& options)
       : solid_(solid), envelope_(envelope), tree_(envelope.tree()), options_(options) {
-    // Distances here are lengths of differences: like those of the solid, wrong by some units of roundoff of the
-    // coordinates; the envelope's by its tolerance.
+    // Distances here are lengths of differences: like those of the solid, they have errors of some units of roundoff of
+    // the coordinates; those to the envelope, errors of its tolerance.
     const Cube box = cube_around(tree_.balls());
     slack_ = solid.rounding() + 8 * 0x1p-53 * (length(box.centre) + 2 * box.half);
     limits_.tolerance = options.tolerance * solid.diagonal();
@@ -96,7 +96,7 @@ class Measure {
       d.solid_to_balls = solid_to_balls(d.boundary_to_balls.lower);
     }
     if (!options_.known_inside) d.balls_to_solid = balls_to_solid();
-    // Nothing of the boundary lies in the interior of balls that are inside.
+    // No point of the boundary lies in the interior of balls that are inside.
     d.boundary_to_envelope =
         options_.known_inside ? d.boundary_to_balls : boundary_to_envelope(d.boundary_to_balls.lower);
     d.envelope_to_boundary = envelope_to_boundary();
@@ -117,7 +117,7 @@ class Measure {
     return {std::max(0.0, bounds.lower - slack), bounds.upper + slack};
   }
 
-  /// A ball's |p - c| - r is convex: it is nowhere in the piece above the greatest of its corners.
+  /// A ball's |p - c| - r is convex: in the part, it is at most the greatest of its values at corners.
   double bound_over(const Piece& piece, const Point& middle, const NearestBall& nearest) const {
     const Ball& ball = tree_.balls()[nearest.ball];
     return std::min(nearest.distance + piece.reach(middle), piece.reach(ball.centre) - ball.radius);
@@ -138,7 +138,7 @@ class Measure {
                    slack_);
   }
 
-  /// Of points in balls that are not inside by themselves; those of the others are at distance 0.
+  /// Only of points in balls not proved to be inside by themselves; points of the others are at distance 0.
   Bounds balls_to_solid() const {
     std::vector<Ball> others;
     for (const Ball& ball : tree_.balls()) {
@@ -163,7 +163,7 @@ class Measure {
       if (value <= known || solid_.contains(reached)) return {kNone, sign > 0 ? bound : reach - distance};
       return {value, sign > 0 ? bound : reach - distance};
     };
-    // The vertices of the envelope are where the greatest distances are as a rule; they belong to the balls.
+    // The greatest distances usually are at the vertices of the envelope, which belong to the balls.
     const double lower =
         greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
     return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube),
@@ -188,7 +188,7 @@ class Measure {
       const double reach = piece.reach(middle);
       const NearestBall nearest = tree_.nearest(middle);
       if (nearest.distance >= 0) {
-        // Outside of the balls as far as the piece lies there; what lies in them is not farther than `reach` in.
+        // The part outside of the balls, if any; points in them are at most `reach` deep.
         return {nearest.distance, nearest.distance + reach};
       }
       const double enough = known + limits_.tolerance - reach;

@@ -15,11 +15,11 @@ namespace {
 /// Cells of a grid over the solid's box, at most so many along a side, in each of which two samples are taken.
 constexpr std::size_t kStrata = 96, kLeastStrata = 24;
 constexpr std::size_t kBlock = 4;  // cells along the side of a block
-/// On each sphere, as cuRobo takes them.
+/// Number of samples on each sphere, as in cuRobo.
 constexpr std::size_t kSpherePoints = 200;
 constexpr std::size_t kBins = 48;
 
-/// A number in [0, 1) that depends on nothing but its arguments (S. Vigna's splitmix64).
+/// A number in [0, 1) that depends only on the arguments (S. Vigna's splitmix64).
 double random_number(std::uint64_t seed, std::uint64_t number) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15ull + number * 0xd1342543de82ef95ull + 0x632be59bd9b4e019ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -28,10 +28,10 @@ double random_number(std::uint64_t seed, std::uint64_t number) {
   return static_cast<double>(x >> 11) * 0x1p-53;
 }
 
-/// Which side of the boundary a box lies on.
+/// The side of the boundary on which a box lies.
 enum class Side : std::uint8_t { kInside, kOutside, kBoth };
 
-/// Of an open mesh winding numbers pass 1/2 anywhere.
+/// Winding numbers of an open mesh may pass 1/2 anywhere.
 Side side_of(const Solid& solid, const Point& lower, const Point& size) {
   if (!solid.mesh().report.closed) return Side::kBoth;
   const Point centre = lower + 0.5 * size;
@@ -40,7 +40,8 @@ Side side_of(const Solid& solid, const Point& lower, const Point& size) {
 }
 
 /// Two volumes, by two points in each cell of a grid: the squares of their differences add up to the variance. Most
-/// cells lie on one side of the boundary, and whole blocks of them; only in the others is the solid asked for points.
+/// cells, and whole blocks of them, lie on one side of the boundary; only in the others are points tested against the
+/// solid.
 class VolumeSampler {
  public:
   struct Estimate {
@@ -170,7 +171,7 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0 : sum.value() / static_cast<double>(values.size());
 }
 
-/// The value that 95 % are no greater than, between the two nearest.
+/// The 95th percentile, interpolated between the two nearest values.
 double p95_of(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -185,7 +186,7 @@ std::vector<double> protruding(const Solid& solid, std::span<const Ball> balls, 
   std::vector<std::vector<double>> by_ball(balls.size());
   for_all(balls.size(), 4, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
-    const bool closed = solid.mesh().report.closed;  // else balls may reach through holes
+    const bool closed = solid.mesh().report.closed;  // otherwise balls may reach through holes
     if (closed && ball.radius <= solid.distance(ball.centre) && solid.contains(ball.centre)) return;
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       if (k % 8 == 0) threads.check();

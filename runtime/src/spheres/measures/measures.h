@@ -1,4 +1,4 @@
-// How good a set of balls is as a stand-in for a solid: volume, distances, and the numbers that others report.
+// The quality of a set of balls as an approximation of a solid: volume, distances, and metrics of other programs.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace medial_vk {
 
 struct MeasureOptions {
   double tolerance = 2e-4;       ///< Of the bounds of distances, as a share of the diagonal.
-  std::uint64_t seed = 1;        ///< Of the samples that an inexact volume error is estimated from.
+  std::uint64_t seed = 1;        ///< Of the samples for the estimate of an inexact volume error.
   std::size_t samples = 20'000;  ///< Of the boundary, and about as many of the envelope.
   Threads threads = {};
 };
 
-/// At least one ball. Exact are: the union's volume; the solid's, if Solid::has_volume(); the volume error of balls
-/// that are proved to lie inside such a solid or to cover it. Other volumes are estimates from two samples in each cell
-/// of a grid, with their standard error. Does not throw. Errors: those of measure_ball_union(), kOutOfMemory,
+/// Precondition: at least one ball. Exact are the union's volume; the solid's, if Solid::has_volume(); the volume error
+/// of balls that are proved to lie inside such a solid or to cover it. Other volumes are estimates from two samples in
+/// each cell of a grid, with their standard error. Does not throw. Errors: those of measure_ball_union(), kOutOfMemory,
 /// kInterrupted (`threads` does not go on).
 Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball> balls,
                                        const MeasureOptions& options = {});

@@ -12,20 +12,20 @@
 
 namespace medial_vk {
 
-/// The ball that a point is nearest to, or deepest in.
+/// The ball nearest to a point, or in which the point is deepest.
 struct NearestBall {
   double distance = std::numeric_limits<double>::infinity();  ///< |p - c| - r: negative inside.
   std::uint32_t ball = 0xffffffffu;                           ///< The smallest index among equals.
 };
 
-/// Answers with f(p) = min |p - c_i| - r_i: the distance to the union outside of it, 0 on its envelope, negative
-/// inside. f does not change faster than the point moves. Questions may come from several threads at once.
+/// Evaluates f(p) = min |p - c_i| - r_i: the distance to the union outside of it, 0 on its envelope, negative inside. f
+/// has Lipschitz constant 1. Queries may come from several threads at once.
 class NearestBallTree {
  public:
   struct Node {
     Point lower, upper;  ///< Of the centres.
     double least_radius, greatest_radius;
-    std::uint32_t first = 0, count = 0;  ///< Places in order().
+    std::uint32_t first = 0, count = 0;  ///< Positions in order().
     std::uint32_t right = 0;             ///< Second child; the first follows its parent. 0: a leaf.
   };
 
@@ -33,18 +33,19 @@ class NearestBallTree {
   explicit NearestBallTree(std::span<const Ball> balls);
 
   NearestBall nearest(const Point& p) const;
-  /// Is the point in one of the balls by more than `depth`? Stops at the first.
+  /// True if the point is in one of the balls by more than `depth`. Stops at the first.
   bool holds(const Point& p, double depth = 0) const;
-  /// Indices of the balls with |p - c| - r <= limit, in no order that means anything, replace `found`.
+  /// Indices of the balls with |p - c| - r <= limit, in arbitrary order, replace `found`.
   void gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const;
 
-  const std::vector<Ball>& balls() const { return balls_; }  ///< As they came.
+  const std::vector<Ball>& balls() const { return balls_; }  ///< In input order.
   const std::vector<Node>& nodes() const { return nodes_; }  ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
-  /// Calls visit(ball, |p - c| - r) where the latter is at most `limit`, until one returns true; did one?
+  /// Calls visit(ball, |p - c| - r) where the latter is at most `limit`, until a call returns true; returns whether one
+  /// did.
   template <class Visit>
   bool any_within(const Point& p, double limit, const Visit& visit) const;
 

@@ -12,14 +12,14 @@ namespace medial_vk {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-/// Halvings of a triangle: 2^-40 of its size is below what balls are written with.
+/// Greatest number of halvings of a triangle: 2^-40 of its size is below the accuracy of written balls.
 constexpr int kDepth = 40;
-/// A triangle that is covered by so few balls that this does not do is called undecided.
+/// Greatest number of parts of a triangle; one for which they do not suffice is undecided.
 constexpr std::size_t kPieces = 200'000;
 
 enum class Cover : std::uint8_t { kCovered, kUncovered, kUndecided };
 
-/// Is one triangle covered?
+/// The test whether one triangle is covered.
 class TriangleCover {
  public:
   TriangleCover(const NearestBallTree& tree, double magnitude)
@@ -57,9 +57,9 @@ class TriangleCover {
     return std::max({length(c[0] - from), length(c[1] - from), length(c[2] - from)});
   }
 
-  /// A ball is convex: a piece is in it if its corners are. Corners of pieces are rounded, up to once a halving, by
-  /// half a unit in the last place of each coordinate: the pieces are those of the triangle, moved by at most moved_.
-  /// Lengths are wrong by at most 4u of themselves.
+  /// A ball is convex: a part is in it if its corners are. Corners of parts are rounded, up to once per halving, by
+  /// half a unit in the last place of each coordinate: the parts are exact parts of the triangle, moved by at most
+  /// moved_. Lengths have relative errors of at most 4u.
   bool holds(const Ball& ball, const Piece& piece) const {
     const double most = ball.radius * (1 - 8 * kUnit) - moved_;
     return reach(piece.corner, ball.centre) <= most;
@@ -71,7 +71,7 @@ class TriangleCover {
     const double around = reach(piece.corner, middle);
     std::vector<std::uint32_t> near;
     bool is_covered = false;
-    lists_.resize(piece.list + 1);  // those of parts that are done
+    lists_.resize(piece.list + 1);  // drops those of finished parts
     for (const std::uint32_t i : lists_[piece.list]) {
       const Ball& ball = tree_.balls()[i];
       const double distance = length(middle - ball.centre) - ball.radius;
@@ -97,11 +97,11 @@ class TriangleCover {
   const NearestBallTree& tree_;
   double moved_;
   std::vector<Piece> stack_;
-  std::vector<std::vector<std::uint32_t>> lists_;  // of the pieces on the way down
+  std::vector<std::vector<std::uint32_t>> lists_;  // of the parts on the stack
 };
 
-/// How far a computed common point of three spheres may be from the true one: what is left of their equations there
-/// times the inverse of their directions; where they nearly touch, the root of it.
+/// Bound of the distance of a computed common point of three spheres from the true one: the residual of their equations
+/// there times the inverse of their directions; where they nearly touch, the root of it.
 double error_of(const Envelope& envelope, const EnvelopeVertex& vertex) {
   std::array<Point, 3> directions;
   double residual = 0, radius = 0;
@@ -176,7 +176,7 @@ InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const 
   for_all(balls.size(), 16, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
     const double room = solid.distance(ball.centre) - solid.rounding();
-    // A radius that is no number is a failure, too.
+    // A radius that is not a number is a failure, too.
     excess[i] =
         ball.radius >= 0 && solid.contains(ball.centre) ? ball.radius - room : std::numeric_limits<double>::infinity();
   });

@@ -1,5 +1,5 @@
-// Proofs, in double precision, that balls lie inside a solid or cover it. Whatever made the balls, these believe only
-// their numbers. (docs/theory.md, "Tight spheres")
+// Proofs, in double precision, that balls lie inside a solid or cover it. The proofs depend only on the numbers of the
+// balls, not on the method that found them. (docs/theory.md, "Tight spheres")
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace medial_vk {
 
-/// Throws Stopped if `threads` does not go on.
+/// Throws Stopped if `threads` is stopped.
 InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});
 
 /// Errors: kOutOfMemory, kInterrupted (`threads` does not go on).

@@ -10,7 +10,7 @@
 namespace medial_vk {
 namespace {
 
-/// More than this on one sphere are of no use, however small its part of the envelope.
+/// Greatest number of samples on one sphere: more are useless, even if its part of the envelope is small.
 constexpr std::size_t kMostPerSphere = 4096;
 
 double fraction(double x) { return x - std::floor(x); }

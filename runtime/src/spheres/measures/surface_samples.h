@@ -1,5 +1,5 @@
-// Points spread evenly over a mesh, over the envelope of balls, and over single spheres. The same numbers give the same
-// points everywhere.
+// Points spread evenly over a mesh, over the envelope of balls, and over single spheres. The same input gives the same
+// points on every machine.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace medial_vk {
 
-/// One for each equal share of the area, at a place in its triangle that a low-discrepancy sequence gives (the
-/// generalised golden ratio, M. Roberts 2018).
+/// One for each equal share of the area, at a position in its triangle from a low-discrepancy sequence (the generalised
+/// golden ratio, M. Roberts 2018).
 std::vector<Point> sample_surface(const Mesh& mesh, std::size_t count);
 
 /// Of the sphere of radius 1, the k-th of `count`, along a spiral.
@@ -20,11 +20,11 @@ Point spiral_point(std::size_t k, std::size_t count);
 
 struct WeightedPoint {
   Point at;
-  double area;  ///< That it stands for.
+  double area;  ///< The area that the sample represents.
 };
 
-/// About `count` points of the envelope: on each sphere evenly, those in other balls left out, those that are left
-/// standing for that ball's share of the envelope, which is exact.
+/// About `count` points of the envelope: evenly on each sphere, without those in other balls. The remaining points of a
+/// ball represent its share of the envelope, which is exact.
 std::vector<WeightedPoint> sample_envelope(const Envelope& envelope, std::size_t count, const Threads& threads);
 
 }  // namespace medial_vk

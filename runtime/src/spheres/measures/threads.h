@@ -1,4 +1,4 @@
-// How loops over many balls, points or cells run, and how they end early.
+// Threads of loops over many balls, points or cells, and their early end.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace medial_vk {
 
-/// Stage and share of it done; false: stop. For one thread at a time.
+/// Gets a stage and the finished share of it; returns false to stop. For one thread at a time.
 using SphereProgress = std::function<bool(const char* stage, double done)>;
 
-/// Thrown by loops that were told to stop.
+/// Thrown by loops that are stopped.
 struct Stopped {};
 
 struct Threads {
-  unsigned count = 0;                  ///< 0: all; 1: no others. Results do not depend on it.
-  std::function<bool()> goes_on = {};  ///< Called often, from any of them at any time; false: stop.
+  unsigned count = 0;                  ///< 0: one per core; 1: only the caller's. Results do not depend on it.
+  std::function<bool()> goes_on = {};  ///< Called often, from any of them at any time; returns false to stop.
 
   Threads(unsigned n = 0) : count(n) {}  // NOLINT(google-explicit-constructor): a number is enough
   Threads(unsigned n, std::function<bool()> asked) : count(n), goes_on(std::move(asked)) {}
@@ -27,7 +27,7 @@ struct Threads {
   }
 };
 
-/// parallel_for() that checks every few items whether it may go on. Bodies that take longer than some milliseconds
+/// parallel_for() that checks every few items whether to stop. Bodies that take longer than some milliseconds
 /// call threads.check() themselves, too.
 template <class Body>
 void for_all(std::size_t count, std::size_t block, const Threads& threads, Body body) {

@@ -16,7 +16,7 @@ namespace {
 
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
-/// Balls inside the solid, whatever the contract: the others begin with these.
+/// Balls inside the solid, with which the methods of all contracts begin.
 Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                  const SphereProgress& progress) {
   switch (request.method) {
@@ -28,7 +28,7 @@ Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& reques
   return best_spheres(solid, request, extractor, progress);
 }
 
-/// The set as the contract wants it.
+/// Turns the set into one for the contract.
 Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& request,
                                 const SphereProgress& progress) {
   switch (request.contract) {
@@ -50,7 +50,7 @@ Status check_request(const Solid& solid, const SphereOptions& request) {
   if (request.error > 0 && !solid.has_volume()) {
     return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
   }
-  // Balls inside stay off the boundary by rounding.
+  // Balls inside keep a distance of the rounding from the boundary.
   if (request.max_gap > 0 && request.max_gap < 16 * solid.rounding()) {
     return usage("so small a gap is below the rounding of distances");
   }
@@ -68,7 +68,8 @@ Status check_request(const Solid& solid, const SphereOptions& request) {
   return {};
 }
 
-/// Balls inside that covers of `count` balls begin with: more, by the next number that covers are searched for.
+/// The balls inside with which covers of `count` balls begin: more than `count`, up to the next number for which covers
+/// are searched.
 Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& request, std::size_t count,
                                const Extractor& extractor, const SphereProgress& progress) {
   SphereOptions start = request;
@@ -78,8 +79,8 @@ Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& request,
   return best_spheres(solid, start, extractor, progress);
 }
 
-/// A cover that adds no more than the error: by the numbers that covers are searched for, one after the other, then by
-/// fewer.
+/// A cover that adds no more than the error: tries the numbers for which covers are searched, one after the other, then
+/// fewer balls.
 Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
                                   const SphereProgress& progress) {
   const std::size_t most = request.count > 0 ? request.count : kMostBalls;
@@ -90,13 +91,13 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& reque
     const std::size_t count = std::min(top, most);
     Result<SphereSet> inside = cover_starts(solid, request, count, extractor, progress);
     if (!inside) return inside.error();
-    starts = std::move(inside.value().stages);  // the same as before, and one more
+    starts = std::move(inside.value().stages);  // the previous starts, and one more
     if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
     if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
   }
 }
 
-/// The smaller levels of a cover, and itself.
+/// The smaller levels of a cover, and the cover itself.
 Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& request, bool all_levels,
                                             SphereSet cover, const Extractor& extractor,
                                             const SphereProgress& progress) {
@@ -128,12 +129,12 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptio
   return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
 }
 
-/// Every level is what the method has when it has so many balls.
+/// Every level is the state of the method at its number of balls.
 Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& request, bool all_levels,
                                              const Extractor& extractor, const SphereProgress& progress) {
   Result<SphereSet> found = best_spheres(solid, request, extractor, progress);
   if (found && all_levels && (request.error > 0 || request.max_gap > 0)) {
-    // Only now it is known which numbers the levels have.
+    // The numbers of the levels are known only now.
     SphereOptions again = request;
     again.count = found.value().balls.size();
     again.error = again.max_gap = 0;
@@ -173,7 +174,7 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions
   return levels;
 }
 
-/// No exception leaves here.
+/// Throws no exception.
 Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& request, bool all_levels,
                                               const Extractor& extractor, const SphereProgress& progress) {
   try {

@@ -7,9 +7,9 @@
 
 namespace medial_vk {
 
-/// As approximate_by_spheres(), and sets of half, a quarter ... of its balls, the smallest first and that one last.
-/// Every set keeps the contract by itself: those inside the solid are beginnings of the last one; of the method best
-/// the others are the answers for their numbers, of the method source they are grown from such a beginning.
+/// As approximate_by_spheres(), with sets of half, a quarter ... of its balls, the smallest first and the full one
+/// last. Every set satisfies the contract by itself. With contract inside, each is a prefix of the last one; with other
+/// contracts, method best computes each for its number of balls, and method source grows each from such a prefix.
 Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& request,
                                                      const Extractor& extractor, const SphereProgress& progress = {});
 

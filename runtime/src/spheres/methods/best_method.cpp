@@ -23,26 +23,26 @@
 namespace medial_vk {
 namespace {
 
-// More balls than this need finer medial points to choose from: as many voxels along the longest side.
+// More balls than this need finer candidates: that many voxels along the longest side.
 struct Level {
   std::size_t from;
   std::uint32_t resolution;
 };
 constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
-// Balls of smaller object angles fill the edges; below, their number grows and what they add does not.
+// Balls of small object angles fill the edges; below this angle, their number grows but not their gain.
 constexpr double kObjectAngle = 0.3;
 
-constexpr std::size_t kGapPeriod = 8;   // of so many balls one is placed for its distance, not its volume
-constexpr std::size_t kFirstGap = 16;   // not while the rough shape is missing
-constexpr double kAsGood = 0.4;         // of what the best ball adds: one placed for its distance is then preferred
-constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the one wanted
+constexpr std::size_t kGapPeriod = 8;   // one of so many balls is placed by distance instead of volume
+constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
+constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
+constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
 
 constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
 
 /// Step lengths of sliding, in radii of the ball.
 constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05;
 constexpr int kOwnSlides = 3, kSweeps = 6;
-constexpr double kEnough = 2e-3;  // of what the new ball added: a sweep that gains less is the last
+constexpr double kEnough = 2e-3;  // share of the gain of the new ball: a sweep that gains less is the last
 
 class Placing {
  public:
@@ -100,7 +100,8 @@ class Placing {
     return request_.max_gap > 0 ? gap_met() : true;
   }
 
-  /// What is reported is measured otherwise than by the steps of balanced balls, which say when to measure it.
+  /// The reported error is measured independently of the estimate by the steps of balanced balls, which decides when to
+  /// measure.
   Result<bool> error_met() {
     const double error = moves_->error(balls_);
     if (!(error <= estimated_error_)) return false;
@@ -113,7 +114,7 @@ class Placing {
     return false;
   }
 
-  /// Samples say when to ask for a proof; one that fails says how much lower they must be.
+  /// Samples decide when to try a proof; one that fails determines how much lower they must be.
   Result<bool> gap_met() {
     const double sampled = gaps_.widest_on_boundary().size;
     if (!(sampled <= sampled_gap_)) return false;
@@ -155,7 +156,7 @@ class Placing {
                                            n == 1 ? "ball leaves" : "balls leave", left)};
   }
 
-  /// The next medial points, if there are enough balls for them.
+  /// Switches to the next finer medial points, if there are enough balls for them.
   Status find_candidates() {
     if (request_.resolution > 0) return levels_ > 0 ? Status() : extract(request_.resolution);
     while (levels_ < kLevels.size() && kLevels[levels_].from <= balls_.size()) {
@@ -169,7 +170,7 @@ class Placing {
     ExtractionOptions parameters;
     parameters.resolution = resolution;
     parameters.object_angle = kObjectAngle;
-    // Not every voxel needs its point: what parts of voxels are searched for is little, and takes time.
+    // Not every voxel needs its point: a search in parts of voxels finds little and takes time.
     parameters.extra_levels = 0;
     parameters.threads = request_.threads;
     const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
@@ -180,7 +181,7 @@ class Placing {
     return {};
   }
 
-  /// Where much is equally good, as in a plate that is wide for its thickness, distance decides.
+  /// Where many balls are equally good, as in a plate that is wide for its thickness, distance decides.
   Result<std::optional<Candidates::Choice>> choose() {
     Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
     if (best && !best.value() && balls_.size() == 0) return first_from_boundary();
@@ -206,8 +207,8 @@ class Placing {
     return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
   }
 
-  /// Where there are no medial points to choose from (that of a ball is its centre, and easily missed): the largest of
-  /// the balls that touch the boundary at its samples.
+  /// If there are no medial points (that of a ball is its centre, and easily missed): the largest of the balls that
+  /// touch the boundary at its samples.
   Result<std::optional<Candidates::Choice>> first_from_boundary() {
     Ball largest = {{0, 0, 0}, 0};
     for (const GapFinder::Sample& sample : gaps_.samples()) {
@@ -222,13 +223,13 @@ class Placing {
     return std::optional<Candidates::Choice>({largest, gain.value()});
   }
 
-  /// Half way to the balls, or, if that is outside, as far as that goes along the normal.
+  /// The point half way to the balls, or, if that is outside, the point at that distance along the normal.
   std::optional<Point> point_inside(const GapFinder::Gap& gap) const {
     if (solid_.contains(gap.towards_balls)) return gap.towards_balls;
     return point_along(gap.at, gap.inward, 0.5 * gap.size);
   }
 
-  /// As far along the normal as is inside: the depth, or half, or a quarter of it ...
+  /// A point inside along the normal: at the depth, or half, or a quarter of it ...
   std::optional<Point> point_along(const Point& at, const Point& inward, double depth) const {
     for (int tries = 0; tries < 16; ++tries, depth /= 2) {
       const Point inside = at + depth * inward;
@@ -266,7 +267,7 @@ class Placing {
     return {};
   }
 
-  /// What a ball leaves uncovered beside its neighbours lies around their common points.
+  /// The uncovered volume between a ball and its neighbours lies around their common points.
   void add_candidates_at_vertices(std::span<const std::uint32_t> around) {
     std::vector<Ball> balls;
     for (const std::uint32_t place : around) {
@@ -278,7 +279,7 @@ class Placing {
     candidates_.add(balls);
   }
 
-  /// One step of one ball: what it gained.
+  /// One step of one ball; returns the gain.
   Result<double> move(std::uint32_t place) {
     Result<double> gain = moves_->take(balls_, place, steps_[place]);
     if (gain && gain.value() > 0) note_change();
@@ -311,15 +312,15 @@ class Placing {
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
   std::size_t levels_ = 0;
-  double shown_ = 0;             // share of the work, as progress was told
+  double shown_ = 0;             // reported share of the work
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
-  double estimated_error_;     // what the steps must show before it is measured
-  double sampled_gap_;         // what samples must show before a proof is tried
-  std::vector<double> steps_;  // by place
+  double estimated_error_;     // estimate of the steps below which the error is measured
+  double sampled_gap_;         // gap of samples below which a proof is tried
+  std::vector<double> steps_;  // by slot
 };
 
-/// Of any coordinate or radius of a ball in the box.
+/// Limit of coordinates and radii of balls in the box.
 double largest_number(const MeshReport& report) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {

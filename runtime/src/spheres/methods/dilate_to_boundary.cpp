@@ -16,7 +16,7 @@ class Growth {
     for (std::size_t i = 0; i < balls.size(); ++i) radii_[i] = balls[i].radius;
   }
 
-  /// The balls that make a point of the envelope reach the boundary point nearest to it.
+  /// The balls that form a point of the envelope grow to the boundary point nearest to it.
   template <class Indices>
   void reach(const Point& at, const Indices& makers) {
     const Point target = solid_.closest(at).point;

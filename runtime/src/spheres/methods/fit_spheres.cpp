@@ -15,7 +15,7 @@
 namespace medial_vk {
 namespace {
 
-/// How the methods, which run on several threads, report and are stopped.
+/// Progress and stop of the methods, which run on several threads.
 SphereProgress guarded(const StageProgress& progress, const std::stop_token& stop) {
   return [&progress, &stop, mutex = std::make_shared<std::mutex>()](const char* stage, double done) {
     const std::lock_guard lock(*mutex);
@@ -24,7 +24,7 @@ SphereProgress guarded(const StageProgress& progress, const std::stop_token& sto
   };
 }
 
-/// Better no spheres than some that do not keep what they promise.
+/// Spheres that violate the contract are not returned.
 Status check_promise(SphereContract contract, const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
   if (contract == SphereContract::kInside && !inside.proved()) {
@@ -38,8 +38,9 @@ Status check_promise(SphereContract contract, const SphereMeasures& measures) {
   return {};
 }
 
-/// No point of a ball is farther out than radius and distance to the boundary say: less than their difference if the
-/// centre is inside, their sum if it is not. Nothing is outside where the contract says so.
+/// The distance of a point of a ball outside the solid is at most the difference of radius and distance of the centre
+/// to the boundary if the centre is inside, and at most their sum if it is not. Contract inside excludes points
+/// outside.
 ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector<Ball>& balls) {
   ReachOut reach;
   if (contract == SphereContract::kInside || balls.empty()) return reach;
@@ -76,7 +77,7 @@ Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Ex
   return out;
 }
 
-/// The method source may have no set of so few balls; one of a few more has the curve, too.
+/// Method source may have no set of so few balls; one of more balls contains the curve, too.
 Result<SphereSet> inside_of_at_least(const Solid& solid, SphereOptions options, const Extractor& extractor,
                                      const SphereProgress& progress) {
   options.contract = SphereContract::kInside;
@@ -96,7 +97,7 @@ Result<CoverageCurve> curve_of(const Solid& solid, const SphereOptions& options,
   CoverageCurve out;
   if (solid.has_volume()) out.solid_volume = solid.volume();
   out.ends = options.method == SphereMethod::kBest && set.value().balls.size() < options.count;
-  out.covered = std::move(set.value().volumes);  // the method best has them; other sets are measured by their prefixes
+  out.covered = std::move(set.value().volumes);  // from method best; other sets are measured by prefixes
   if (!out.covered.empty()) return out;
   Result<std::vector<double>> volumes = prefix_volumes(set.value().balls, options.threads);
   if (!volumes) return volumes.error();
@@ -104,7 +105,7 @@ Result<CoverageCurve> curve_of(const Solid& solid, const SphereOptions& options,
   return out;
 }
 
-/// No exception leaves here.
+/// Throws no exception.
 template <class Work>
 auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
     -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {

@@ -9,8 +9,8 @@
 namespace medial_vk {
 namespace {
 
-/// The numbers of balls that are in, the one with the least share first; of equal ones the later first, so that the
-/// order does not depend on how it is sorted.
+/// Indices of the balls in the union, by increasing share; of equal ones the later first, so that the order does not
+/// depend on the sorting algorithm.
 std::vector<std::uint32_t> least_first(const ShrinkingUnion& balls, std::size_t count) {
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ Status order_by_share(std::vector<Ball>& balls, unsigned threads) {
   std::vector<std::uint32_t> order;  // the last first
   while (order.size() < balls.size()) {
     const std::vector<std::uint32_t> left = least_first(shrinking.value(), balls.size());
-    // One at a time where it matters; of many, a hundredth and a half at once, so that the time stays near n log n.
+    // One at a time if there are few; of many, one and a half percent at once, so that the time stays near n log n.
     const std::size_t going = std::max<std::size_t>(1, left.size() / 64);
     const std::span<const std::uint32_t> next(left.data(), going);
     order.insert(order.end(), next.begin(), next.end());

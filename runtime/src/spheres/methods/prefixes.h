@@ -1,4 +1,4 @@
-// Sets of balls whose beginnings are good sets, too: their order, and what each beginning is worth.
+// Orders of balls whose prefixes are good sets, too, and the volume of each prefix.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace medial_vk {
 
-/// Puts the balls that matter most first: from the end, the ball with the least volume in its power cell among those
-/// that are left goes next. The same balls give the same order on any number of `threads` (0: all). Errors: those of
+/// Orders balls by importance: from the end, the next ball is the one with the least volume in its power cell among the
+/// remaining ones. The order is the same for any number of `threads` (0: one per core). Errors: those of
 /// ShrinkingUnion::build().
 Status order_by_share(std::vector<Ball>& balls, unsigned threads = 0);
 
@@ -20,7 +20,7 @@ Status order_by_share(std::vector<Ball>& balls, unsigned threads = 0);
 /// Errors: those of ShrinkingUnion::build().
 Result<std::vector<double>> prefix_volumes(std::span<const Ball> balls, unsigned threads = 0);
 
-/// N, N/2, N/4 ... 1, the smallest first: how many balls each of the levels has.
+/// N, N/2, N/4 ... 1, the smallest first: the numbers of balls of the levels.
 std::vector<std::size_t> level_counts(std::size_t count);
 
 }  // namespace medial_vk

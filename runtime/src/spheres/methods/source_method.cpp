@@ -18,7 +18,7 @@ Error source_usage(std::string message) { return {ErrorCode::kUsage, std::move(m
 constexpr std::uint32_t kFinestGrid = 4096;  // the range of ExtractionOptions::resolution
 constexpr std::uint32_t kFirstGrid = 4;
 
-/// Looks for the grid; every attempt is an extraction.
+/// Searches the grid; every attempt is an extraction.
 class GridSearch {
  public:
   GridSearch(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
@@ -45,7 +45,7 @@ class GridSearch {
     parameters.resolution = resolution;
     parameters.object_angle = request_.object_angle;
     const double begun = static_cast<double>(attempts_++);
-    // How many attempts there will be is not known: each takes half of what is left of the bar.
+    // The number of attempts is unknown in advance: each takes half of the remaining progress.
     parameters.threads = request_.threads;
     const SphereProgress part = [&](const char*, double done) {
       return !progress_ || progress_("spheres", 1 - 1 / (1 + 0.25 * (begun + done)));
@@ -53,7 +53,8 @@ class GridSearch {
     return find_medial_balls(solid_, parameters, extractor_, part);
   }
 
-  /// Share of the volume that no ball covers (Lemma 7.1: exact, as no ball is outside); nothing for solids without one.
+  /// Share of the volume that no ball covers (Lemma 7.1: exact, as no ball is outside); no value for solids without a
+  /// volume.
   std::optional<double> error_of(const std::vector<Ball>& balls) const {
     if (!(solid_.volume() > 0)) return std::nullopt;
     const Result<BallUnion> measured = measure_ball_union(balls, {request_.threads, false});
@@ -68,7 +69,7 @@ class GridSearch {
     return best_.empty() ? no_balls() : Status();
   }
 
-  /// Is the grid within the count? The largest set that is gets kept; of equal ones the finer.
+  /// True if the grid gives no more balls than the count. Keeps the largest such set; of equal ones the finer.
   Result<bool> within_count(std::uint32_t resolution) {
     Result<std::vector<Ball>> balls = balls_at(resolution);
     if (!balls) return balls.error();
@@ -87,7 +88,7 @@ class GridSearch {
   }
 
   /// The last grid, from `low` on, for which `holds` gives `begins`, and the first for which it does not, by doubling
-  /// and then bisection; as if it changed once.
+  /// and then bisection, under the assumption of a single change.
   template <class Holds>
   Result<std::uint32_t> search(Holds holds, bool begins) {
     std::uint32_t low = 0, high = kFirstGrid;

@@ -1,4 +1,4 @@
-// Sets of balls as the methods make them.
+// Sets of balls, the results of the methods.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace medial_vk {
 struct SphereSet {
   /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).
   std::vector<Ball> balls;
-  /// Of the method best, balls inside: volume of the union when there were 1, 2, 3 ... balls, which is the same for
-  /// every number wanted. (Not that of the first balls here: balls move while others come.)
+  /// Method best, contract inside: volume of the union after 1, 2, 3 ... balls, which is the same for every requested
+  /// number. (Not that of the first balls here, as balls move while others are added.)
   std::vector<double> volumes = {};
-  /// Likewise, the balls when there were 1, 4, 16, 64, 128, 256 ... of them, by that number, and all that there are; of
-  /// the method best, balanced: when there were as many as a level has.
+  /// Likewise, the balls after 1, 4, 16, 64, 128, 256 ... of them, by that number, and the final ones; method best,
+  /// balanced: the balls at the numbers of the levels.
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };
 

@@ -13,25 +13,26 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSpherePoints = 256;
-constexpr double kLeastCosine = 0.3;  // of a normal of the ball and the way to the boundary: that is oblique, not far
-constexpr double kAcross = 0.999;     // of a face's normal and the way to its inner points, at least
+constexpr double kLeastCosine =
+    0.3;  // of a normal of the ball and the direction to the boundary; less is oblique, not far
+constexpr double kAcross = 0.999;  // least one of a face's normal and the direction to its inner points
 constexpr int kRounds = 8;
 constexpr double kRidge = 1e-3;
 
-/// How far the boundary is from a sphere at one of its points, along its normal; positive: outwards.
+/// The signed distance of the boundary from a sphere at one of its points, along its normal; positive: outwards.
 struct Height {
   Point normal;
   double value;
 };
 
-/// Centre and radius change by these.
+/// Changes of centre and radius.
 struct Change {
   Point move{};
   double growth = 0;
 };
 
 /// The change that leaves the least sum of |height - growth - move . normal|, by least squares whose weights are the
-/// inverses of what the round before has left (iteratively reweighted least squares). `unit`: of a length.
+/// inverses of the residuals of the previous round (iteratively reweighted least squares). `unit`: a unit of length.
 Change least_absolute(const std::vector<Height>& heights, double unit) {
   Eigen::Vector4d change = Eigen::Vector4d::Zero();
   for (int round = 0; round < kRounds; ++round) {
@@ -44,7 +45,7 @@ Change least_absolute(const std::vector<Height>& heights, double unit) {
       matrix += weight * row * row.transpose();
       right += weight * height.value * row;
     }
-    // What a few points on one side do not tell apart, growing and moving, is shared among them.
+    // A few points on one side do not distinguish growth and motion; the change is then divided between them.
     matrix.diagonal().array() += kRidge * matrix(3, 3);
     change = matrix.ldlt().solve(right);
   }
@@ -65,7 +66,7 @@ class BalancingSteps : public BallSteps {
   }
 
  private:
-  /// Those that meet the ball, or would if it moved so far; those that hold most of it first.
+  /// Balls that meet the ball, or would after such a motion; those that hold most of it first.
   void find_others(const DynamicUnion& balls, std::uint32_t place, double reach) {
     const Ball& ball = balls.ball(place);
     std::vector<std::pair<double, Ball>> found;
@@ -99,7 +100,7 @@ class BalancingSteps : public BallSteps {
     return moved.radius > 0 ? std::optional(moved) : std::nullopt;
   }
 
-  /// Among the others that propose() has found: a step is at most as long as it was told.
+  /// Among the others that propose() has found: no step is longer than its limit there.
   Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
     const double gain = difference_.change(balls.ball(place), others_) - difference_.change(to, others_);
     if (!(gain > 0)) return 0.0;
@@ -125,7 +126,7 @@ class BalancingSteps : public BallSteps {
     return sign * distance / std::max(sign * dot(towards, normal), kLeastCosine);
   }
 
-  /// Where the nearest point is no edge's, and every face has the solid behind it, that face knows.
+  /// Where the nearest point is not on an edge, and every face has the solid behind it, that face decides.
   bool is_inside(const Point& at, const Point& towards, std::uint32_t triangle) const {
     if (!solid_.has_volume()) return solid_.contains(at);
     const Mesh& mesh = solid_.mesh().mesh;

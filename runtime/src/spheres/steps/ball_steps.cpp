@@ -5,7 +5,7 @@
 namespace medial_vk {
 
 Result<double> BallSteps::take(DynamicUnion& balls, std::uint32_t place, double& step) {
-  // In radii: a ball whose step is shorter is where it should be.
+  // In radii: a ball whose step is shorter has converged.
   constexpr double kLongestStep = 0.5, kShortestStep = 1e-3;
   if (step < kShortestStep * balls.ball(place).radius) return 0.0;
   const std::optional<Ball> to = propose(balls, place, step);

@@ -1,4 +1,4 @@
-// Medial balls to choose from, by what they would add to a union.
+// Medial balls as candidates, by the volume that they would add to a union.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace medial_vk {
 
-/// What a ball adds never grows while others come (volume is submodular), so an old answer bounds the new one, and few
-/// balls are asked about anew for each choice (M. Minoux, "Accelerated greedy algorithms", 1978). If balls of the union
-/// have moved meanwhile, old answers are estimates: the choice may then miss the best by what a move has uncovered.
+/// The gain of a ball never grows while others are added (volume is submodular), so an old gain bounds the new one, and
+/// few gains are recomputed for each choice (M. Minoux, "Accelerated greedy algorithms", 1978). If balls of the union
+/// have moved meanwhile, old gains are estimates: the choice may then miss the best by the volume that a move has
+/// uncovered.
 class Candidates {
  public:
   void add(std::span<const Ball> balls);
@@ -22,14 +23,15 @@ class Candidates {
     Ball ball;
     double gain;
   };
-  /// The ball that adds most, which is no candidate any more; nothing if none adds anything. Error: kOutOfMemory.
+  /// The ball with the greatest gain, which is then no candidate any more; no value if none has a gain. Error:
+  /// kOutOfMemory.
   Result<std::optional<Choice>> take_best(DynamicUnion& balls);
 
  private:
   struct Entry {
     double gain;
     std::uint32_t candidate;
-    std::uint32_t asked;  // in the round of that number
+    std::uint32_t asked;  // number of the round of the last evaluation
     bool operator<(const Entry& other) const {
       return gain != other.gain ? gain < other.gain : candidate > other.candidate;
     }

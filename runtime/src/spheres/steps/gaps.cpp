@@ -35,7 +35,7 @@ std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
     total += areas.back();
   }
   std::vector<BoundarySample> samples;
-  // Of very fine meshes some corners will do.
+  // For very fine meshes a part of the corners suffices.
   const std::size_t stride = mesh.vertices.size() / kSamples + 1;
   for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
     const double size = length(at_corner[v]);
@@ -86,7 +86,7 @@ double GapFinder::refresh(Sample& sample) const {
   return least;
 }
 
-/// The ball that was nearest bounds each gap, so few must be measured anew.
+/// The ball that was nearest bounds each gap, so few must be remeasured.
 GapFinder::Gap GapFinder::widest_on_boundary() {
   std::vector<std::pair<double, std::uint32_t>> bounds;
   for (std::uint32_t k = 0; k < samples_.size(); ++k) {
@@ -112,7 +112,7 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
   if (known_[place]) return deepest;
   deepest = {};
   const Result<std::vector<Point>> vertices = balls_.vertices(place);
-  if (!vertices) throw std::bad_alloc();  // its only error for a ball that is there
+  if (!vertices) throw std::bad_alloc();  // its only error for an occupied slot
   for (const Point& vertex : vertices.value()) {
     const double depth = solid_.distance(vertex);
     if (!(depth > deepest.size) || (reach_out_ && !solid_.contains(vertex))) continue;

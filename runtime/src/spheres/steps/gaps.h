@@ -1,4 +1,4 @@
-// Where a union of balls inside a solid is farthest from the solid's boundary.
+// Gaps: the points at which a union of balls inside a solid is farthest from the solid's boundary.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// Among samples of the boundary and the vertices of the union's envelope: for choosing balls, not for promises.
+/// Found among samples of the boundary and the vertices of the envelope: for the choice of balls, not for proofs.
 class GapFinder {
  public:
   /// Keeps references to both. `reach_out`: balls may, so vertices of the envelope that are outside are left out.
@@ -19,16 +19,18 @@ class GapFinder {
   struct Gap {
     Point at = {0, 0, 0};
     double size = 0;
-    Point towards_balls = {0, 0, 0};  ///< Of one on the boundary: half way to the nearest ball, if there is one.
-    Point inward = {0, 0, 0};         ///< The same: a unit normal into the solid, of a corner the mean one.
+    /// For a gap on the boundary: the point half way to the nearest ball, if there is one.
+    Point towards_balls = {0, 0, 0};
+    /// For a gap on the boundary: a unit normal into the solid, at a corner the mean one.
+    Point inward = {0, 0, 0};
   };
-  /// After the union has changed at a place, or a ball came or went there.
+  /// To be called after a change, addition or removal of the ball in a slot.
   void forget(std::uint32_t place);
   /// The point of the boundary that is farthest from the balls.
   Gap widest_on_boundary();
   /// The vertex of the envelope inside the solid that is farthest from the boundary.
   Gap deepest_vertex();
-  /// The same among those of one ball; nothing if it has none.
+  /// The same among those of one ball; no value if it has none.
   std::optional<Point> deepest_vertex(std::uint32_t place);
 
   struct Sample {
@@ -47,8 +49,8 @@ class GapFinder {
   const DynamicUnion& balls_;
   bool reach_out_;
   std::vector<Sample> samples_;
-  std::vector<Gap> deepest_;         // by place
-  std::vector<std::uint8_t> known_;  // by place
+  std::vector<Gap> deepest_;         // by slot
+  std::vector<std::uint8_t> known_;  // by slot
 };
 
 }  // namespace medial_vk

@@ -21,12 +21,12 @@ void Slider::find_contacts(const Ball& ball, double reach) {
   }
 }
 
-/// Moving the centre by d lets the radius grow by the least of gap_k + away_k . d, which never promises more than the
-/// contacts allow, as the distance from a point is convex. The step wanted is the greatest of
+/// Moving the centre by d lets the radius grow by the least of gap_k + away_k . d, which never exceeds the limit by the
+/// contacts, as the distance from a point is convex. The step maximises
 ///   vector . d + area min_k (gap_k + away_k . d) - |d|^2 / (2 pace),
 /// and is d = pace (vector + area m), where m is the average of contacts whose weights w minimise the dual
 ///   pace / 2 |vector + area m|^2 + area sum_k w_k gap_k.
-/// Weight is moved from the worst contact that has some to the best one, as far as that pays.
+/// Weight is moved from the worst contact with positive weight to the best one, as long as that lowers the dual.
 Point Slider::average_of_contacts(const Exposure& exposure, double pace, double accuracy) {
   constexpr int kMostMoves = 128;
   const auto nearest = std::min_element(contacts_.begin(), contacts_.end(),

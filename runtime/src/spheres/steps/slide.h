@@ -1,4 +1,4 @@
-// Where a ball of a union should go so that the union grows most, while it stays inside the solid.
+// The motion of a ball for which a union grows most, while the ball stays inside the solid.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ class Slider {
  public:
   explicit Slider(const Solid& solid) : solid_(solid) {}
 
-  /// How the centre of the ball should move, at most by `step`, for the union to gain most to first order, where the
-  /// boundary within reach lets the radius follow. Zero if no direction gains anything.
+  /// The motion of the centre, at most by `step`, with the greatest gain of the union to first order, where the
+  /// boundary within reach determines the radius. Zero if no direction gains anything.
   Point direction(const Ball& ball, const Exposure& exposure, double step);
 
  private:

@@ -14,7 +14,7 @@ struct Crossing {
   double at;
 };
 
-/// The triangles of a mesh as lines along one axis see them.
+/// The crossings of the triangles of a mesh with lines along one axis.
 class Shadow {
  public:
   Shadow(const Mesh& mesh, std::size_t axis, const std::array<std::size_t, 2>& across)
@@ -42,8 +42,8 @@ class Shadow {
     return static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, static_cast<double>(count)));
   }
 
-  /// Twice the area of a, b and the line. Triangles that share an edge get the same number for it but for the sign, so
-  /// the line passes just one of them, whatever is rounded.
+  /// Twice the area of a, b and the line. Triangles that share an edge get the same number for it except for the sign,
+  /// so the line passes exactly one of them, for any rounding.
   double side_of(std::uint32_t a, std::uint32_t b, const std::array<double, 2>& at) const {
     if (a > b) return -side_of(b, a, at);
     return (flat(b, 0) - flat(a, 0)) * (at[1] - flat(a, 1)) - (flat(b, 1) - flat(a, 1)) * (at[0] - flat(a, 0));

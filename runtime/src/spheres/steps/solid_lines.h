@@ -1,4 +1,4 @@
-// Parallel lines along the three axes, and where they run inside a solid (dexels; T. Van Hook, "Real-time shaded NC
+// Parallel lines along the three axes, and their stretches inside a solid (dexels; T. Van Hook, "Real-time shaded NC
 // milling display", 1986): integrals over space become sums over lines, exact along each.
 #pragma once
 
@@ -15,8 +15,9 @@ namespace medial_vk {
 /// Safe to share between threads.
 class SolidLines {
  public:
-  /// Lines through the middles of equal rectangles that fill the solid's box, `per_side` along its longest side, as
-  /// close along the others, but at least `least`; for every axis. The mesh is closed. Throws std::bad_alloc.
+  /// For every axis, lines through the middles of equal rectangles that fill the solid's box: `per_side` along its
+  /// longest side, and with the same spacing along the others, but at least `least`. Precondition: a closed mesh.
+  /// Throws std::bad_alloc.
   SolidLines(const Solid& solid, std::size_t per_side, std::size_t least);
 
   struct Stretch {
@@ -43,7 +44,7 @@ class SolidLines {
     }
   };
   const Bundle& along(std::size_t axis) const { return bundles_[axis]; }
-  /// Of the solid, as the mean over the axes.
+  /// Volume of the solid, as the mean over the axes.
   double volume() const;
 
  private:

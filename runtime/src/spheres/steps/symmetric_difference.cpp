@@ -64,7 +64,7 @@ std::ptrdiff_t SymmetricDifference::first_line(const SolidLines::Bundle& bundle,
   return static_cast<std::ptrdiff_t>(std::ceil((from - bundle.first[k]) / bundle.spacing[k]));
 }
 
-/// Where the line at x of the row is in the ball and in no other.
+/// The stretches of the line at x of the row in the ball and in no other.
 void SymmetricDifference::find_left(const Disc& ball, double x) {
   const auto stretch = [x](const Disc& disc) {
     const double half = std::sqrt(std::max(0.0, disc.squared - (x - disc.across) * (x - disc.across)));

@@ -1,4 +1,4 @@
-// What a ball adds to the volume between a solid and a union of balls.
+// The contribution of a ball to the volume between a solid and a union of balls.
 #pragma once
 
 #include <span>
@@ -9,26 +9,26 @@
 
 namespace medial_vk {
 
-/// vol(U \ solid) + vol(solid \ U), estimated along lines. What is added up while balls come and move is the estimate
-/// for the balls that there are then: it does not drift. For one thread.
+/// vol(U \ solid) + vol(solid \ U), estimated along lines. The sum of contributions while balls are added and moved
+/// equals the estimate for the present balls: it does not drift. For one thread.
 class SymmetricDifference {
  public:
   /// Of a closed mesh. Throws std::bad_alloc.
   explicit SymmetricDifference(const Solid& solid);
 
-  /// Of no balls: that of the solid.
+  /// The value without balls: the volume of the solid.
   double of_none() const { return lines_.volume(); }
 
-  /// Of a union of these balls, one more than of `others`: the volume of what only this one holds outside the solid,
-  /// less that inside. Mesh units cubed.
+  /// The change by this ball of the value for `others`: the volume that only this ball holds outside the solid, less
+  /// that inside. Mesh units cubed.
   double change(const Ball& ball, std::span<const Ball> others);
 
  private:
   using Stretch = SolidLines::Stretch;
-  /// What a plane of lines cuts out of a ball.
+  /// The disc in which a plane of lines meets a ball.
   struct Disc {
     double across, along;  // its centre
-    double squared;        // of its radius; not positive: nothing
+    double squared;        // of its radius; not positive: empty
   };
   static Disc slice(const Ball& ball, std::size_t axis, std::size_t across, double off);
   double change_along(const Ball& ball, std::span<const Ball> others, std::size_t axis);
@@ -38,7 +38,7 @@ class SymmetricDifference {
 
   SolidLines lines_;
   std::vector<Disc> in_row_;          // of the other balls
-  std::vector<Stretch> left_, next_;  // of a line: what the ball alone holds
+  std::vector<Stretch> left_, next_;  // of a line: the stretches that only the ball holds
 };
 
 }  // namespace medial_vk
