@@ -9,7 +9,7 @@
 #include "device/context_impl.h"
 #include "device_mesh/device_mesh.h"
 #include "extraction/certified/certified_extraction.h"
-#include "extraction/common/check_parameters.h"
+#include "extraction/common/check_options.h"
 #include "extraction/thesis/thesis_extraction.h"
 #include "queries/scene_impl.h"
 
@@ -20,7 +20,7 @@ namespace {
 template <class Extract>
 Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallback& progress,
                            const std::stop_token& stop, const Extract& extract) {
-  if (Status s = check_parameters(options); !s.ok()) return s.error();
+  if (Status s = check_options(options); !s.ok()) return s.error();
   StopWatch watch(progress, stop);
   Result<Extraction> extraction = catch_out_of_memory("extracting medial spheres", [&] { return extract(watch); });
   if (extraction.ok() && progress) progress(1.0);

@@ -13,7 +13,7 @@
 #include "device/context_impl.h"
 #include "device_mesh/device_mesh.h"
 #include "extraction/certified/certified_pipeline.h"
-#include "extraction/common/check_parameters.h"
+#include "extraction/common/check_options.h"
 #include "extraction/common/extraction_result.h"
 
 namespace medial_vk {
@@ -82,11 +82,11 @@ struct ExtractionJob::Impl {
   };
 
   Impl(Context::Impl& c, const ExtractionOptions& p, const JobOptions& o, StopWord s, DeviceMesh m)
-      : context(c), parameters(p), options(o), stop(std::move(s)), mesh(std::move(m)), arena(c) {}
+      : context(c), options(p), job(o), stop(std::move(s)), mesh(std::move(m)), arena(c) {}
 
   Context::Impl& context;
-  ExtractionOptions parameters;
-  JobOptions options;
+  ExtractionOptions options;
+  JobOptions job;
   StopWord stop;  // never raised
   DeviceMesh mesh;
   Arena arena;
@@ -102,9 +102,9 @@ struct ExtractionJob::Impl {
 };
 
 Status ExtractionJob::Impl::prepare() {
-  const std::uint32_t n = parameters.resolution;
+  const std::uint32_t n = options.resolution;
   // Memory for any shape of the box, as the mesh moves.
-  Result<CertifiedPipeline> made = CertifiedPipeline::create(context, mesh, parameters, {n, n, n}, stop);
+  Result<CertifiedPipeline> made = CertifiedPipeline::create(context, mesh, options, {n, n, n}, stop);
   if (!made.ok()) return made.error();
   pipeline.emplace(std::move(made).value());
   if (Status status = make_buffers(); !status.ok()) return status;
@@ -115,8 +115,8 @@ Status ExtractionJob::Impl::make_buffers() {
   Result<Buffer> shared = arena.create_buffer(kCountsBytes, MemoryKind::kDevice, "counts of a job");
   if (!shared.ok()) return shared.error();
   counts = shared.value();
-  frames.reserve(options.frames);
-  for (std::uint32_t i = 0; i < options.frames; ++i) {
+  frames.reserve(job.frames);
+  for (std::uint32_t i = 0; i < job.frames; ++i) {
     Frame& frame = frames.emplace_back(context);
     if (Status status = frame.staged.reserve(mesh.update_bytes()); !status.ok()) return status;
     Result<Buffer> own = arena.create_buffer(kCountsBytes, MemoryKind::kReadback, "counts of a job");
@@ -130,10 +130,10 @@ Status ExtractionJob::Impl::make_buffers() {
 Status ExtractionJob::Impl::append(Recorder& r, const Frame& frame) {
   r.barrier_to_others();
   if (!frame.staged.empty()) frame.staged.record(r);
-  pipeline->set_grid(make_grid(mesh, parameters.resolution).size);
+  pipeline->set_grid(make_grid(mesh, options.resolution).size);
   if (Status status = pipeline->record(r, 0, pipeline->top_cells()); !status.ok()) return status;
   const BufferRange buffers[] = {pipeline->counters().range(), counts.range()};
-  r.dispatch({"write_counts", 2, 0, 4, 1, {}}, buffers, {}, bytes_of(options.vertices_per_sphere), 1);
+  r.dispatch({"write_counts", 2, 0, 4, 1, {}}, buffers, {}, bytes_of(job.vertices_per_sphere), 1);
   r.barrier();
   r.copy(counts, 0, frame.counts, 0, kCountsBytes);
   r.barrier_to_others();
@@ -141,9 +141,9 @@ Status ExtractionJob::Impl::append(Recorder& r, const Frame& frame) {
   return r.status();
 }
 
-Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh& mesh,
-                                            const ExtractionOptions& options, const JobOptions& job) {
-  if (Status status = check_parameters(options); !status.ok()) return status.error();
+Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+                                            const JobOptions& job) {
+  if (Status status = check_options(options); !status.ok()) return status.error();
   if (options.mode != Mode::kCertified || job.frames == 0)
     return Error{ErrorCode::kUsage, "a recorded job is of mode certified, and of one frame at least"};
   return catch_out_of_memory("preparing a job", [&]() -> Result<ExtractionJob> {

@@ -18,13 +18,13 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Builder {
  public:
-  Builder(const VoxelGraph& graph, const MedialMeshOptions& parameters)
-      : graph_(graph), parameters_(parameters), hosts_(graph.size(), kNone) {
+  Builder(const VoxelGraph& graph, const MedialMeshOptions& options)
+      : graph_(graph), options_(options), hosts_(graph.size(), kNone) {
     for (std::uint32_t place = 0; place < graph.size(); ++place) find_leader(place);
   }
 
   Result<MedialMesh> run() {
-    Result<BallUnion> grown = measure_ball_union(grown_balls(), {parameters_.threads, true});
+    Result<BallUnion> grown = measure_ball_union(grown_balls(), {options_.threads, true});
     if (!grown) return grown.error();
     const DualComplex surface = collapse_to_surface(grown.value().complex, rule());
     host_hidden(surface.vertices);
@@ -50,7 +50,7 @@ class Builder {
   /// Points close together at the wall between two voxels are copies of one point of the medial surface, in an
   /// arbitrary order along the normal. The first of them that has no representative itself represents them.
   void find_leader(std::uint32_t place) {
-    const double reach = 2 * parameters_.epsilon;
+    const double reach = 2 * options_.epsilon;
     for (const std::uint32_t other : graph_.neighbours(place)) {
       if (other > place) return;
       if (hosts_[other] != kNone || squared_distance(place, other) > reach * reach) continue;
@@ -66,7 +66,7 @@ class Builder {
     for (std::uint32_t place = 0; place < graph_.size(); ++place) {
       const MedialSphere& sphere = graph_.sphere(place);
       // A ball without a radius is no part of the complex.
-      const double radius = hosts_[place] == kNone ? std::hypot(sphere.radius, parameters_.growth) : 0;
+      const double radius = hosts_[place] == kNone ? std::hypot(sphere.radius, options_.growth) : 0;
       balls.push_back({sphere.centre, radius});
     }
     return balls;
@@ -100,7 +100,7 @@ class Builder {
   }
 
   const VoxelGraph& graph_;
-  const MedialMeshOptions& parameters_;
+  const MedialMeshOptions& options_;
   // by position: the point that represents it, or none if it is a vertex of the complex
   std::vector<std::uint32_t> hosts_;
 };

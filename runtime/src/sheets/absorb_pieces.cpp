@@ -17,11 +17,11 @@ constexpr std::uint32_t kFree = 0xffffffffu;
 
 class Absorption {
  public:
-  Absorption(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
+  Absorption(const VoxelGraph& graph, double voxel_size, const SheetOptions& options,
              std::vector<std::uint32_t>& piece_of)
       : graph_(graph),
         voxel_size_(voxel_size),
-        parameters_(parameters),
+        options_(options),
         piece_of_(piece_of),
         nearest_(graph.size(), kFree),
         is_small_(graph.size()) {
@@ -44,7 +44,7 @@ class Absorption {
 
  private:
   void judge_pieces() {
-    parallel_for(places_.size(), 16, parameters_.threads, [&](std::size_t piece) { judge(places_[piece]); });
+    parallel_for(places_.size(), 16, options_.threads, [&](std::size_t piece) { judge(places_[piece]); });
   }
 
   void judge(std::span<const std::uint32_t> piece) {
@@ -55,7 +55,7 @@ class Absorption {
   /// Frees the points of small components that touch others.
   void set_small_pieces_free() {
     std::vector<std::uint8_t> goes(places_.size());
-    parallel_for(places_.size(), 16, parameters_.threads, [&](std::size_t piece) {
+    parallel_for(places_.size(), 16, options_.threads, [&](std::size_t piece) {
       const auto touches = [&](std::uint32_t place) { return is_at_border(place); };
       goes[piece] = is_small_[places_[piece].front()] && std::ranges::any_of(places_[piece], touches) ? 1 : 0;
     });
@@ -68,15 +68,15 @@ class Absorption {
   bool is_small(std::span<const std::uint32_t> piece) {
     const auto ends = [&](std::uint32_t place) { return is_at_border(place) || is_rim(graph_, place); };
     if (std::ranges::none_of(piece, ends)) return false;  // around a cavity, of any width
-    if (piece.size() < parameters_.absorb_fragments) return true;
+    if (piece.size() < options_.absorb_fragments) return true;
     double radii = 0;
     for (const std::uint32_t place : piece) radii += graph_.sphere(place).radius;
     const double diameter = 2 * radii / static_cast<double>(piece.size());
     // Rims lie somewhere in their voxels: the component is at least as wide as the sum of its depths on both sides, and
     // may be wider by a voxel. Where a voxel is wide enough for these balls, the grid cannot distinguish narrow
     // components.
-    if (voxel_size_ >= parameters_.width * diameter) return false;
-    return 2 * greatest_depth(piece) < parameters_.width * diameter;
+    if (voxel_size_ >= options_.width * diameter) return false;
+    return 2 * greatest_depth(piece) < options_.width * diameter;
   }
 
   bool is_at_border(std::uint32_t place) const {
@@ -194,7 +194,7 @@ class Absorption {
 
   const VoxelGraph& graph_;
   double voxel_size_;
-  const SheetOptions& parameters_;
+  const SheetOptions& options_;
   std::vector<std::uint32_t>& piece_of_;            // by position: its component, or kNone while it is free
   std::vector<std::vector<std::uint32_t>> places_;  // by component, as at the beginning
   std::vector<std::uint32_t> nearest_;  // by position: the nearest border or rim point of its component, once measured
@@ -203,9 +203,9 @@ class Absorption {
 
 }  // namespace
 
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& options,
                        std::vector<std::uint32_t>& piece_of) {
-  return Absorption(graph, voxel_size, parameters, piece_of).run();
+  return Absorption(graph, voxel_size, options, piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -18,11 +18,11 @@ struct Absorbed {
 };
 
 /// Rewrites `piece_of` (by position, numbers from 0 without gaps). Components that have a neighbour and are narrower
-/// than parameters.width allows, or have fewer points than parameters.absorb_fragments, are all absorbed at once: voxel
+/// than options.width allows, or have fewer points than options.absorb_fragments, are all absorbed at once: voxel
 /// by voxel from their borders inwards, each point by the component that has most of the voxels around it. Small
 /// components that are connected and touch no other are united, and their union may be large enough. The numbers are
 /// those of former components, with gaps. `voxel_size` is the side of the graph's voxels, the resolution of widths.
-Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& parameters,
+Absorbed absorb_pieces(const VoxelGraph& graph, double voxel_size, const SheetOptions& options,
                        std::vector<std::uint32_t>& piece_of);
 
 }  // namespace medial_vk

@@ -10,20 +10,20 @@
 
 namespace medial_vk {
 
-LinkTest::LinkTest(double object_angle, const SheetOptions& parameters)
-    : normals_(std::cos(parameters.angle * std::numbers::pi / 180)),
-      crease_(parameters.crease > 0 ? std::cos(parameters.crease * std::numbers::pi / 180) : 2),
-      salient_(parameters.crease > 0 ? std::cos(2 * object_angle) : -2) {}
+LinkTest::LinkTest(double object_angle, const SheetOptions& options)
+    : normals_(std::cos(options.angle * std::numbers::pi / 180)),
+      crease_(options.crease > 0 ? std::cos(options.crease * std::numbers::pi / 180) : 2),
+      salient_(options.crease > 0 ? std::cos(2 * object_angle) : -2) {}
 
 bool LinkTest::operator()(const MedialSphere& p, const MedialSphere& q) const {
   const double turn = cosine_of_turn(p, q);
   return turn >= crease_ || (turn > salient_ && cosine_of_normals(p, q) >= normals_);
 }
 
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& parameters) {
-  const LinkTest linked(object_angle, parameters);
+std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& options) {
+  const LinkTest linked(object_angle, options);
   ConcurrentSets sets(graph.size());
-  parallel_for(graph.size(), 1024, parameters.threads, [&](std::size_t i) {
+  parallel_for(graph.size(), 1024, options.threads, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
     for (const std::uint32_t other : graph.neighbours(place)) {
       if (other > place && linked(graph.sphere(place), graph.sphere(other))) sets.join(place, other);

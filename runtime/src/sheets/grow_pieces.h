@@ -13,7 +13,7 @@ namespace medial_vk {
 /// which may pass between the two points: agreement of their normals is then no evidence (docs/theory.md, "Sheets").
 class LinkTest {
  public:
-  LinkTest(double object_angle, const SheetOptions& parameters);
+  LinkTest(double object_angle, const SheetOptions& options);
   bool operator()(const MedialSphere& p, const MedialSphere& q) const;
 
  private:
@@ -21,6 +21,6 @@ class LinkTest {
 };
 
 /// By position: the number of its component. Numbers ascend from 0 in the order of first voxels.
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& parameters);
+std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& options);
 
 }  // namespace medial_vk

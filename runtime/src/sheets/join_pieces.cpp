@@ -206,9 +206,9 @@ class Joining {
 
 }  // namespace
 
-void join_pieces(const VoxelGraph& graph, const SheetOptions& parameters, std::vector<std::uint32_t>& piece_of) {
-  if (parameters.crease == 0) return;
-  Joining(graph, parameters.border, piece_of).run();
+void join_pieces(const VoxelGraph& graph, const SheetOptions& options, std::vector<std::uint32_t>& piece_of) {
+  if (options.crease == 0) return;
+  Joining(graph, options.border, piece_of).run();
 }
 
 }  // namespace medial_vk

@@ -106,22 +106,22 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
 }  // namespace
 
 Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
-                   const SheetOptions& parameters, SheetAreas areas) {
-  const VoxelGraph graph(spheres, parameters.threads);
-  std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, parameters);
-  join_pieces(graph, parameters, piece_of);
+                   const SheetOptions& options, SheetAreas areas) {
+  const VoxelGraph graph(spheres, options.threads);
+  std::vector<std::uint32_t> piece_of = grow_pieces(graph, extraction.object_angle, options);
+  join_pieces(graph, options, piece_of);
   Sheets out;
   for (const std::uint32_t piece : piece_of) out.pieces = std::max(out.pieces, std::uint64_t{piece} + 1);
-  const Absorbed absorbed = absorb_pieces(graph, grid.voxel_size, parameters, piece_of);
+  const Absorbed absorbed = absorb_pieces(graph, grid.voxel_size, options, piece_of);
   out.absorbed_pieces = absorbed.pieces;
   out.absorbed_points = absorbed.points;
   std::size_t count = 0;
   const std::vector<std::int32_t> sheet_of = number_sheets(piece_of, count);
-  describe(graph, sheet_of, count, parameters.threads, out);
+  describe(graph, sheet_of, count, options.threads, out);
   for (std::uint32_t place = 0; place < graph.size(); ++place) {
     if (absorbed.is_small[place]) out.marks[graph.index(place)] |= kSmall;
   }
-  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, parameters.threads, out);
+  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, options.threads, out);
   return out;
 }
 

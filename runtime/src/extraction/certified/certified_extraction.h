@@ -8,7 +8,7 @@
 
 namespace medial_vk {
 
-/// As extract_medial_spheres() with Mode::kCertified, whose errors it has. The parameters have been checked.
+/// As extract_medial_spheres() with Mode::kCertified, whose errors it has. The options have been checked.
 Result<Extraction> extract_certified(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                      StopWatch& watch);
 

@@ -55,32 +55,30 @@ std::uint32_t steps_to_narrow(double from, double to) {
 
 }  // namespace
 
-CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh,
-                                     const ExtractionOptions& parameters, const StopWord& stop)
-    : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
+CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+                                     const StopWord& stop)
+    : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {}
 
 Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
-                                                    const ExtractionOptions& parameters,
+                                                    const ExtractionOptions& options,
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
-  CertifiedPipeline p(context, mesh, parameters, stop);
+  CertifiedPipeline p(context, mesh, options, stop);
   // Top cells of 2^k voxels so that 8 to 15 of them lie along the longest side, but at least 4 voxels: their children's
   // lists are of clusters, too, or expanded, before the finest ones test triangles.
-  const std::uint32_t coarsest = std::max(1u, parameters.resolution / kTopCellsAlongSide);
+  const std::uint32_t coarsest = std::max(1u, options.resolution / kTopCellsAlongSide);
   p.top_shift_ = static_cast<std::uint32_t>(std::max(2, static_cast<int>(std::bit_width(coarsest)) - 1));
   p.coarse_levels_ = p.top_shift_ - 1;
   p.set_grid(grid);
   // The growth test holds if the ends are within h of each other, h < epsilon sin^2(theta) D / (D + epsilon):
   // docs/theory.md, "How far to narrow". Four fifths of that leave room for D >= 4 epsilon and for rounding.
-  const double angle =
-      parameters.radius > 0 ? std::min(parameters.deep_angle, parameters.object_angle) : parameters.object_angle;
+  const double angle = options.radius > 0 ? std::min(options.deep_angle, options.object_angle) : options.object_angle;
   const double sine = std::sin(angle);
-  p.narrowing_steps_ =
-      steps_to_narrow(2 * (kHalfDiagonal + parameters.epsilon), 0.8 * parameters.epsilon * sine * sine);
+  p.narrowing_steps_ = steps_to_narrow(2 * (kHalfDiagonal + options.epsilon), 0.8 * options.epsilon * sine * sine);
   while (p.clustered_levels_ < p.coarse_levels_ &&
          kHalfDiagonal * p.cell_size(p.clustered_levels_) >= kCellPerCluster * mesh.cluster_radius) {
     ++p.clustered_levels_;
   }
-  const std::uint64_t left = left_of(parameters.memory_budget, mesh.bytes() + bytes_on_the_way(context));
+  const std::uint64_t left = left_of(options.memory_budget, mesh.bytes() + bytes_on_the_way(context));
   if (Status s = p.allocate(left); !s.ok()) return s.error();
   return p;
 }
@@ -95,7 +93,7 @@ double CertifiedPipeline::aim() const {
 }
 
 std::uint32_t CertifiedPipeline::likely_chunk() const {
-  const double area = std::pow(parameters_.resolution, 2);
+  const double area = std::pow(options_.resolution, 2);
   double share = std::min(1.0, capacity_.cells / (kMostKept * area));
   if (context_->description.type == "cpu") share = std::min(share, kCellsAtOnceOfCpu / (kLikelyKept * area));
   return std::max(1u, static_cast<std::uint32_t>(top_cells() * share));
@@ -108,7 +106,7 @@ std::uint32_t CertifiedPipeline::clusters_per_round() const {
 }
 
 double CertifiedPipeline::cell_size(std::uint32_t level) const {
-  return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(coarse_levels_) - static_cast<int>(level));
+  return std::ldexp(1.0 / options_.resolution, static_cast<int>(coarse_levels_) - static_cast<int>(level));
 }
 
 Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
@@ -182,27 +180,27 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
   Result<Buffer> readback = arena_.create_buffer(gpu::kCounterCount * 4, MemoryKind::kReadback, "counters");
   if (!readback.ok()) return readback.error();
   counters_readback_ = readback.value();
-  return arguments_.create(arena_, counters_, *stop_, parameters_.measurements.kernel_times);
+  return arguments_.create(arena_, counters_, *stop_, options_.measurements.kernel_times);
 }
 
 gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const {
-  const double voxel = 1.0 / parameters_.resolution, epsilon = parameters_.epsilon * voxel;
+  const double voxel = 1.0 / options_.resolution, epsilon = options_.epsilon * voxel;
   const double size = cell_size(level);
   const bool below = level > coarse_levels_;
   // Lists serve every query of a point in the cell: lines reach epsilon beyond its ball, the growth test epsilon
   // beyond them, and at the finest level the flux sphere, of radius one voxel, (1 - sqrt(3)/2) voxels. A child's ball
   // lies in its parent's, so the same margin serves all levels above.
   const double margin = below ? 2 * epsilon : std::max(2 * epsilon, (1 - kHalfDiagonal) * voxel);
-  const double deep = std::min(parameters_.deep_angle, parameters_.object_angle);
+  const double deep = std::min(options_.deep_angle, options_.object_angle);
   gpu::StepConstants step{};
   step.cell_size = static_cast<float>(size);
   step.circumradius = static_cast<float>(kHalfDiagonal * size + kCentreError);
   step.list_radius = static_cast<float>(kHalfDiagonal * size + margin + 2 * kCentreError);
   step.voxel_size = static_cast<float>(voxel);
   step.epsilon = static_cast<float>(epsilon);
-  step.angle = static_cast<float>(parameters_.object_angle);
-  step.cos_twice_angle = static_cast<float>(std::cos(2 * (parameters_.object_angle + 2e-6)));
-  step.radius = parameters_.radius > 0 ? static_cast<float>(parameters_.radius) : 1e30f;
+  step.angle = static_cast<float>(options_.object_angle);
+  step.cos_twice_angle = static_cast<float>(std::cos(2 * (options_.object_angle + 2e-6)));
+  step.radius = options_.radius > 0 ? static_cast<float>(options_.radius) : 1e30f;
   step.deep_angle = static_cast<float>(deep);
   step.cos_twice_deep_angle = static_cast<float>(std::cos(2 * (deep + 2e-6)));
   step.slack = kSlack;
@@ -230,7 +228,7 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
 }
 
 void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
-  if (!parameters_.measurements.kernel_times) r.begin_stage(stage);
+  if (!options_.measurements.kernel_times) r.begin_stage(stage);
 }
 
 VkDeviceSize CertifiedPipeline::prepare(Recorder& r, gpu::DispatchConstants constants) {
@@ -255,7 +253,7 @@ void CertifiedPipeline::run(Recorder& r, const Kernel& kernel, const Extent& ext
   d.first_entry = extent.list_counter == gpu::kNoCounter ? 0 : step.first_entry;
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
-  if (parameters_.measurements.kernel_times) {
+  if (options_.measurements.kernel_times) {
     const std::string variant = kernel.constants.empty() ? "" : "/" + std::to_string(kernel.constants.front());
     const std::string task = step.second_task == 0 ? "" : "/second";
     r.begin_stage(kernel.shader + variant + task + "@" + std::to_string(step.level));
@@ -314,7 +312,7 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
   d.list_counter = gpu::kNoCounter;
   const VkDeviceSize groups = prepare(r, d);
   if (arguments_.plans()) return;
-  if (parameters_.measurements.kernel_times) r.begin_stage("scan");
+  if (options_.measurements.kernel_times) r.begin_stage("scan");
   const auto push = bytes_of(constants);
   const BufferRange blocks[] = {states_.range(), block_sums_.range(), counters_.range()};
   r.dispatch_indirect({"scan_blocks", 3, 0, sizeof(constants), 64, {}}, blocks, {}, push, arguments_.buffer(), groups);

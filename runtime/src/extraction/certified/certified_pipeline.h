@@ -37,7 +37,7 @@ class CertifiedPipeline {
  public:
   /// Allocates all buffers for one mesh and one set of parameters; `stop` outlives it. Errors: kOutOfMemory, kInternal.
   static Result<CertifiedPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
-                                          const ExtractionOptions& parameters, const std::array<std::uint32_t, 3>& grid,
+                                          const ExtractionOptions& options, const std::array<std::uint32_t, 3>& grid,
                                           const StopWord& stop);
 
   /// Sets another box for the next record(), of the same longest side; memory stays that of create().
@@ -50,7 +50,7 @@ class CertifiedPipeline {
   double aim() const;
   /// A first guess of the number of top cells for that.
   std::uint32_t likely_chunk() const;
-  std::uint32_t level_count() const { return coarse_levels_ + 1 + parameters_.extra_levels; }
+  std::uint32_t level_count() const { return coarse_levels_ + 1 + options_.extra_levels; }
   double cell_size(std::uint32_t level) const;
   std::uint32_t narrowing_steps() const { return narrowing_steps_; }
 
@@ -73,7 +73,7 @@ class CertifiedPipeline {
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
 
  private:
-  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
+  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                     const StopWord& stop);
 
   // The buffers that one level reads and writes.
@@ -163,7 +163,7 @@ class CertifiedPipeline {
   Context::Impl* context_;
   const DeviceMesh* mesh_;
   const StopWord* stop_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
   PipelineCapacity capacity_;
   Arena arena_;
   std::array<std::uint32_t, 3> grid_{};      // finest voxels

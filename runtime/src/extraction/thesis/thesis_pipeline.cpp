@@ -37,21 +37,21 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) /
 
 }  // namespace
 
-ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
+ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                                const StopWord& stop)
-    : context_(&context), mesh_(&mesh), stop_(&stop), parameters_(parameters), arena_(context) {}
+    : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {}
 
 Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
-                                              const ExtractionOptions& parameters,
+                                              const ExtractionOptions& options,
                                               const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
-  for (const std::uint32_t samples : parameters.thesis.samples) {
+  for (const std::uint32_t samples : options.thesis.samples) {
     if (samples >= 1 && samples <= 4096) continue;
     return Error{ErrorCode::kUsage, "samples per sphere must be 1 to 4096"};
   }
-  ThesisPipeline p(context, mesh, parameters, stop);
+  ThesisPipeline p(context, mesh, options, stop);
   p.grid_ = grid;
   // Four levels as in the source; fewer if a top cell would be more than half of the longest side.
-  while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > parameters.resolution) --p.levels_;
+  while (p.levels_ > 1 && (2u << (p.levels_ - 1)) > options.resolution) --p.levels_;
   for (int axis = 0; axis < 3; ++axis) p.top_grid_[axis] = divide_up(grid[axis], 1u << (p.levels_ - 1));
   if (Status status = p.allocate(); !status.ok()) return status.error();
   if (Status status = p.upload_directions(); !status.ok()) return status.error();
@@ -59,7 +59,7 @@ Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const Devi
 }
 
 double ThesisPipeline::cell_size(std::uint32_t level) const {
-  return std::ldexp(1.0 / parameters_.resolution, static_cast<int>(levels_ - 1 - level));
+  return std::ldexp(1.0 / options_.resolution, static_cast<int>(levels_ - 1 - level));
 }
 
 // long: a table of all buffers, and the limits derived from it.
@@ -78,7 +78,7 @@ Status ThesisPipeline::allocate() {
   queries_per_slice_ = is_cpu ? kQueriesPerSliceOfCpu : kQueriesPerSlice;
   const std::uint64_t largest = is_cpu ? kLargestChunkOfCpu : kLargestChunk;
   // The wide tree of the packets takes about as much as the mesh.
-  const std::uint64_t left = left_of(parameters_.memory_budget, 2 * mesh_->bytes() + bytes_on_the_way(*context_));
+  const std::uint64_t left = left_of(options_.memory_budget, 2 * mesh_->bytes() + bytes_on_the_way(*context_));
   const std::uint64_t fitting =
       std::min({left * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
@@ -174,11 +174,11 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   const bool finest = level + 1 == levels_;
   step.cell_size = static_cast<float>(cell_size(level));
   step.voxel_size = static_cast<float>(cell_size(levels_ - 1));
-  step.epsilon = static_cast<float>(parameters_.epsilon * cell_size(levels_ - 1));
+  step.epsilon = static_cast<float>(options_.epsilon * cell_size(levels_ - 1));
   // Slightly above the threshold, so that the angle between the written spokes is not below it.
-  step.angle = static_cast<float>(parameters_.object_angle + 4e-6);
-  step.radius = parameters_.radius > 0 ? static_cast<float>(parameters_.radius) + kSlack : 1e30f;
-  step.least_flux = finest ? static_cast<float>(0.375 * std::sin(parameters_.object_angle)) : 0.0f;
+  step.angle = static_cast<float>(options_.object_angle + 4e-6);
+  step.radius = options_.radius > 0 ? static_cast<float>(options_.radius) + kSlack : 1e30f;
+  step.least_flux = finest ? static_cast<float>(0.375 * std::sin(options_.object_angle)) : 0.0f;
   step.slack = kSlack;
   step.ball_margin = kBallMargin;
   step.grid_x = grid_[0];
@@ -191,7 +191,7 @@ gpu::ThesisConstants ThesisPipeline::level_constants(std::uint32_t level, std::u
   step.level = level;
   step.finest = finest ? 1 : 0;
   step.closed = mesh_->closed ? 1 : 0;
-  step.narrow = parameters_.thesis.narrow_features ? 1 : 0;
+  step.narrow = options_.thesis.narrow_features ? 1 : 0;
   step.samples = samples(levels_ - 1);
   return step;
 }

@@ -25,13 +25,12 @@ namespace medial_vk {
 class ThesisPipeline {
  public:
   /// `mesh` and `stop` must outlive the pipeline. Errors: kOutOfMemory, kInternal.
-  static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
-                                       const ExtractionOptions& parameters, const std::array<std::uint32_t, 3>& grid,
-                                       const StopWord& stop);
+  static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+                                       const std::array<std::uint32_t, 3>& grid, const StopWord& stop);
   ThesisPipeline(ThesisPipeline&&) noexcept = default;
 
   std::uint32_t level_count() const { return levels_; }
-  std::uint32_t samples(std::uint32_t level) const { return parameters_.thesis.samples[4 - levels_ + level]; }
+  std::uint32_t samples(std::uint32_t level) const { return options_.thesis.samples[4 - levels_ + level]; }
   double cell_size(std::uint32_t level) const;
   /// Number of top cells; chunks are ranges of at most chunk_size() of them.
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
@@ -48,7 +47,7 @@ class ThesisPipeline {
   Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
 
  private:
-  ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& parameters,
+  ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                  const StopWord& stop);
 
   /// Items of a dispatch: counters[counter] * multiplier.
@@ -89,7 +88,7 @@ class ThesisPipeline {
   Context::Impl* context_;
   const DeviceMesh* mesh_;
   const StopWord* stop_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
   Arena arena_;
   std::unique_ptr<TreeQueries> queries_;    // at a fixed address: the flux sampler refers to it
   std::unique_ptr<PacketQueries> packets_;  // likewise

@@ -108,7 +108,7 @@ void ThesisPipeline::record_round(Recorder& r, std::uint32_t first_sample) {
 void ThesisPipeline::record_narrowing(Recorder& r, const ThesisConstants& step) {
   const Items lines{kThesisRetractions};
   const QueryCount count = query_count(lines, most_lines());
-  const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(4.0 / parameters_.epsilon))));
+  const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(4.0 / options_.epsilon))));
   for (int k = 0; k < halvings; ++k) {
     queries_->empty(r, count, queries_at_.range(), empty_.range());
     const bool last = k + 1 == halvings;

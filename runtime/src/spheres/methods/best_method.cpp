@@ -167,14 +167,14 @@ class Placing {
 
   Status extract(std::uint32_t resolution) {
     ++levels_;
-    ExtractionOptions parameters;
-    parameters.resolution = resolution;
-    parameters.object_angle = kObjectAngle;
+    ExtractionOptions options;
+    options.resolution = resolution;
+    options.object_angle = kObjectAngle;
     // Not every voxel needs its point: a search in parts of voxels finds little and takes time.
-    parameters.extra_levels = 0;
-    parameters.threads = request_.threads;
+    options.extra_levels = 0;
+    options.threads = request_.threads;
     const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
-    Result<std::vector<Ball>> balls = find_medial_balls(solid_, parameters, extractor_, part);
+    Result<std::vector<Ball>> balls = find_medial_balls(solid_, options, extractor_, part);
     if (!balls) return balls.error();
     std::erase_if(balls.value(), [&](const Ball& ball) { return !stays_inside(solid_, ball); });
     candidates_.add(balls.value());

@@ -41,16 +41,16 @@ class GridSearch {
 
  private:
   Result<std::vector<Ball>> balls_at(std::uint32_t resolution) {
-    ExtractionOptions parameters;
-    parameters.resolution = resolution;
-    parameters.object_angle = request_.object_angle;
+    ExtractionOptions options;
+    options.resolution = resolution;
+    options.object_angle = request_.object_angle;
     const double begun = static_cast<double>(attempts_++);
     // The number of attempts is unknown in advance: each takes half of the remaining progress.
-    parameters.threads = request_.threads;
+    options.threads = request_.threads;
     const SphereProgress part = [&](const char*, double done) {
       return !progress_ || progress_("spheres", 1 - 1 / (1 + 0.25 * (begun + done)));
     };
-    return find_medial_balls(solid_, parameters, extractor_, part);
+    return find_medial_balls(solid_, options, extractor_, part);
   }
 
   /// Share of the volume that no ball covers (Lemma 7.1: exact, as no ball is outside); no value for solids without a

@@ -1,4 +1,4 @@
-#include "extraction/common/check_parameters.h"
+#include "extraction/common/check_options.h"
 
 #include <cmath>
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace medial_vk {
 
-Status check_parameters(const ExtractionOptions& p) {
+Status check_options(const ExtractionOptions& p) {
   const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
   if (p.resolution < 1 || p.resolution > 4096) return usage("resolution must be 1 to 4096 voxels");
   if (!(p.object_angle > 0 && p.object_angle < std::acos(0.0))) return usage("object angle must be in (0, pi/2)");

@@ -1,4 +1,4 @@
-// The check of the parameters of an extraction, before any other work.
+// The check of the options of an extraction, before any other work.
 #pragma once
 
 #include "medial_vk/extraction.h"
@@ -7,6 +7,6 @@
 namespace medial_vk {
 
 /// Error: kUsage, which names the parameter and its range.
-Status check_parameters(const ExtractionOptions& parameters);
+Status check_options(const ExtractionOptions& options);
 
 }  // namespace medial_vk
