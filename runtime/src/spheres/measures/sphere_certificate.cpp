@@ -137,10 +137,10 @@ void test_surface(const Solid& solid, const NearestBallTree& tree, const Threads
   const double magnitude = magnitude_of(solid.mesh().report);
   std::vector<Cover> covers(count);
   std::vector<Point> places(count);
-  constexpr std::size_t kBlock = 32;
-  for_all((count + kBlock - 1) / kBlock, 1, threads, [&](std::size_t block) {
+  constexpr std::size_t kTrianglesAtOnce = 32;
+  for_all((count + kTrianglesAtOnce - 1) / kTrianglesAtOnce, 1, threads, [&](std::size_t block) {
     TriangleCover cover(tree, magnitude);
-    for (std::size_t t = block * kBlock; t < std::min(count, (block + 1) * kBlock); ++t) {
+    for (std::size_t t = block * kTrianglesAtOnce; t < std::min(count, (block + 1) * kTrianglesAtOnce); ++t) {
       const Triangle& corners = mesh.triangles[t];
       threads.check();
       covers[t] =
