@@ -164,14 +164,14 @@ ExtractionJob::ExtractionJob(ExtractionJob&&) noexcept = default;
 ExtractionJob& ExtractionJob::operator=(ExtractionJob&&) noexcept = default;
 ExtractionJob::~ExtractionJob() = default;
 
-Status ExtractionJob::update(const IndexedMesh& mesh) {
+Status ExtractionJob::update(const IndexedMesh& moved) {
   StagedMesh& staged = impl_->frames[impl_->next].staged;
   if (!staged.empty()) return Error{ErrorCode::kUsage, "the mesh was moved already; record() comes first"};
   return catch_out_of_memory("moving a mesh", [&] {
-    Status moved = impl_->mesh.update(
-        mesh, [&](const Buffer& to, std::span<const std::byte> bytes) { return staged.add(to, bytes); });
-    if (!moved.ok()) staged.clear();
-    return moved;
+    Status status = impl_->mesh.update(
+        moved, [&](const Buffer& to, std::span<const std::byte> bytes) { return staged.add(to, bytes); });
+    if (!status.ok()) staged.clear();
+    return status;
   });
 }
 

@@ -17,52 +17,52 @@ namespace {
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
 /// Balls inside the solid, with which the methods of all contracts begin.
-Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress) {
-  switch (request.method) {
+  switch (options.method) {
     case SphereMethod::kSource:
-      return source_spheres(solid, request, extractor, progress);
+      return source_spheres(solid, options, extractor, progress);
     case SphereMethod::kBest:
       break;
   }
-  return best_spheres(solid, request, extractor, progress);
+  return best_spheres(solid, options, extractor, progress);
 }
 
 /// Turns the set into one for the contract.
-Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& request,
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& options,
                                 const SphereProgress& progress) {
-  switch (request.contract) {
+  switch (options.contract) {
     case SphereContract::kInside:
       break;
     case SphereContract::kCover:
-      return cover_solid(solid, std::move(inside), request.threads, progress);
+      return cover_solid(solid, std::move(inside), options.threads, progress);
     case SphereContract::kBalanced:
-      return dilate_to_boundary(solid, std::move(inside), request.threads);
+      return dilate_to_boundary(solid, std::move(inside), options.threads);
   }
   return inside;
 }
 
-Status check_request(const Solid& solid, const SphereOptions& request) {
-  const bool finite = std::isfinite(request.error) && std::isfinite(request.max_gap);
-  if (!finite || request.error < 0 || request.error >= 1 || request.max_gap < 0) {
+Status check_request(const Solid& solid, const SphereOptions& options) {
+  const bool finite = std::isfinite(options.error) && std::isfinite(options.max_gap);
+  if (!finite || options.error < 0 || options.error >= 1 || options.max_gap < 0) {
     return usage("an error is a share below 1, and a gap a length; neither is negative");
   }
-  if (request.error > 0 && !solid.has_volume()) {
+  if (options.error > 0 && !solid.has_volume()) {
     return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
   }
   // Balls inside keep a distance of the rounding from the boundary.
-  if (request.max_gap > 0 && request.max_gap < 16 * solid.rounding()) {
+  if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
     return usage("so small a gap is below the rounding of distances");
   }
-  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+  if (options.contract == SphereContract::kCover && options.max_gap > 0) {
     return usage("balls that cover leave no gap; give an error, or how many");
   }
-  const bool is_best = request.method == SphereMethod::kBest;
-  if (request.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
+  const bool is_best = options.method == SphereMethod::kBest;
+  if (options.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
     return usage("balanced balls need a mesh without open edges; take the contract inside, or the method source");
   }
-  const bool has_goal = request.error > 0 || request.max_gap > 0;
-  if (has_goal && request.contract != SphereContract::kInside && !is_best) {
+  const bool has_goal = options.error > 0 || options.max_gap > 0;
+  if (has_goal && options.contract != SphereContract::kInside && !is_best) {
     return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
   }
   return {};
@@ -70,9 +70,9 @@ Status check_request(const Solid& solid, const SphereOptions& request) {
 
 /// The balls inside with which covers of `count` balls begin: more than `count`, up to the next number for which covers
 /// are searched.
-Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& request, std::size_t count,
+Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& options, std::size_t count,
                                const Extractor& extractor, const SphereProgress& progress) {
-  SphereOptions start = request;
+  SphereOptions start = options;
   start.contract = SphereContract::kInside;
   start.error = 0;
   start.count = cover_top(count);
@@ -81,15 +81,15 @@ Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& request,
 
 /// A cover that adds no more than the error: tries the numbers for which covers are searched, one after the other, then
 /// fewer balls.
-Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                   const SphereProgress& progress) {
-  const std::size_t most = request.count > 0 ? request.count : kMostBalls;
-  const double volume = (1 + request.error) * solid.volume();
+  const std::size_t most = options.count > 0 ? options.count : kMostBalls;
+  const double volume = (1 + options.error) * solid.volume();
   std::map<std::size_t, std::vector<Ball>> starts;
-  CoverFamily family(solid, starts, request.threads, progress);
+  CoverFamily family(solid, starts, options.threads, progress);
   for (std::size_t top = 1;; top = cover_top(top + 1)) {
     const std::size_t count = std::min(top, most);
-    Result<SphereSet> inside = cover_starts(solid, request, count, extractor, progress);
+    Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
     if (!inside) return inside.error();
     starts = std::move(inside.value().stages);  // the previous starts, and one more
     if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
@@ -98,15 +98,15 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& reque
 }
 
 /// The smaller levels of a cover, and the cover itself.
-Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& request, bool all_levels,
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& options, bool all_levels,
                                             SphereSet cover, const Extractor& extractor,
                                             const SphereProgress& progress) {
   std::vector<SphereSet> levels;
   if (const std::size_t next = cover.balls.size() / 2; all_levels && next > 0) {
-    const Result<SphereSet> inside = cover_starts(solid, request, next, extractor, progress);
+    const Result<SphereSet> inside = cover_starts(solid, options, next, extractor, progress);
     if (!inside) return inside.error();
     Result<std::vector<SphereSet>> smaller =
-        cover_by_counts(solid, inside.value().stages, level_counts(next), request.threads, progress);
+        cover_by_counts(solid, inside.value().stages, level_counts(next), options.threads, progress);
     if (!smaller) return smaller.error();
     levels = std::move(smaller).value();
   }
@@ -114,28 +114,28 @@ Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOpti
   return levels;
 }
 
-Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptions& request, bool all_levels,
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptions& options, bool all_levels,
                                            const Extractor& extractor, const SphereProgress& progress) {
-  const std::size_t count = request.count;
-  if (request.error > 0) {
-    Result<SphereSet> cover = cover_for_error(solid, request, extractor, progress);
+  const std::size_t count = options.count;
+  if (options.error > 0) {
+    Result<SphereSet> cover = cover_for_error(solid, options, extractor, progress);
     if (!cover) return cover.error();
-    return levels_below(solid, request, all_levels, std::move(cover).value(), extractor, progress);
+    return levels_below(solid, options, all_levels, std::move(cover).value(), extractor, progress);
   }
   if (count == 0) return usage("say how many balls shall cover the solid");
-  const Result<SphereSet> inside = cover_starts(solid, request, count, extractor, progress);
+  const Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
   if (!inside) return inside.error();
   const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
-  return cover_by_counts(solid, inside.value().stages, counts, request.threads, progress);
+  return cover_by_counts(solid, inside.value().stages, counts, options.threads, progress);
 }
 
 /// Every level is the state of the method at its number of balls.
-Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& request, bool all_levels,
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& options, bool all_levels,
                                              const Extractor& extractor, const SphereProgress& progress) {
-  Result<SphereSet> found = best_spheres(solid, request, extractor, progress);
-  if (found && all_levels && (request.error > 0 || request.max_gap > 0)) {
+  Result<SphereSet> found = best_spheres(solid, options, extractor, progress);
+  if (found && all_levels && (options.error > 0 || options.max_gap > 0)) {
     // The numbers of the levels are known only now.
-    SphereOptions again = request;
+    SphereOptions again = options;
     again.count = found.value().balls.size();
     again.error = again.max_gap = 0;
     found = best_spheres(solid, again, extractor, progress);
@@ -150,16 +150,16 @@ Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOpt
   return levels;
 }
 
-Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions& request, bool all_levels,
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions& options, bool all_levels,
                                          const Extractor& extractor, const SphereProgress& progress) {
-  if (Status status = check_request(solid, request); !status) return status.error();
-  if (request.contract == SphereContract::kCover && request.method == SphereMethod::kBest) {
-    return best_covers(solid, request, all_levels, extractor, progress);
+  if (Status status = check_request(solid, options); !status) return status.error();
+  if (options.contract == SphereContract::kCover && options.method == SphereMethod::kBest) {
+    return best_covers(solid, options, all_levels, extractor, progress);
   }
-  if (request.contract == SphereContract::kBalanced && request.method == SphereMethod::kBest) {
-    return best_balanced(solid, request, all_levels, extractor, progress);
+  if (options.contract == SphereContract::kBalanced && options.method == SphereMethod::kBest) {
+    return best_balanced(solid, options, all_levels, extractor, progress);
   }
-  Result<SphereSet> inside = inside_spheres(solid, request, extractor, progress);
+  Result<SphereSet> inside = inside_spheres(solid, options, extractor, progress);
   if (!inside) return inside.error();
   const std::vector<Ball>& balls = inside.value().balls;
   const std::vector<std::size_t> counts =
@@ -167,7 +167,7 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions
   std::vector<SphereSet> levels;
   for (const std::size_t count : counts) {
     const auto end = balls.begin() + static_cast<std::ptrdiff_t>(count);
-    Result<SphereSet> level = keep_contract(solid, {std::vector<Ball>(balls.begin(), end)}, request, progress);
+    Result<SphereSet> level = keep_contract(solid, {std::vector<Ball>(balls.begin(), end)}, options, progress);
     if (!level) return level.error();
     levels.push_back(std::move(level).value());
   }
@@ -175,10 +175,10 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions
 }
 
 /// Throws no exception.
-Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& request, bool all_levels,
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& options, bool all_levels,
                                               const Extractor& extractor, const SphereProgress& progress) {
   try {
-    return levels_of(solid, request, all_levels, extractor, progress);
+    return levels_of(solid, options, all_levels, extractor, progress);
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
@@ -190,22 +190,22 @@ Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOp
 
 }  // namespace
 
-Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                          const SphereProgress& progress) {
-  Result<std::vector<SphereSet>> levels = guarded_levels(solid, request, false, extractor, progress);
+  Result<std::vector<SphereSet>> levels = guarded_levels(solid, options, false, extractor, progress);
   if (!levels) return levels.error();
   SphereSet last = std::move(levels.value().back());
   return last;
 }
 
-Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereOptions& request,
+Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereOptions& options,
                                                 const Extractor& extractor, const SphereProgress& progress) {
-  return guarded_levels(solid, request, false, extractor, progress);
+  return guarded_levels(solid, options, false, extractor, progress);
 }
 
-Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& request,
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& options,
                                                      const Extractor& extractor, const SphereProgress& progress) {
-  return guarded_levels(solid, request, true, extractor, progress);
+  return guarded_levels(solid, options, true, extractor, progress);
 }
 
 }  // namespace medial_vk

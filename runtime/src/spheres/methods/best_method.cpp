@@ -46,20 +46,20 @@ constexpr double kEnough = 2e-3;  // share of the gain of the new ball: a sweep 
 
 class Placing {
  public:
-  Placing(const Solid& solid, const SphereOptions& request, const Extractor& extractor, const SphereProgress& progress,
+  Placing(const Solid& solid, const SphereOptions& options, const Extractor& extractor, const SphereProgress& progress,
           DynamicUnion balls)
       : solid_(solid),
-        request_(request),
+        options_(options),
         extractor_(extractor),
         progress_(progress),
         balls_(std::move(balls)),
-        moves_(request.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
-        gaps_(solid, balls_, request.contract == SphereContract::kBalanced),
-        estimated_error_(request.error),
-        sampled_gap_(request.max_gap) {}
+        moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
+        gaps_(solid, balls_, options.contract == SphereContract::kBalanced),
+        estimated_error_(options.error),
+        sampled_gap_(options.max_gap) {}
 
   Result<SphereSet> run() {
-    const std::size_t most = request_.count > 0 ? request_.count : kMostBalls;
+    const std::size_t most = options_.count > 0 ? options_.count : kMostBalls;
     for (;;) {
       const Result<bool> met = goals_met();
       if (!met) return met.error();
@@ -84,20 +84,20 @@ class Placing {
  private:
   /// Covers begin with balls inside; balanced sets of smaller numbers are levels.
   bool is_stage(std::size_t count, std::size_t most) const {
-    if (request_.contract == SphereContract::kInside) return cover_top(count) == count;
+    if (options_.contract == SphereContract::kInside) return cover_top(count) == count;
     const std::vector<std::size_t> levels = level_counts(most);
     return std::binary_search(levels.begin(), levels.end(), count);
   }
 
-  bool has_goals() const { return request_.error > 0 || request_.max_gap > 0; }
+  bool has_goals() const { return options_.error > 0 || options_.max_gap > 0; }
 
   Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
-    if (request_.error > 0) {
+    if (options_.error > 0) {
       Result<bool> met = error_met();
       if (!met || !met.value()) return met;
     }
-    return request_.max_gap > 0 ? gap_met() : true;
+    return options_.max_gap > 0 ? gap_met() : true;
   }
 
   /// The reported error is measured independently of the estimate by the steps of balanced balls, which decides when to
@@ -105,12 +105,12 @@ class Placing {
   Result<bool> error_met() {
     const double error = moves_->error(balls_);
     if (!(error <= estimated_error_)) return false;
-    if (request_.contract != SphereContract::kBalanced) return true;
+    if (options_.contract != SphereContract::kBalanced) return true;
     const Result<VolumeError> measured =
-        estimate_volume_error(solid_, all_balls(), {.threads = {request_.threads, goes_on()}});
+        estimate_volume_error(solid_, all_balls(), {.threads = {options_.threads, goes_on()}});
     if (!measured) return measured.error();
-    if (measured.value().normalized() <= request_.error) return true;
-    estimated_error_ = 0.999 * std::min(error, error * request_.error / measured.value().normalized());
+    if (measured.value().normalized() <= options_.error) return true;
+    estimated_error_ = 0.999 * std::min(error, error * options_.error / measured.value().normalized());
     return false;
   }
 
@@ -118,12 +118,12 @@ class Placing {
   Result<bool> gap_met() {
     const double sampled = gaps_.widest_on_boundary().size;
     if (!(sampled <= sampled_gap_)) return false;
-    const double tolerance = kGapTolerance * request_.max_gap / solid_.diagonal();
+    const double tolerance = kGapTolerance * options_.max_gap / solid_.diagonal();
     const Result<Bounds> gap =
-        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = {request_.threads, goes_on()}});
+        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = {options_.threads, goes_on()}});
     if (!gap) return gap.error();
-    if (gap.value().upper <= request_.max_gap) return true;
-    sampled_gap_ = std::min(sampled, sampled * request_.max_gap / gap.value().upper);
+    if (gap.value().upper <= options_.max_gap) return true;
+    sampled_gap_ = std::min(sampled, sampled * options_.max_gap / gap.value().upper);
     return false;
   }
 
@@ -136,19 +136,19 @@ class Placing {
   }
 
   double share_done(std::size_t most) {
-    if (request_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
+    if (options_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
     double share = 1;
-    if (request_.error > 0) share = std::min(share, request_.error / moves_->error(balls_));
-    if (request_.max_gap > 0) share = std::min(share, request_.max_gap / gaps_.widest_on_boundary().size);
+    if (options_.error > 0) share = std::min(share, options_.error / moves_->error(balls_));
+    if (options_.max_gap > 0) share = std::min(share, options_.max_gap / gaps_.widest_on_boundary().size);
     return share;
   }
 
   Error unmet() {
     std::string left;
-    if (request_.error > 0)
+    if (options_.error > 0)
       left = fmt::format("{:.3g} of the volume {}", moves_->error(balls_),
-                         request_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
-    if (request_.max_gap > 0) {
+                         options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
+    if (options_.max_gap > 0) {
       left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
     }
     const std::size_t n = balls_.size();
@@ -158,7 +158,7 @@ class Placing {
 
   /// Switches to the next finer medial points, if there are enough balls for them.
   Status find_candidates() {
-    if (request_.resolution > 0) return levels_ > 0 ? Status() : extract(request_.resolution);
+    if (options_.resolution > 0) return levels_ > 0 ? Status() : extract(options_.resolution);
     while (levels_ < kLevels.size() && kLevels[levels_].from <= balls_.size()) {
       if (Status status = extract(kLevels[levels_].resolution); !status.ok()) return status;
     }
@@ -172,7 +172,7 @@ class Placing {
     options.object_angle = kObjectAngle;
     // Not every voxel needs its point: a search in parts of voxels finds little and takes time.
     options.extra_levels = 0;
-    options.threads = request_.threads;
+    options.threads = options_.threads;
     const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<std::vector<Ball>> balls = find_medial_balls(solid_, options, extractor_, part);
     if (!balls) return balls.error();
@@ -298,13 +298,13 @@ class Placing {
 
   Result<SphereSet> result() const {
     SphereSet set = {all_balls(), volumes_, stages_};
-    if (request_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
-    if (Status status = order_by_share(set.balls, request_.threads); !status.ok()) return status.error();
+    if (options_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
+    if (Status status = order_by_share(set.balls, options_.threads); !status.ok()) return status.error();
     return set;
   }
 
   const Solid& solid_;
-  const SphereOptions& request_;
+  const SphereOptions& options_;
   const Extractor& extractor_;
   const SphereProgress& progress_;
   DynamicUnion balls_;
@@ -331,13 +331,13 @@ double largest_number(const MeshReport& report) {
 
 }  // namespace
 
-Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                const SphereProgress& progress) {
-  const std::size_t most = request.count > 0 ? request.count : kMostBalls;
+  const std::size_t most = options.count > 0 ? options.count : kMostBalls;
   Result<DynamicUnion> balls =
       DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report));
   if (!balls) return balls.error();
-  return Placing(solid, request, extractor, progress, std::move(balls).value()).run();
+  return Placing(solid, options, extractor, progress, std::move(balls).value()).run();
 }
 
 }  // namespace medial_vk

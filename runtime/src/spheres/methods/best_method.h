@@ -12,7 +12,7 @@ namespace medial_vk {
 /// no step reduces the union: more balls never leave more volume uncovered. With the contract balanced they also grow
 /// and move beyond the boundary to minimise SymmetricDifference, and more balls never make that larger. Errors: those
 /// of approximate_by_spheres().
-Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                const SphereProgress& progress);
 
 }  // namespace medial_vk

@@ -21,21 +21,21 @@ constexpr std::uint32_t kFirstGrid = 4;
 /// Searches the grid; every attempt is an extraction.
 class GridSearch {
  public:
-  GridSearch(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+  GridSearch(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
              const SphereProgress& progress)
-      : solid_(solid), request_(request), extractor_(extractor), progress_(progress) {}
+      : solid_(solid), options_(options), extractor_(extractor), progress_(progress) {}
 
   Result<SphereSet> run() {
-    const bool by_count = request_.count > 0, by_error = request_.error > 0;
+    const bool by_count = options_.count > 0, by_error = options_.error > 0;
     Status status = by_count ? finest_within_count() : by_error ? coarsest_within_error() : one_grid();
     if (!status) return status.error();
-    if (by_count && by_error && !(error_of(best_).value_or(1) <= request_.error)) {
+    if (by_count && by_error && !(error_of(best_).value_or(1) <= options_.error)) {
       return source_usage(
           fmt::format("one ball per voxel leaves {:.3g} of the volume uncovered with {} balls, more than the "
                       "error of {:.3g} wanted; allow more balls, or use the method best",
-                      error_of(best_).value_or(1), best_.size(), request_.error));
+                      error_of(best_).value_or(1), best_.size(), options_.error));
     }
-    if (Status ordered = order_by_share(best_, request_.threads); !ordered) return ordered.error();
+    if (Status ordered = order_by_share(best_, options_.threads); !ordered) return ordered.error();
     return SphereSet{std::move(best_)};
   }
 
@@ -43,10 +43,10 @@ class GridSearch {
   Result<std::vector<Ball>> balls_at(std::uint32_t resolution) {
     ExtractionOptions options;
     options.resolution = resolution;
-    options.object_angle = request_.object_angle;
+    options.object_angle = options_.object_angle;
     const double begun = static_cast<double>(attempts_++);
     // The number of attempts is unknown in advance: each takes half of the remaining progress.
-    options.threads = request_.threads;
+    options.threads = options_.threads;
     const SphereProgress part = [&](const char*, double done) {
       return !progress_ || progress_("spheres", 1 - 1 / (1 + 0.25 * (begun + done)));
     };
@@ -57,13 +57,13 @@ class GridSearch {
   /// volume.
   std::optional<double> error_of(const std::vector<Ball>& balls) const {
     if (!(solid_.volume() > 0)) return std::nullopt;
-    const Result<BallUnion> measured = measure_ball_union(balls, {request_.threads, false});
+    const Result<BallUnion> measured = measure_ball_union(balls, {options_.threads, false});
     if (!measured) return std::nullopt;
     return 1 - measured.value().volume / solid_.volume();
   }
 
   Status one_grid() {
-    Result<std::vector<Ball>> balls = balls_at(request_.resolution);
+    Result<std::vector<Ball>> balls = balls_at(options_.resolution);
     if (!balls) return balls.error();
     best_ = std::move(balls).value();
     return best_.empty() ? no_balls() : Status();
@@ -74,7 +74,7 @@ class GridSearch {
     Result<std::vector<Ball>> balls = balls_at(resolution);
     if (!balls) return balls.error();
     fewest_ = std::min(fewest_, balls.value().empty() ? fewest_ : balls.value().size());
-    if (balls.value().size() > request_.count) return false;
+    if (balls.value().size() > options_.count) return false;
     if (balls.value().size() >= best_.size()) best_ = std::move(balls).value();
     return true;
   }
@@ -82,7 +82,7 @@ class GridSearch {
   Result<bool> within_error(std::uint32_t resolution) {
     Result<std::vector<Ball>> balls = balls_at(resolution);
     if (!balls) return balls.error();
-    if (!(error_of(balls.value()).value_or(1) <= request_.error)) return false;
+    if (!(error_of(balls.value()).value_or(1) <= options_.error)) return false;
     best_ = std::move(balls).value();
     return true;
   }
@@ -116,7 +116,7 @@ class GridSearch {
     return source_usage(
         fmt::format("one ball per voxel gives {} balls even on the coarsest grid that has any, more than the {} "
                     "wanted; allow more, or use the method best",
-                    fewest_, request_.count));
+                    fewest_, options_.count));
   }
 
   Status coarsest_within_error() {
@@ -124,16 +124,16 @@ class GridSearch {
     if (!found) return found.error();
     if (!best_.empty()) return {};
     return source_usage(
-        fmt::format("one ball per voxel reaches an error of {:.3g} on no grid; use the method best", request_.error));
+        fmt::format("one ball per voxel reaches an error of {:.3g} on no grid; use the method best", options_.error));
   }
 
   Status no_balls() const {
     return source_usage(
-        fmt::format("no medial ball has an object angle of {:.3g} or more; lower it", request_.object_angle));
+        fmt::format("no medial ball has an object angle of {:.3g} or more; lower it", options_.object_angle));
   }
 
   const Solid& solid_;
-  const SphereOptions& request_;
+  const SphereOptions& options_;
   const Extractor& extractor_;
   const SphereProgress& progress_;
   std::vector<Ball> best_;
@@ -143,16 +143,16 @@ class GridSearch {
 
 }  // namespace
 
-Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& request, const Extractor& extractor,
+Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress) {
-  if (request.max_gap > 0) return source_usage("the method source knows no greatest gap; use the method best");
-  const bool has_goal = request.count > 0 || request.error > 0;
-  if (has_goal && request.resolution > 0) {
+  if (options.max_gap > 0) return source_usage("the method source knows no greatest gap; use the method best");
+  const bool has_goal = options.count > 0 || options.error > 0;
+  if (has_goal && options.resolution > 0) {
     return source_usage("the method source finds its own resolution; give either that or a count or error");
   }
-  if (!has_goal && request.resolution == 0)
+  if (!has_goal && options.resolution == 0)
     return source_usage("there is no goal: give a count, an error or a resolution");
-  return GridSearch(solid, request, extractor, progress).run();
+  return GridSearch(solid, options, extractor, progress).run();
 }
 
 }  // namespace medial_vk
