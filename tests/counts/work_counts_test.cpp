@@ -52,7 +52,7 @@ namespace medial_vk {
 namespace {
 
 /// More triangles than a block of any loop, so that every loop has work for several threads.
-Mesh large_mesh() { return test::make_torus(1.0, 0.4, 120, 90, 0.5); }
+Mesh large_mesh() { return test::make_torus(1.0, 0.4, 260, 140, 0.5); }
 
 class WorkCounts : public testing::Test {
  protected:
@@ -121,6 +121,10 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   options.volumes = options.removal_orders = options.medial_mesh = true;
   options.threads = 1;
   ASSERT_TRUE(analyse(mesh, options, *context_).ok());
+  IndexedMesh moved = mesh;
+  Scene scene = Scene::create(*context_, moved).value();
+  ASSERT_TRUE(moved.move_vertices(mesh.prepared().mesh.vertices, {}, 1).ok());
+  ASSERT_TRUE(scene.update(moved).ok());
   SphereOptions spheres;
   spheres.count = 20;
   spheres.resolution = 16;

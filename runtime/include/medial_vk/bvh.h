@@ -41,7 +41,8 @@ class Bvh {
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
   /// The same tree with its leaves split further, for scattered queries on the host. It equals the tree that build()
-  /// makes of the same triangles for `leaf_size`, if none has moved since, but without a second sort. Errors:
+  /// makes of the same triangles for `leaf_size`, if none has moved since and kMaxDepth does not matter, but without a
+  /// second sort; leaves that are smaller stay as they are. Errors:
   /// kOutOfMemory.
   Result<Bvh> refined(std::uint32_t leaf_size) const;
 

@@ -32,6 +32,7 @@ class AnalysisRun {
     group();
     if (Status status = measure(); !status) return status.error();
     if (Status status = connect(); !status) return status.error();
+    if (stop_.stop_requested()) return Error{ErrorCode::kInterrupted, "interrupted"};
     return std::move(out_);
   }
 

@@ -71,7 +71,8 @@ void BvhBuilder::build_subtrees() {
 }
 
 void BvhBuilder::build_subtree(const Piece& piece, std::uint32_t place, std::vector<Link>& out) {
-  if (piece.count() <= leaf_size_) return make_leaf(piece, out[place]);
+  // A tree that is refined may be as deep as a traversal's stack allows.
+  if (piece.count() <= leaf_size_ || piece.depth >= Bvh::kMaxDepth) return make_leaf(piece, out[place]);
   const Pair pair = split(piece, 1);
   const auto first = static_cast<std::uint32_t>(out.size());
   out[place] = {first, 0};

@@ -66,7 +66,9 @@ const MeshLinks& DeviceMesh::links() const { return Internals::of(source_).links
 Status DeviceMesh::finish_uploads() {
   if (uploads_ == nullptr) return {};
   const std::unique_ptr<Uploads> uploads = std::move(uploads_);
-  return uploads->finish();
+  Status there = uploads->finish();
+  intact = intact && there.ok();
+  return there;
 }
 
 Status DeviceMesh::update(const IndexedMesh& moved) {
@@ -124,15 +126,16 @@ Status DeviceMesh::upload_mesh(const Uploader& uploader) {
   // Links of vertices are a texel each.
   use_texels = std::max({kTexelsPerTriangle * order.size(), tree_data.size(), source_.view().vertices.size()}) <=
                context_->limits.maxTexelBufferElements;
-  if (Status status = upload_triangles(uploader); !status.ok()) return status;
+  if (Status status = upload_triangles(uploader, has_links_ ? std::span(links().spreads) : std::span<const float>());
+      !status.ok())
+    return status;
   Status status = fill_texels(uploader, std::as_bytes(std::span(tree_data)), "the tree over the triangles", kFloats,
                               tree, tree_texels);
   if (!status.ok()) return status;
   return fill(uploader, std::as_bytes(std::span(order)), MemoryKind::kDevice, "triangle indices", triangle_info);
 }
 
-Status DeviceMesh::upload_triangles(const Uploader& uploader) {
-  const std::span<const float> spreads = has_links_ ? std::span(links().spreads) : std::span<const float>();
+Status DeviceMesh::upload_triangles(const Uploader& uploader, std::span<const float> spreads) {
   const std::vector<Texel> made =
       make_triangle_texels(source_.bvh(), {lower, longest}, source_.view().flags, spreads, context_->host_threads);
   return fill_texels(uploader, std::as_bytes(std::span(made)), "triangles", kFloats, triangles, triangle_texels);
@@ -173,14 +176,15 @@ Status DeviceMesh::add_links() {
   if (has_links_) return {};
   if (Status status = finish_uploads(); !status.ok()) return status;
   Uploads uploads(*context_);
-  has_links_ = true;
-  intact = false;  // until all data are uploaded
-  // The triangles again, with their spreads.
-  if (Status status = upload_triangles(through(uploads)); !status.ok()) return status;
+  // What fails before the triangles are overwritten leaves the mesh as it was, without links.
   if (Status status = upload_all_links(through(uploads)); !status.ok()) return status;
-  Status there = uploads.finish();
-  intact = there.ok();
-  return there;
+  if (Status status = uploads.finish(); !status.ok()) return status;
+  intact = false;  // until the triangles have their spreads
+  Uploads again(*context_);
+  if (Status status = upload_triangles(through(again), links().spreads); !status.ok()) return status;
+  if (Status there = again.finish(); !there.ok()) return there;
+  has_links_ = intact = true;
+  return {};
 }
 
 Status DeviceMesh::upload_all_links(const Uploader& uploader) {

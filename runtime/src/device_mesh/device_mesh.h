@@ -122,7 +122,7 @@ struct DeviceMesh {
   const MeshLinks& links() const;
   Status measure();
   Status upload_mesh(const Uploader& uploader);
-  Status upload_triangles(const Uploader& uploader);
+  Status upload_triangles(const Uploader& uploader, std::span<const float> spreads);
   Status upload_all_links(const Uploader& uploader);
   Status upload_links(const Uploader& uploader);
   Status upload_open_edges(const Uploader& uploader);

@@ -50,6 +50,7 @@ Result<IndexedMesh> IndexedMesh::create(PreparedMesh mesh, unsigned threads) {
     if (Status status = check_flags(mesh.flags.size(), mesh.mesh.triangles.size()); !status.ok()) return status.error();
     Result<Bvh> bvh = Bvh::build(mesh.view(), DeviceMesh::kLeafSize, threads);
     if (!bvh.ok()) return bvh.error();
+    take_box(bvh.value(), mesh.report);  // a caller may have filled in the mesh
     MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), threads);
     return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(mesh), std::move(bvh).value(), std::move(links)}));
   });

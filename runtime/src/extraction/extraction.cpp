@@ -41,7 +41,7 @@ struct KeptMesh {
   std::unique_ptr<DeviceMesh> mesh;
 
   Status keep(Context::Impl& context, const IndexedMesh& wanted, bool with_links) {
-    if (mesh && source->is_same(wanted)) return {};
+    if (mesh && mesh->intact && source->is_same(wanted)) return {};
     mesh.reset();  // its memory is needed
     Result<DeviceMesh> uploaded = DeviceMesh::create(context, wanted, with_links);
     if (!uploaded.ok()) return uploaded.error();

@@ -167,12 +167,12 @@ ExtractionJob::~ExtractionJob() = default;
 Status ExtractionJob::update(const IndexedMesh& moved) {
   StagedMesh& staged = impl_->frames[impl_->next].staged;
   if (!staged.empty()) return Error{ErrorCode::kUsage, "the mesh was moved already; record() comes first"};
-  return catch_out_of_memory("moving a mesh", [&] {
-    Status status = impl_->mesh.update(
+  Status status = catch_out_of_memory("moving a mesh", [&] {
+    return impl_->mesh.update(
         moved, [&](const Buffer& to, std::span<const std::byte> bytes) { return staged.add(to, bytes); });
-    if (!status.ok()) staged.clear();
-    return status;
   });
+  if (!status.ok()) staged.clear();  // also if memory ran out: the next update starts again
+  return status;
 }
 
 Status ExtractionJob::record(VkCommandBuffer commands) {

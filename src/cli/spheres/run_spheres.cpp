@@ -127,7 +127,7 @@ class SpheresRun {
                                       : fit_one_mesh(extractor, on_progress, stop.get_token());
     progress_.clear();
     if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(status.error());
-    check();
+    if (Status checked = check(); !checked) return checked;
     record_.times.push_back({"spheres", stopwatch.lap()});
     return {};
   }
@@ -155,9 +155,10 @@ class SpheresRun {
   }
 
   /// The reference cannot be stopped half-way, but nothing is lost if the process ends.
-  void check() {
-    if (!options_.check) return;
+  Status check() {
+    if (!options_.check) return {};
     const EndAtOnce while_checked;
+    if (interrupted()) return stopped();
     record_.checks.resize(record_.parts.size());
     for (std::size_t i = 0; i < record_.parts.size(); ++i) {
       if (record_.parts[i].ball) continue;
@@ -168,6 +169,7 @@ class SpheresRun {
       record_.checks[i] = covers ? check_balls_cover(mesh, balls) : check_balls_inside(mesh, balls);
     }
     progress_.clear();
+    return {};
   }
 
   /// Files are made in memory: until they are written a signal may end the program.

@@ -123,6 +123,8 @@ TEST(Bvh, StaysShallowWhenTrianglesShrinkGeometrically) {
   const auto bvh = Bvh::build(test::view_of(mesh), 1);
   ASSERT_TRUE(bvh.ok());
   expect_sound(bvh.value(), mesh.triangles.size());
+  // The coarse tree has used up its depth before its leaves are split.
+  expect_sound(Bvh::build(test::view_of(mesh), 64).value().refined(1).value(), mesh.triangles.size());
 }
 
 TEST(Bvh, HandlesManyTrianglesInOnePlace) {
@@ -135,6 +137,23 @@ TEST(Bvh, HandlesManyTrianglesInOnePlace) {
   const BvhHit hit = bvh.value().closest({0.2, 0.2, 0.5});
   EXPECT_EQ(hit.triangle, 0u);
   EXPECT_DOUBLE_EQ(hit.squared_distance, 0.25);
+}
+
+TEST(Bvh, RefinedIsTheTreeOfSmallerLeaves) {
+  for (const Mesh& mesh : {test::make_torus(1.0, 0.4, 40, 30, 0.5), test::make_box({1, 2, 3})}) {
+    const Bvh coarse = Bvh::build(test::view_of(mesh), 8).value();
+    for (const std::uint32_t leaf_size : {1u, 2u, 4u, 8u}) {
+      const Bvh fine = coarse.refined(leaf_size).value(), built = Bvh::build(test::view_of(mesh), leaf_size).value();
+      EXPECT_EQ(fine.order(), built.order());
+      EXPECT_TRUE(fine.corners() == built.corners());
+      ASSERT_EQ(fine.nodes().size(), built.nodes().size());
+      for (std::size_t i = 0; i < fine.nodes().size(); ++i) {
+        const BvhNode &a = fine.nodes()[i], &b = built.nodes()[i];
+        EXPECT_TRUE(a.first == b.first && a.count == b.count && a.box.lower == b.box.lower &&
+                    a.box.upper == b.box.upper);
+      }
+    }
+  }
 }
 
 // The error of both evaluations is a few units in the last place of coordinates of size about 2: far below 1e-14.

@@ -24,6 +24,17 @@ SphereProgress guarded(const StageProgress& progress, const std::stop_token& sto
   };
 }
 
+/// An extractor that a request to `stop` reaches, too: the methods have a source of stops of their own.
+Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop) {
+  return [&extractor, &stop](const IndexedMesh& mesh, const ExtractionOptions& options,
+                             const ProgressCallback& progress, const std::stop_token& own) {
+    std::stop_source either;
+    const auto request = [&either] { either.request_stop(); };
+    const std::stop_callback on_stop(stop, request), on_own(own, request);
+    return extractor(mesh, options, progress, either.get_token());
+  };
+}
+
 /// Spheres that violate the contract are not returned.
 Status check_promise(SphereContract contract, const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
@@ -125,7 +136,7 @@ auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const st
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
                               const StageProgress& progress, const std::stop_token& stop) {
   return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
-    return fit(solid, options, extractor, on_progress);
+    return fit(solid, options, stopped_by(extractor, stop), on_progress);
   });
 }
 
@@ -138,7 +149,7 @@ Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const Sphe
                                              const Extractor& extractor, const StageProgress& progress,
                                              const std::stop_token& stop) {
   return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
-    return curve_of(solid, options, extractor, on_progress);
+    return curve_of(solid, options, stopped_by(extractor, stop), on_progress);
   });
 }
 
