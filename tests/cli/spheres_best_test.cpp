@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "mesh/solid.h"
+#include "solid/solid.h"
 #include "spheres/measures/sphere_certificate.h"
 #include "spheres_command.h"
 #include "support/indexed.h"

@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "certificate/near_triangles.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 
 namespace medial_vk {
 namespace {

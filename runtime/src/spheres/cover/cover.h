@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesh/solid.h"
+#include "solid/solid.h"
 #include "spheres/cover/cover_search.h"
 #include "spheres/measures/envelope.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 #include "spheres/measures/threads.h"
 
 namespace medial_vk {

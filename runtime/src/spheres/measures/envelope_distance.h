@@ -2,7 +2,7 @@
 #pragma once
 
 #include "medial_vk/sphere_measures.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 #include "spheres/measures/branch_and_bound.h"
 #include "spheres/measures/envelope.h"
 

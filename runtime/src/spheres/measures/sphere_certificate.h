@@ -6,7 +6,7 @@
 #include <span>
 
 #include "medial_vk/sphere_measures.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 #include "spheres/measures/envelope.h"
 #include "spheres/measures/threads.h"
 

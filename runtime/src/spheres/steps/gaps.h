@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "medial_vk/dynamic_union.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 
 namespace medial_vk {
 

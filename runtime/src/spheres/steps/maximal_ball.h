@@ -2,7 +2,7 @@
 #pragma once
 
 #include "medial_vk/ball.h"
-#include "mesh/solid.h"
+#include "solid/solid.h"
 
 namespace medial_vk {
 

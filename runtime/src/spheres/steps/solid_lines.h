@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/solid.h"
+#include "solid/solid.h"
 
 namespace medial_vk {
 

@@ -1,4 +1,4 @@
-#include "mesh/solid.h"
+#include "solid/solid.h"
 
 #include <algorithm>
 #include <cmath>
