@@ -39,7 +39,7 @@ void require_usable(const cli::SpheresOptions& options) {
   require_goal(options);
   require(!options.input.empty(), "there is an input");
   require(!options.output.empty(), "there is an output");
-  require(!options.levels || has_levels(options.format), "the format has levels, if they are wanted");
+  require(!options.request.levels || has_levels(options.format), "the format has levels, if they are wanted");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(!options.check || options.request.contract != SphereContract::kBalanced, "what is checked was promised");
   require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
