@@ -26,10 +26,10 @@ void main() {
     hit = -cutPlane.w / dot(cutPlane.xyz, direction) * direction;
   }
   vec3 seen = hit;
-  // Cuts lie in one plane: the ball whose power, |p - c|^2 - r^2, is least is in front.
+  // Cuts lie in one plane: in front is the ball whose power, |p - c|^2 - r^2, is least.
   if (cut) seen += kPowerShift * (dot(hit - ball.xyz, hit - ball.xyz) - ball.w * ball.w) * direction;
   vec4 projected = projectionMatrix * vec4(seen, 1.0);
   gl_FragDepth = 0.5 * projected.z / projected.w + 0.5;
-  pixel = vec4(cut ? 0.94 * colour : shade(colour, normal), 1.0);  // A cut is flat, so that its colour can be read.
+  pixel = vec4(cut ? 0.94 * colour : shade(colour, normal), 1.0);  // A cut is there to be read.
 #endif
 }

@@ -1,13 +1,13 @@
-// The common part of all kernels of the page. Positions are in the units of the page: the mesh around 0, of size 1.
+// What every kernel of the page shares. Places are in the page's own units: the mesh around 0, of size 1.
 precision highp float;
 precision highp int;
-uniform vec4 cutPlane;  // In view space; the side where dot(xyz, p) + w >= 0 is kept.
+uniform vec4 cutPlane;  // In view space; kept is where dot(xyz, p) + w >= 0.
 
 const vec3 kKeyLight = vec3(-0.4479, 0.6470, 0.6171);  // View space, towards the light.
 
 bool cut_away(vec3 viewPosition) { return dot(cutPlane.xyz, viewPosition) + cutPlane.w < 0.0; }
 
-// Lit by the key light, with some ambient light, so that nothing is black.
+// Lit from the key light and a little from everywhere, so that nothing is black.
 vec3 shade(vec3 colour, vec3 normal) {
   float key = max(dot(normal, kKeyLight), 0.0);
   float highlight = pow(max(dot(normal, normalize(kKeyLight + vec3(0, 0, 1))), 0.0), 40.0);

@@ -1,4 +1,4 @@
-// Two lines from a centre to the contacts of its ball.
+// Two lines from a centre to the places that its ball touches.
 out vec3 colour, place;
 
 void main() {
