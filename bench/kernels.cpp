@@ -6,6 +6,7 @@
 // Counters: for each kernel its `share`; for the sum of all, the distances between points and triangles per second
 // (`triangle_tests` of the report).
 #include <benchmark/benchmark.h>
+#include <optional>
 
 #include <cstdio>
 #include <cstdlib>

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "device/context_impl.h"
 #include "device_run.h"
 #include "embree_peer.h"
 #include "input/read_mesh.h"

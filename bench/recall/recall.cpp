@@ -16,6 +16,7 @@
 #include "input/read_mesh.h"
 #include "judge/reference_bridge.h"
 #include "judge/reference_extractor.h"
+#include "medial_vk/context.h"
 #include "medial_vk/prepare.h"
 #include "recall_count.h"
 #include "recall_table.h"
