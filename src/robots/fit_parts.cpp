@@ -231,6 +231,7 @@ class Fitting {
     const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
     for (const std::vector<Ball>& set : sets) {
       std::vector<Ball> placed;
+      placed.reserve(set.size());
       for (const Ball& ball : set) placed.push_back(place(part, ball, grow));
       fit.levels.push_back(std::move(placed));
     }
