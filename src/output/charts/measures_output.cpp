@@ -7,7 +7,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "output/charts/measures_output.h"
 #include "output/charts/svg_drawing.h"
 
 namespace medial_vk {

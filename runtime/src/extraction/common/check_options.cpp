@@ -6,14 +6,15 @@
 
 namespace medial_vk {
 
-Status check_options(const ExtractionOptions& p) {
+Status check_options(const ExtractionOptions& options) {
   const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
-  if (p.resolution < 1 || p.resolution > 4096) return usage("resolution must be 1 to 4096 voxels");
-  if (!(p.object_angle > 0 && p.object_angle < std::acos(0.0))) return usage("object angle must be in (0, pi/2)");
-  if (!(p.radius >= 0 && p.radius < 1)) return usage("radius threshold must be in [0, 1)");
-  if (!(p.epsilon >= 1e-3 && p.epsilon <= 0.5)) return usage("epsilon must be in [0.001, 0.5] voxels");
-  if (!(p.deep_angle > 0 && p.deep_angle < std::acos(0.0))) return usage("deep angle must be in (0, pi/2)");
-  if (p.extra_levels > 10) return usage("extra levels must be at most 10");
+  if (options.resolution < 1 || options.resolution > 4096) return usage("resolution must be 1 to 4096 voxels");
+  if (!(options.object_angle > 0 && options.object_angle < std::acos(0.0)))
+    return usage("object angle must be in (0, pi/2)");
+  if (!(options.radius >= 0 && options.radius < 1)) return usage("radius threshold must be in [0, 1)");
+  if (!(options.epsilon >= 1e-3 && options.epsilon <= 0.5)) return usage("epsilon must be in [0.001, 0.5] voxels");
+  if (!(options.deep_angle > 0 && options.deep_angle < std::acos(0.0))) return usage("deep angle must be in (0, pi/2)");
+  if (options.extra_levels > 10) return usage("extra levels must be at most 10");
   return {};
 }
 
