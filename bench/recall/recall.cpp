@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "input/read_mesh.h"
-#include "judge/reference_bridge.h"
-#include "judge/reference_extractor.h"
 #include "medial_vk/context.h"
 #include "medial_vk/prepare.h"
 #include "recall_count.h"
 #include "recall_table.h"
+#include "reference/reference_bridge.h"
+#include "reference/reference_extractor.h"
 #include "support/solids/solid_catalogue.h"
 
 namespace {

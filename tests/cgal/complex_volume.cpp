@@ -5,7 +5,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <vector>
 
-#include "balls/unions/simplex_lists.h"
+#include "ball_unions/unions/simplex_lists.h"
 
 namespace medial_vk::test {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "balls/unions/simplex_lists.h"
+#include "ball_unions/unions/simplex_lists.h"
 
 namespace medial_vk::test {
 namespace {

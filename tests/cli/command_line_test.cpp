@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
 #include "tool_test.h"

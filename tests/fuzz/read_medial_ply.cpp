@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/require.h"
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk::fuzz {
 namespace {

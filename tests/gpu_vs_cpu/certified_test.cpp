@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "judge/reference_bridge.h"
 #include "mesh/winding_number.h"
+#include "reference/reference_bridge.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"

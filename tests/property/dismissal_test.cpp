@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "judge/reference_bridge.h"
-#include "judge/reference_extractor.h"
+#include "reference/reference_bridge.h"
+#include "reference/reference_extractor.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/indexed.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "judge/reference_extractor.h"
+#include "reference/reference_extractor.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
 #include "support/solids/solids.h"

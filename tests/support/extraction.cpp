@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "cpu_reference/certificate.h"
-#include "judge/reference_bridge.h"
 #include "medial_vk/prepare.h"
+#include "reference/reference_bridge.h"
 #include "support/indexed.h"
 
 namespace medial_vk::test {

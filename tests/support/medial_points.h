@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk::test {
 

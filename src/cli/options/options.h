@@ -12,7 +12,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 #include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {

@@ -13,7 +13,7 @@
 #include "medial_vk/result.h"
 #include "medial_vk/spheres.h"
 #include "output/picture/panels/options.h"
-#include "output/spheres/sphere_file.h"
+#include "output/sphere_files/sphere_file.h"
 
 namespace medial_vk::cli {
 

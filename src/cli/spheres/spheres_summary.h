@@ -6,8 +6,8 @@
 
 #include "checks/check_report.h"
 #include "cli/options/spheres_options.h"
-#include "output/files/atomic_file.h"
-#include "output/fits/fits_record.h"
+#include "output/fit_reports/fits_record.h"
+#include "output/whole_files/atomic_file.h"
 
 namespace medial_vk::cli {
 

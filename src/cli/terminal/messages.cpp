@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "output/files/atomic_file.h"
+#include "output/whole_files/atomic_file.h"
 
 namespace medial_vk::cli {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "output/files/little_endian.h"
 #include "output/formats/ball_colours.h"
 #include "output/formats/icosphere.h"
+#include "output/whole_files/little_endian.h"
 
 namespace medial_vk {
 namespace {

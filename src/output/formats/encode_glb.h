@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk {
 

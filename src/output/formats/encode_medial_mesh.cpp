@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "common/file_extension.h"
-#include "output/files/little_endian.h"
+#include "output/whole_files/little_endian.h"
 
 namespace medial_vk {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "medial_vk/medial_mesh.h"
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "output/files/little_endian.h"
 #include "output/formats/zip_archive.h"
+#include "output/whole_files/little_endian.h"
 
 namespace medial_vk {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "medial_vk/sheets.h"
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk {
 

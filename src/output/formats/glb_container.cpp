@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "output/files/little_endian.h"
+#include "output/whole_files/little_endian.h"
 
 namespace medial_vk {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "balls/triangulation/bisector.h"
+#include "ball_unions/triangulation/bisector.h"
 #include "support/exact_number.h"
 
 namespace medial_vk {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "medial_vk/version.h"
-#include "output/medial_file/medial_file.h"
+#include "output/medial_ply/medial_file.h"
 #include "support/medial_points.h"
 
 namespace medial_vk {

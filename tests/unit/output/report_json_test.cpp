@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/extract/summary.h"
+#include "cli/shared/summary.h"
 #include "cli/terminal/tables.h"
 #include "output/report/report_json.h"
 

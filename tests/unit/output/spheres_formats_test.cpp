@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "output/spheres/float_text.h"
-#include "output/spheres/sphere_file.h"
+#include "output/sphere_files/float_text.h"
+#include "output/sphere_files/sphere_file.h"
 
 namespace medial_vk {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/point_ops.h"
-#include "judge/reference_extractor.h"
 #include "medial_vk/prepare.h"
+#include "reference/reference_extractor.h"
 #include "robots/fit_parts.h"
 #include "support/solids/solids.h"
 

@@ -1,0 +1,245 @@
+#include "ball_unions/cells/power_cell.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "base/point_math.h"
+
+namespace medial_vk {
+namespace {
+
+// Margin between the ball and the box: corners on walls must lie outside the ball, for any rounding.
+constexpr double kRoom = 1 + 0x1p-20;
+
+std::size_t index_of(std::uint32_t ball, const std::array<std::uint32_t, 4>& balls) {
+  return static_cast<std::size_t>(std::find(balls.begin(), balls.end(), ball) - balls.begin());
+}
+
+}  // namespace
+
+void PowerCell::start_empty(std::uint32_t i) {
+  ball_ = i;
+  planes_.clear();
+  corners_.clear();
+  walls_.assign(6, {});
+  const double side = balls_[i].radius * kRoom;
+  for (std::size_t k = 0; k < 6; ++k) {
+    Wall& wall = walls_[k];
+    wall.normal[k / 2] = k % 2 == 0 ? -1 : 1;
+    wall.offset = side;
+    planes_.push_back({.normal = wall.normal, .offset = side, .ball = -1 - static_cast<std::int32_t>(k)});
+  }
+  farthest_ = 2 * balls_[i].radius;
+}
+
+void PowerCell::start(std::uint32_t i) {
+  start_empty(i);
+  const double side = walls_[0].offset;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    Corner corner{};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t up = c >> k & 1;
+      corner.at[k] = up ? side : -side;
+      corner.planes[k] = 2 * k + up;
+      corner.neighbours[k] = c ^ (1u << k);
+    }
+    const bool odd = (c == 0) || (c == 3) || (c == 5) || (c == 6);  // an odd number of normals point downwards
+    if (odd) {
+      std::swap(corner.planes[1], corner.planes[2]);
+      std::swap(corner.neighbours[1], corner.neighbours[2]);
+    }
+    corners_.push_back(corner);
+  }
+}
+
+void PowerCell::start(std::uint32_t i, const RegularTriangulation& triangulation) {
+  start_empty(i);
+  const auto tetrahedra = triangulation.tetrahedra();
+  for (const std::uint32_t t : triangulation.around(i)) {
+    const auto& [balls, neighbours] = tetrahedra[t];
+    const std::array<std::size_t, 3> others = RegularTriangulation::kOthers[index_of(i, balls)];
+    const auto& [from_first, slack] = triangulation.corner(t);
+    const Point to_first = balls_[balls[0]].centre - balls_[i].centre;
+    Corner corner{from_first + to_first, slack + 2 * DBL_EPSILON * (length(from_first) + length(to_first)), {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) corner.planes[k] = plane_of(balls[others[k]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t next = neighbours[others[k]];
+      corner.neighbours[k] = triangulation.place_around(next, index_of(i, tetrahedra[next].balls));
+    }
+    farthest_ = std::max(farthest_, length(corner.at));
+    corners_.push_back(corner);
+  }
+  cut_to_box();
+}
+
+/// The index of a ball's plane, which is created at its first use.
+std::uint32_t PowerCell::plane_of(std::uint32_t j) {
+  plane_of_.resize(balls_.size());
+  const std::uint32_t known = plane_of_[j];
+  if (known < planes_.size() && planes_[known].ball == static_cast<std::int32_t>(j)) return known;
+  plane_of_[j] = static_cast<std::uint32_t>(planes_.size());
+  planes_.push_back(bisector(balls_, ball_, j));
+  return plane_of_[j];
+}
+
+void PowerCell::cut_to_box() {
+  for (std::uint32_t wall = 0; wall < 6; ++wall) {
+    if (find_cut_corners(planes_[wall])) cut_by(wall);
+  }
+  farthest_ = 2 * balls_[ball_].radius;
+}
+
+void PowerCell::keep(Kept& kept) const {
+  kept.ball = ball_;
+  kept.walls = walls_;
+  kept.planes = planes_;
+  kept.corners = corners_;
+}
+
+void PowerCell::restore(const Kept& kept) {
+  ball_ = kept.ball;
+  walls_ = kept.walls;
+  planes_ = kept.planes;
+  corners_ = kept.corners;
+  farthest_ = 2 * balls_[ball_].radius;
+}
+
+bool PowerCell::cuts(const Corner& corner, const Bisector& plane, double height) const {
+  const double doubt = corner.slack + plane.slack + 8 * DBL_EPSILON * (length(corner.at) + std::fabs(plane.offset));
+  if (std::fabs(height) > doubt) return height > 0;
+  const auto name = [&](std::size_t k) { return planes_[corner.planes[k]].ball; };
+  return !exact_.keeps(ball_, name(0), name(1), name(2), plane.ball);
+}
+
+/// False if there are none.
+bool PowerCell::find_cut_corners(const Bisector& plane) {
+  heights_.resize(corners_.size());
+  double greatest = -HUGE_VAL;
+  for (std::size_t c = 0; c < corners_.size(); ++c) {
+    const Corner& corner = corners_[c];
+    heights_[c] = dot(plane.normal, corner.at) - plane.offset;
+    greatest = std::max(greatest, heights_[c] + corner.slack);
+  }
+  const double doubt = plane.slack + 8 * DBL_EPSILON * (farthest_ + std::fabs(plane.offset));
+  if (greatest < -doubt) return false;
+  cut_.clear();
+  is_cut_.resize(corners_.size());
+  for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+    is_cut_[c] = cuts(corners_[c], plane, heights_[c]);
+    if (is_cut_[c]) cut_.push_back(c);
+  }
+  return !cut_.empty();
+}
+
+/// The intersection of three planes.
+PowerCell::Corner PowerCell::corner_of(const std::array<std::uint32_t, 3>& planes) const {
+  const auto [at, slack] = meeting_point(planes_[planes[0]], planes_[planes[1]], planes_[planes[2]]);
+  Corner corner{at, slack, planes, {}};
+  if (!(slack <= kRoughCorner * std::max(balls_[ball_].radius, length(at)))) place_exactly(corner);
+  return corner;
+}
+
+void PowerCell::place_exactly(Corner& corner) const {
+  const auto name = [&](std::size_t k) { return planes_[corner.planes[k]].ball; };
+  std::tie(corner.at, corner.slack) = exact_.meet(ball_, name(0), name(1), name(2));
+}
+
+void PowerCell::sharpen() {
+  for (Corner& corner : corners_) {
+    if (corner.slack > kSharpCorner * balls_[ball_].radius) place_exactly(corner);
+  }
+}
+
+void PowerCell::add_corners(std::uint32_t plane) {
+  added_.clear();
+  for (const std::uint32_t c : cut_) {
+    for (std::size_t slot = 0; slot < 3; ++slot) {
+      const std::uint32_t kept = corners_[c].neighbours[slot];
+      if (kept >= is_cut_.size() || is_cut_[kept]) continue;
+      const auto name = static_cast<std::uint32_t>(corners_.size());
+      auto planes = corners_[c].planes;
+      planes[slot] = plane;
+      Corner corner = corner_of(planes);
+      corner.neighbours[slot] = kept;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (corners_[kept].neighbours[k] != c) continue;
+        // Two corners share one edge only, unless the polyhedron is a dihedron, which bounded cells are not.
+        corners_[kept].neighbours[k] = name;
+        break;
+      }
+      corners_.push_back(corner);
+      added_.push_back(name);
+    }
+  }
+}
+
+void PowerCell::link_new_corners(std::uint32_t plane) {
+  leaving_.resize(planes_.size());
+  arriving_.resize(planes_.size());
+  const auto slot_of = [&](const Corner& corner) {
+    return corner.planes[0] == plane ? 0u : corner.planes[1] == plane ? 1u : 2u;
+  };
+  for (const std::uint32_t c : added_) {
+    const unsigned slot = slot_of(corners_[c]);
+    leaving_[corners_[c].planes[(slot + 1) % 3]] = c;
+    arriving_[corners_[c].planes[(slot + 2) % 3]] = c;
+  }
+  for (const std::uint32_t c : added_) {
+    Corner& corner = corners_[c];
+    const unsigned slot = slot_of(corner), next = (slot + 1) % 3, after = (slot + 2) % 3;
+    corner.neighbours[next] = leaving_[corner.planes[after]];
+    corner.neighbours[after] = arriving_[corner.planes[next]];
+  }
+}
+
+/// Closes the gaps with the last corners.
+void PowerCell::remove_cut_corners() {
+  is_cut_.resize(corners_.size(), 0);
+  for (std::size_t k = cut_.size(); k-- > 0;) {
+    const std::uint32_t gap = cut_[k];
+    const auto last = static_cast<std::uint32_t>(corners_.size() - 1);
+    if (gap != last) {
+      corners_[gap] = corners_[last];
+      for (const std::uint32_t neighbour : corners_[gap].neighbours) {
+        for (std::uint32_t& back : corners_[neighbour].neighbours) {
+          if (back == last) back = gap;
+        }
+      }
+    }
+    corners_.pop_back();
+  }
+}
+
+bool PowerCell::was_cut_by(std::uint32_t j) const {
+  const auto name = static_cast<std::int32_t>(j);
+  return std::any_of(planes_.begin(), planes_.end(), [&](const Bisector& plane) { return plane.ball == name; });
+}
+
+bool PowerCell::clip(std::uint32_t j) {
+  const Bisector plane = bisector(balls_, ball_, j);
+  if (plane.normal == Point{}) {
+    if (exact_.keeps_concentric(ball_, j)) return false;
+    corners_.clear();
+    return true;
+  }
+  if (!find_cut_corners(plane)) return false;
+  planes_.push_back(plane);
+  cut_by(static_cast<std::uint32_t>(planes_.size() - 1));
+  return true;
+}
+
+/// Removes the corners that find_cut_corners() found.
+void PowerCell::cut_by(std::uint32_t plane) {
+  if (cut_.size() == corners_.size()) {
+    corners_.clear();
+    return;
+  }
+  add_corners(plane);
+  link_new_corners(plane);
+  remove_cut_corners();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "ball_unions/unions/simplex_lists.h"
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+template <std::size_t N>
+void add_faces(const std::vector<std::array<std::uint32_t, N>>& simplices,
+               std::vector<std::array<std::uint32_t, N - 1>>& faces) {
+  std::vector<std::array<std::uint32_t, N - 1>> missing;
+  for (const auto& simplex : simplices) {
+    for (std::size_t k = 0; k < N; ++k) {
+      const auto side = face(simplex, k);
+      if (!std::binary_search(faces.begin(), faces.end(), side)) missing.push_back(side);
+    }
+  }
+  if (missing.empty()) return;
+  faces.insert(faces.end(), missing.begin(), missing.end());
+  sort_unique(faces);
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count), sets_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// True if they were in different sets.
+  bool join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    parent_[std::max(a, b)] = std::min(a, b);
+    --sets_;
+    return true;
+  }
+  std::size_t sets() const { return sets_; }
+
+ private:
+  std::vector<std::size_t> parent_;
+  std::size_t sets_;
+};
+
+}  // namespace
+
+std::uint64_t count_components(const DualComplex& complex) {
+  DisjointSets sets(complex.vertices.size());
+  for (const auto& [a, b] : complex.edges) sets.join(place_of(complex.vertices, a), place_of(complex.vertices, b));
+  return sets.sets();
+}
+
+void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices) {
+  sort_unique(complex.vertices);
+  sort_unique(complex.edges);
+  sort_unique(complex.triangles);
+  sort_unique(complex.tetrahedra);
+  add_faces(complex.tetrahedra, complex.triangles);
+  add_faces(complex.triangles, complex.edges);
+  std::vector<std::uint32_t> ends;
+  for (const auto& edge : complex.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+  complex.vertices.insert(complex.vertices.end(), ends.begin(), ends.end());
+  sort_unique(complex.vertices);
+  std::sort(vertices.begin(), vertices.end(), [](const EnvelopeVertex& a, const EnvelopeVertex& b) {
+    return std::pair(a.balls, a.at) < std::pair(b.balls, b.at);
+  });
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,58 @@
+// The search for one cover: its steps, its reduction, its proof.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solid/solid.h"
+#include "sphere_fits/cover/cover_search.h"
+#include "sphere_fits/measures/envelope.h"
+
+namespace medial_vk {
+
+/// Deterministic. Throws std::bad_alloc, and what `report` throws.
+class Cover {
+ public:
+  /// Called with the finished share, from any thread at any time; a smaller one than before is to be ignored. May throw
+  /// Stopped.
+  using Report = std::function<void(double)>;
+
+  /// Balls grow from these. Keeps a reference to the solid.
+  Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report);
+
+  /// Repeats steps until they gain little, between two shares of the work; then also with finer pieces.
+  void search(double from, double until);
+  void polish();
+  /// Removes one ball, and improves its neighbours; improves all balls each time an eighth has been removed.
+  void shrink();
+
+  /// The balls; some may have radius 0.
+  std::size_t count() const { return search_.balls().size(); }
+  /// The exact volume of the union; that of certified() is not smaller.
+  double volume() const { return volume_; }
+  /// Fills the gaps that the proof finds, and finally lets all balls grow until it finds none.
+  std::vector<Ball> certified() const;
+
+ private:
+  double measure() const;
+  void keep();
+  void improve(int rounds, double from, double until);
+  std::vector<Ball> enlarged(double by) const;
+  bool fill(const Envelope& envelope);
+
+  const Solid& solid_;
+  Threads threads_;
+  Report report_;
+  CoverSearch search_;
+  std::vector<Ball> best_;
+  double volume_ = 0;
+  std::size_t improved_ = 0;  // number of balls when all were last improved
+};
+
+/// The full search from these balls, or, where balls are few, from others if the result is smaller.
+Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report);
+
+/// The smallest ball that holds all vertices, with a margin.
+Ball ball_around(const Solid& solid);
+
+}  // namespace medial_vk

@@ -1,0 +1,59 @@
+// Covers by any number of balls, such that more balls never give a larger volume.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "sphere_fits/cover/cover.h"
+#include "sphere_fits/measures/threads.h"
+
+namespace medial_vk {
+
+/// The numbers for which a cover is searched from balls inside: 1, 4, 16, 64 and the powers of two beyond. Covers of
+/// numbers in between come from the next one by removal of balls.
+constexpr std::size_t cover_top(std::size_t count) {
+  std::size_t top = 1;
+  while (top < count) top *= top < 64 ? 4 : 2;
+  return top;
+}
+
+/// For every top T there are covers of T, T - 1, T - 2 ... balls, one after the other, that depend only on the solid
+/// and on T. The answer for n balls is the cover of least volume with no more than n balls among those of the tops up
+/// to cover_top(n). For a larger number these and others are candidates, so the answer is never larger. A cover with
+/// less volume than an earlier one of its top, which has more balls, is left out.
+class CoverFamily {
+ public:
+  /// By top: balls inside, T of them, or fewer for the greatest; more tops may be added later. Keeps references.
+  CoverFamily(const Solid& solid, const std::map<std::size_t, std::vector<Ball>>& starts, unsigned threads,
+              const SphereProgress& progress)
+      : solid_(solid), starts_(starts), threads_(threads), progress_(progress) {}
+
+  struct Answer {
+    std::vector<Ball> balls;
+    double volume = 0;  ///< Of their union.
+  };
+  /// All answers are proved. Throw std::bad_alloc, and Stopped at the request of the progress callback.
+  Answer of(std::size_t count);
+  /// A cover of no more balls than `count`, but more than the previous top: with few balls, of no more than this
+  /// volume; none if the one for `count` is larger.
+  std::vector<Ball> few(std::size_t count, double volume);
+
+ private:
+  Answer certify(const std::vector<Ball>& balls) const;
+  Answer best_below(std::size_t top, std::size_t count, const Cover::Report& report, std::optional<Cover>& found) const;
+  Cover::Report report(bool shown);
+
+  const Solid& solid_;
+  const std::map<std::size_t, std::vector<Ball>>& starts_;
+  unsigned threads_;
+  const SphereProgress& progress_;
+  std::map<std::size_t, Answer> tops_;  // for the number of balls of the top
+  std::map<std::size_t, Cover> found_;  // of the last search, by top
+  std::mutex mutex_;                    // of progress_, and
+  double shown_ = 0;                    // the share of the longest search
+};
+
+}  // namespace medial_vk

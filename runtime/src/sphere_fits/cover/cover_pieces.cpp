@@ -1,0 +1,186 @@
+#include "sphere_fits/cover/cover_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/point_ops.h"
+
+namespace medial_vk {
+namespace {
+
+/// Cells along the longest side of the box: at most 27,000 of them.
+constexpr int kCells = 30;
+constexpr int kTriangleDepth = 24;
+constexpr std::uint32_t kLeaf = 12;
+
+}  // namespace
+
+CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, const Threads& threads) {
+  const Mesh& mesh = solid.mesh().mesh;
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    area += 0.5 * length(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
+  }
+  // Pieces whose longest side is between half of this and all of it have about that area on average.
+  const double longest = 2 * std::sqrt(area / static_cast<double>(pieces));
+  for (const Triangle& t : mesh.triangles) {
+    add_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], longest, 0);
+  }
+  add_cells(solid, threads);
+  arrange();
+}
+
+void CoverPieces::add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth) {
+  const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
+  const double most = std::max({ab, bc, ca});
+  if (most <= longest || depth == kTriangleDepth) {
+    const std::array<Point, 3> corners = {a, b, c};
+    return add(corners);
+  }
+  if (most == ab) {
+    const Point m = 0.5 * (a + b);
+    add_triangle(a, m, c, longest, depth + 1);
+    add_triangle(m, b, c, longest, depth + 1);
+  } else if (most == bc) {
+    add_triangle(b, c, a, longest, depth);
+  } else {
+    add_triangle(c, a, b, longest, depth);
+  }
+}
+
+void CoverPieces::add_cells(const Solid& solid, const Threads& threads) {
+  const MeshReport& report = solid.mesh().report;
+  double side = 0;
+  std::array<int, 3> count{};
+  for (std::size_t k = 0; k < 3; ++k) side = std::max(side, (report.upper[k] - report.lower[k]) / kCells);
+  for (std::size_t k = 0; k < 3; ++k) {
+    count[k] = std::max(1, static_cast<int>(std::ceil((report.upper[k] - report.lower[k]) / side)));
+  }
+  const auto lower_of = [&](std::size_t cell) {
+    const auto i = static_cast<int>(cell);
+    const int row = i / count[0], layer = row / count[1];
+    return report.lower + side * Point{static_cast<double>(i % count[0]), static_cast<double>(row % count[1]),
+                                       static_cast<double>(layer)};
+  };
+  const auto all = static_cast<std::size_t>(count[0]) * count[1] * count[2];
+  const double reach = side * std::sqrt(0.75);
+  std::vector<std::uint8_t> is_inside(all);
+  for_all(all, 64, threads, [&](std::size_t cell) {
+    const Point centre = lower_of(cell) + side * Point{0.5, 0.5, 0.5};
+    is_inside[cell] = !solid.bvh().any_within(centre, reach) && solid.contains(centre);
+  });
+  for (std::size_t cell = 0; cell < all; ++cell) {
+    if (is_inside[cell] == 0) continue;
+    const Point lower = lower_of(cell);
+    std::array<Point, 8> corners;
+    for (std::size_t k = 0; k < 8; ++k) {
+      corners[k] = lower + side * Point{k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0};
+    }
+    add(corners);
+  }
+}
+
+void CoverPieces::add(std::span<const Point> points) {
+  Point middle{};
+  for (const Point& p : points) middle = middle + (1 / static_cast<double>(points.size())) * p;
+  points_.insert(points_.end(), points.begin(), points.end());
+  first_.push_back(static_cast<std::uint32_t>(points_.size()));
+  middle_.push_back(middle);
+  const Point twice = points.size() == 3 ? cross(points[1] - points[0], points[2] - points[0]) : Point{};
+  const double size = length(twice);
+  area_.push_back(size / 2);
+  normal_.push_back(size > 0 ? (1 / size) * twice : Point{});
+}
+
+void CoverPieces::refine(const std::vector<bool>& which) {
+  const std::vector<Point> points = std::move(points_);
+  const std::vector<std::uint32_t> first = std::move(first_);
+  points_.clear();
+  first_.assign(1, 0);
+  middle_.clear();
+  area_.clear();
+  normal_.clear();
+  for (std::size_t piece = 0; piece + 1 < first.size(); ++piece) {
+    const std::span<const Point> p(points.data() + first[piece], first[piece + 1] - first[piece]);
+    if (!which[piece] || p.size() != 3) {
+      add(p);
+      continue;
+    }
+    const Point ab = 0.5 * (p[0] + p[1]), bc = 0.5 * (p[1] + p[2]), ca = 0.5 * (p[2] + p[0]);
+    for (const std::array<Point, 3>& part : {std::array<Point, 3>{p[0], ab, ca}, std::array<Point, 3>{ab, p[1], bc},
+                                             std::array<Point, 3>{ca, bc, p[2]}, std::array<Point, 3>{ab, bc, ca}}) {
+      add(part);
+    }
+  }
+  arrange();
+}
+
+void CoverPieces::arrange() {
+  order_.resize(size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  boxes_.clear();
+  if (!order_.empty()) arrange(0, static_cast<std::uint32_t>(size()));
+}
+
+/// Recursive halves, by the middle along the longest side of the box.
+void CoverPieces::arrange(std::uint32_t first, std::uint32_t count) {
+  const auto begin = order_.begin() + first, end = begin + count;
+  const std::size_t place = boxes_.size();
+  Box box = {middle_[*begin], middle_[*begin], first, count, 0};
+  for (auto at = begin; at != end; ++at) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], middle_[*at][k]);
+      box.upper[k] = std::max(box.upper[k], middle_[*at][k]);
+    }
+  }
+  boxes_.push_back(box);
+  if (count > kLeaf) {
+    const Point side = box.upper - box.lower;
+    const auto axis = static_cast<std::size_t>(std::max_element(side.begin(), side.end()) - side.begin());
+    const std::uint32_t half = count / 2;
+    std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
+      return middle_[a][axis] != middle_[b][axis] ? middle_[a][axis] < middle_[b][axis] : a < b;
+    });
+    boxes_[place].count = 0;
+    arrange(first, half);
+    arrange(first + half, count - half);
+  }
+  boxes_[place].next = static_cast<std::uint32_t>(boxes_.size());
+}
+
+double CoverPieces::needed(const Point& centre, std::uint32_t piece) const {
+  double squared = 0;
+  for (const Point& p : points(piece)) {
+    const Point d = p - centre;
+    squared = std::max(squared, dot(d, d));
+  }
+  return std::sqrt(squared);
+}
+
+void CoverPieces::gather(const Ball& ball, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  const double most = ball.radius * ball.radius;
+  const auto take = [&](std::uint32_t piece) {
+    const Point d = middle_[piece] - ball.centre;
+    if (dot(d, d) <= most) found.push_back(piece);
+  };
+  for (std::size_t place = 0; place < boxes_.size();) {
+    const Box& box = boxes_[place];
+    double away = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double out = std::max({box.lower[k] - ball.centre[k], ball.centre[k] - box.upper[k], 0.0});
+      away += out * out;
+    }
+    if (away > most) {
+      place = box.next;
+      continue;
+    }
+    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) take(order_[k]);
+    ++place;
+  }
+  for (auto piece = static_cast<std::uint32_t>(order_.size()); piece < size(); ++piece) take(piece);
+}
+
+}  // namespace medial_vk

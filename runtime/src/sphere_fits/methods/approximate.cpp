@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "sphere_fits/cover/cover_family.h"
+#include "sphere_fits/methods/approximate.h"
+#include "sphere_fits/methods/best_method.h"
+#include "sphere_fits/methods/dilation.h"
+#include "sphere_fits/methods/prefixes.h"
+#include "sphere_fits/methods/source_method.h"
+
+namespace medial_vk {
+namespace {
+
+Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
+
+/// Balls inside the solid, with which the methods of all contracts begin.
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                                 const SphereProgress& progress) {
+  switch (options.method) {
+    case SphereMethod::kSource:
+      return source_spheres(solid, options, extractor, progress);
+    case SphereMethod::kBest:
+      break;
+  }
+  return best_spheres(solid, options, extractor, progress);
+}
+
+/// Turns the set into one for the contract.
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& options,
+                                const SphereProgress& progress) {
+  switch (options.contract) {
+    case SphereContract::kInside:
+      break;
+    case SphereContract::kCover:
+      return cover_solid(solid, std::move(inside), options.threads, progress);
+    case SphereContract::kBalanced:
+      return dilate_to_boundary(solid, std::move(inside), options.threads);
+  }
+  return inside;
+}
+
+Status check_request(const Solid& solid, const SphereOptions& options) {
+  const bool finite = std::isfinite(options.error) && std::isfinite(options.max_gap);
+  if (!finite || options.error < 0 || options.error >= 1 || options.max_gap < 0) {
+    return usage("an error is a share below 1, and a gap a length; neither is negative");
+  }
+  if (options.error > 0 && !solid.has_volume()) {
+    return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
+  }
+  // Balls inside keep a distance of the rounding from the boundary.
+  if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
+    return usage("so small a gap is below the rounding of distances");
+  }
+  if (options.contract == SphereContract::kCover && options.max_gap > 0) {
+    return usage("balls that cover leave no gap; give an error, or how many");
+  }
+  const bool is_best = options.method == SphereMethod::kBest;
+  if (options.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
+    return usage("balanced balls need a mesh without open edges; take the contract inside, or the method source");
+  }
+  const bool has_goal = options.error > 0 || options.max_gap > 0;
+  if (has_goal && options.contract != SphereContract::kInside && !is_best) {
+    return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
+  }
+  return {};
+}
+
+/// The balls inside with which covers of `count` balls begin: more than `count`, up to the next number for which covers
+/// are searched.
+Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& options, std::size_t count,
+                               const Extractor& extractor, const SphereProgress& progress) {
+  SphereOptions start = options;
+  start.contract = SphereContract::kInside;
+  start.error = 0;
+  start.count = cover_top(count);
+  return best_spheres(solid, start, extractor, progress);
+}
+
+/// A cover that adds no more than the error: tries the numbers for which covers are searched, one after the other, then
+/// fewer balls.
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                                  const SphereProgress& progress) {
+  const std::size_t most = options.count > 0 ? options.count : kMostBalls;
+  const double volume = (1 + options.error) * solid.volume();
+  std::map<std::size_t, std::vector<Ball>> starts;
+  CoverFamily family(solid, starts, options.threads, progress);
+  for (std::size_t top = 1;; top = cover_top(top + 1)) {
+    const std::size_t count = std::min(top, most);
+    Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
+    if (!inside) return inside.error();
+    starts = std::move(inside.value().stages);  // the previous starts, and one more
+    if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
+    if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
+  }
+}
+
+/// The smaller levels of a cover, and the cover itself.
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& options, bool all_levels,
+                                            SphereSet cover, const Extractor& extractor,
+                                            const SphereProgress& progress) {
+  std::vector<SphereSet> levels;
+  if (const std::size_t next = cover.balls.size() / 2; all_levels && next > 0) {
+    const Result<SphereSet> inside = cover_starts(solid, options, next, extractor, progress);
+    if (!inside) return inside.error();
+    Result<std::vector<SphereSet>> smaller =
+        cover_by_counts(solid, inside.value().stages, level_counts(next), options.threads, progress);
+    if (!smaller) return smaller.error();
+    levels = std::move(smaller).value();
+  }
+  levels.push_back(std::move(cover));
+  return levels;
+}
+
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptions& options, bool all_levels,
+                                           const Extractor& extractor, const SphereProgress& progress) {
+  const std::size_t count = options.count;
+  if (options.error > 0) {
+    Result<SphereSet> cover = cover_for_error(solid, options, extractor, progress);
+    if (!cover) return cover.error();
+    return levels_below(solid, options, all_levels, std::move(cover).value(), extractor, progress);
+  }
+  if (count == 0) return usage("say how many balls shall cover the solid");
+  const Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
+  if (!inside) return inside.error();
+  const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
+  return cover_by_counts(solid, inside.value().stages, counts, options.threads, progress);
+}
+
+/// Every level is the state of the method at its number of balls.
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& options, bool all_levels,
+                                             const Extractor& extractor, const SphereProgress& progress) {
+  Result<SphereSet> found = best_spheres(solid, options, extractor, progress);
+  if (found && all_levels && (options.error > 0 || options.max_gap > 0)) {
+    // The numbers of the levels are known only now.
+    SphereOptions again = options;
+    again.count = found.value().balls.size();
+    again.error = again.max_gap = 0;
+    found = best_spheres(solid, again, extractor, progress);
+  }
+  if (!found) return found.error();
+  SphereSet& last = found.value();
+  std::vector<SphereSet> levels;
+  for (auto& [count, balls] : last.stages) {
+    if (all_levels && count < last.balls.size()) levels.push_back({std::move(balls)});
+  }
+  levels.push_back({std::move(last.balls)});
+  return levels;
+}
+
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions& options, bool all_levels,
+                                         const Extractor& extractor, const SphereProgress& progress) {
+  if (Status status = check_request(solid, options); !status) return status.error();
+  if (options.contract == SphereContract::kCover && options.method == SphereMethod::kBest) {
+    return best_covers(solid, options, all_levels, extractor, progress);
+  }
+  if (options.contract == SphereContract::kBalanced && options.method == SphereMethod::kBest) {
+    return best_balanced(solid, options, all_levels, extractor, progress);
+  }
+  Result<SphereSet> inside = inside_spheres(solid, options, extractor, progress);
+  if (!inside) return inside.error();
+  const std::vector<Ball>& balls = inside.value().balls;
+  const std::vector<std::size_t> counts =
+      all_levels && !balls.empty() ? level_counts(balls.size()) : std::vector<std::size_t>{balls.size()};
+  std::vector<SphereSet> levels;
+  for (const std::size_t count : counts) {
+    const auto end = balls.begin() + static_cast<std::ptrdiff_t>(count);
+    Result<SphereSet> level = keep_contract(solid, {std::vector<Ball>(balls.begin(), end)}, options, progress);
+    if (!level) return level.error();
+    levels.push_back(std::move(level).value());
+  }
+  return levels;
+}
+
+/// Throws no exception.
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& options, bool all_levels,
+                                              const Extractor& extractor, const SphereProgress& progress) {
+  try {
+    return levels_of(solid, options, all_levels, extractor, progress);
+  } catch (const Stopped&) {
+    return Error{ErrorCode::kInterrupted, "interrupted"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
+  }
+}
+
+}  // namespace
+
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                                         const SphereProgress& progress) {
+  Result<std::vector<SphereSet>> levels = guarded_levels(solid, options, false, extractor, progress);
+  if (!levels) return levels.error();
+  SphereSet last = std::move(levels.value().back());
+  return last;
+}
+
+Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereOptions& options,
+                                                const Extractor& extractor, const SphereProgress& progress) {
+  return guarded_levels(solid, options, false, extractor, progress);
+}
+
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& options,
+                                                     const Extractor& extractor, const SphereProgress& progress) {
+  return guarded_levels(solid, options, true, extractor, progress);
+}
+
+}  // namespace medial_vk

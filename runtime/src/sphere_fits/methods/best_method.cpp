@@ -1,0 +1,343 @@
+#include "sphere_fits/methods/best_method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "base/point_ops.h"
+#include "sphere_fits/cover/cover_family.h"
+#include "sphere_fits/measures/envelope_distance.h"
+#include "sphere_fits/measures/measures.h"
+#include "sphere_fits/methods/prefixes.h"
+#include "sphere_fits/steps/ball_steps.h"
+#include "sphere_fits/steps/candidates.h"
+#include "sphere_fits/steps/gaps.h"
+#include "sphere_fits/steps/maximal_ball.h"
+
+namespace medial_vk {
+namespace {
+
+// More balls than this need finer candidates: that many voxels along the longest side.
+struct Level {
+  std::size_t from;
+  std::uint32_t resolution;
+};
+constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096, 512}}};
+// Balls of small object angles fill the edges; below this angle, their number grows but not their gain.
+constexpr double kObjectAngle = 0.3;
+
+constexpr std::size_t kGapPeriod = 8;   // one of so many balls is placed by distance instead of volume
+constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
+constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
+constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
+
+constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
+
+/// Step lengths of sliding, in radii of the ball.
+constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05;
+constexpr int kOwnSlides = 3, kSweeps = 6;
+constexpr double kEnough = 2e-3;  // share of the gain of the new ball: a sweep that gains less is the last
+
+class Placing {
+ public:
+  Placing(const Solid& solid, const SphereOptions& options, const Extractor& extractor, const SphereProgress& progress,
+          DynamicUnion balls)
+      : solid_(solid),
+        options_(options),
+        extractor_(extractor),
+        progress_(progress),
+        balls_(std::move(balls)),
+        moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
+        gaps_(solid, balls_, options.contract == SphereContract::kBalanced),
+        estimated_error_(options.error),
+        sampled_gap_(options.max_gap) {}
+
+  Result<SphereSet> run() {
+    const std::size_t most = options_.count > 0 ? options_.count : kMostBalls;
+    for (;;) {
+      const Result<bool> met = goals_met();
+      if (!met) return met.error();
+      if (met.value()) return result();
+      if (balls_.size() == most) break;
+      if (Status status = find_candidates(); !status.ok()) return status.error();
+      Result<std::optional<Candidates::Choice>> choice = choose();
+      if (!choice) return choice.error();
+      if (!choice.value()) break;
+      if (Status status = place(*choice.value()); !status.ok()) return status.error();
+      volumes_.push_back(balls_.volume());
+      if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
+      if (!progress_) continue;
+      shown_ = share_done(most);
+      if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "stopped"};
+    }
+    if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
+    if (has_goals()) return unmet();
+    return result();
+  }
+
+ private:
+  /// Covers begin with balls inside; balanced sets of smaller numbers are levels.
+  bool is_stage(std::size_t count, std::size_t most) const {
+    if (options_.contract == SphereContract::kInside) return cover_top(count) == count;
+    const std::vector<std::size_t> levels = level_counts(most);
+    return std::binary_search(levels.begin(), levels.end(), count);
+  }
+
+  bool has_goals() const { return options_.error > 0 || options_.max_gap > 0; }
+
+  Result<bool> goals_met() {
+    if (!has_goals() || balls_.size() == 0) return false;
+    if (options_.error > 0) {
+      Result<bool> met = error_met();
+      if (!met || !met.value()) return met;
+    }
+    return options_.max_gap > 0 ? gap_met() : true;
+  }
+
+  /// The reported error is measured independently of the estimate by the steps of balanced balls, which decides when to
+  /// measure.
+  Result<bool> error_met() {
+    const double error = moves_->error(balls_);
+    if (!(error <= estimated_error_)) return false;
+    if (options_.contract != SphereContract::kBalanced) return true;
+    const Result<VolumeError> measured =
+        estimate_volume_error(solid_, all_balls(), {.threads = {options_.threads, goes_on()}});
+    if (!measured) return measured.error();
+    if (measured.value().normalized() <= options_.error) return true;
+    estimated_error_ = 0.999 * std::min(error, error * options_.error / measured.value().normalized());
+    return false;
+  }
+
+  /// Samples decide when to try a proof; one that fails determines how much lower they must be.
+  Result<bool> gap_met() {
+    const double sampled = gaps_.widest_on_boundary().size;
+    if (!(sampled <= sampled_gap_)) return false;
+    const double tolerance = kGapTolerance * options_.max_gap / solid_.diagonal();
+    const Result<Bounds> gap =
+        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = {options_.threads, goes_on()}});
+    if (!gap) return gap.error();
+    if (gap.value().upper <= options_.max_gap) return true;
+    sampled_gap_ = std::min(sampled, sampled * options_.max_gap / gap.value().upper);
+    return false;
+  }
+
+  /// For loops on several threads.
+  std::function<bool()> goes_on() const {
+    return [&, mutex = std::make_shared<std::mutex>()] {
+      const std::lock_guard lock(*mutex);
+      return !progress_ || progress_("spheres", shown_);
+    };
+  }
+
+  double share_done(std::size_t most) {
+    if (options_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
+    double share = 1;
+    if (options_.error > 0) share = std::min(share, options_.error / moves_->error(balls_));
+    if (options_.max_gap > 0) share = std::min(share, options_.max_gap / gaps_.widest_on_boundary().size);
+    return share;
+  }
+
+  Error unmet() {
+    std::string left;
+    if (options_.error > 0)
+      left = fmt::format("{:.3g} of the volume {}", moves_->error(balls_),
+                         options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
+    if (options_.max_gap > 0) {
+      left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
+    }
+    const std::size_t n = balls_.size();
+    return {ErrorCode::kUsage, fmt::format("{} {} {}; allow more balls, or a larger error or gap", n,
+                                           n == 1 ? "ball leaves" : "balls leave", left)};
+  }
+
+  /// Switches to the next finer medial points, if there are enough balls for them.
+  Status find_candidates() {
+    if (options_.resolution > 0) return levels_ > 0 ? Status() : extract(options_.resolution);
+    while (levels_ < kLevels.size() && kLevels[levels_].from <= balls_.size()) {
+      if (Status status = extract(kLevels[levels_].resolution); !status.ok()) return status;
+    }
+    return {};
+  }
+
+  Status extract(std::uint32_t resolution) {
+    ++levels_;
+    ExtractionOptions options;
+    options.resolution = resolution;
+    options.object_angle = kObjectAngle;
+    // Not every voxel needs its point: a search in parts of voxels finds little and takes time.
+    options.extra_levels = 0;
+    options.threads = options_.threads;
+    const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
+    Result<std::vector<Ball>> balls = find_medial_balls(solid_, options, extractor_, part);
+    if (!balls) return balls.error();
+    std::erase_if(balls.value(), [&](const Ball& ball) { return !stays_inside(solid_, ball); });
+    candidates_.add(balls.value());
+    return {};
+  }
+
+  /// Where many balls are equally good, as in a plate that is wide for its thickness, distance decides.
+  Result<std::optional<Candidates::Choice>> choose() {
+    Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
+    if (best && !best.value() && balls_.size() == 0) return first_from_boundary();
+    if (!best || balls_.size() == 0) return best;
+    const std::optional<Ball> ball = ball_in_widest_gap();
+    if (!ball) return best;
+    const Result<double> gain = balls_.gain(*ball);
+    if (!gain) return gain.error();
+    const std::size_t n = balls_.size();
+    const bool is_due = n >= kFirstGap && n % kGapPeriod == 0;
+    const double least = !best.value() || is_due ? 0 : kAsGood * best.value()->gain;
+    if (gain.value() <= least) return best;
+    if (best.value()) candidates_.add({&best.value()->ball, 1});
+    return std::optional<Candidates::Choice>({*ball, gain.value()});
+  }
+
+  /// The largest ball through the deepest vertex of the envelope, or near the boundary's farthest point.
+  std::optional<Ball> ball_in_widest_gap() {
+    const GapFinder::Gap outer = gaps_.widest_on_boundary(), inner = gaps_.deepest_vertex();
+    const std::optional<Point> inside = outer.size > inner.size ? point_inside(outer) : inner.at;
+    if (!inside) return std::nullopt;
+    const Ball ball = maximal_ball(solid_, *inside);
+    return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
+  }
+
+  /// If there are no medial points (that of a ball is its centre, and easily missed): the largest of the balls that
+  /// touch the boundary at its samples.
+  Result<std::optional<Candidates::Choice>> first_from_boundary() {
+    Ball largest = {{0, 0, 0}, 0};
+    for (const GapFinder::Sample& sample : gaps_.samples()) {
+      const std::optional<Point> inside = point_along(sample.at, sample.inward, kFirstDepth * solid_.diagonal());
+      if (!inside) continue;
+      const Ball ball = maximal_ball(solid_, *inside);
+      if (ball.radius > largest.radius && stays_inside(solid_, ball)) largest = ball;
+    }
+    if (largest.radius <= 0) return std::optional<Candidates::Choice>();
+    const Result<double> gain = balls_.gain(largest);
+    if (!gain) return gain.error();
+    return std::optional<Candidates::Choice>({largest, gain.value()});
+  }
+
+  /// The point half way to the balls, or, if that is outside, the point at that distance along the normal.
+  std::optional<Point> point_inside(const GapFinder::Gap& gap) const {
+    if (solid_.contains(gap.towards_balls)) return gap.towards_balls;
+    return point_along(gap.at, gap.inward, 0.5 * gap.size);
+  }
+
+  /// A point inside along the normal: at the depth, or half, or a quarter of it ...
+  std::optional<Point> point_along(const Point& at, const Point& inward, double depth) const {
+    for (int tries = 0; tries < 16; ++tries, depth /= 2) {
+      const Point inside = at + depth * inward;
+      if (solid_.contains(inside)) return inside;
+    }
+    return std::nullopt;
+  }
+
+  Status place(const Candidates::Choice& choice) {
+    // Medial points are within epsilon of a sheet; the maximal ball, which contains the other, touches on both sides.
+    const Ball maximal = maximal_ball(solid_, choice.ball.centre);
+    const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(solid_, maximal);
+    const Ball ball = is_larger ? maximal : choice.ball;
+    const Result<std::uint32_t> place = balls_.add(ball);
+    if (!place) return place.error();
+    moves_->came(balls_, place.value());
+    const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
+    note_change();
+    steps_.resize(balls_.places());
+    steps_[place.value()] = kFirstStep * ball.radius;
+    for (int i = 0; i < kOwnSlides; ++i) {
+      if (Result<double> gain = move(place.value()); !gain) return gain.error();
+    }
+    for (const std::uint32_t p : around) steps_[p] = std::max(steps_[p], kLeastFirstStep * balls_.ball(p).radius);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      double sum = 0;
+      for (const std::uint32_t p : around) {
+        Result<double> gain = move(p);
+        if (!gain) return gain.error();
+        sum += gain.value();
+      }
+      if (sum <= kEnough * choice.gain) break;
+    }
+    add_candidates_at_vertices(around);
+    return {};
+  }
+
+  /// The uncovered volume between a ball and its neighbours lies around their common points.
+  void add_candidates_at_vertices(std::span<const std::uint32_t> around) {
+    std::vector<Ball> balls;
+    for (const std::uint32_t place : around) {
+      const std::optional<Point> vertex = gaps_.deepest_vertex(place);
+      if (!vertex) continue;
+      const Ball ball = maximal_ball(solid_, *vertex);
+      if (ball.radius > 0 && stays_inside(solid_, ball)) balls.push_back(ball);
+    }
+    candidates_.add(balls);
+  }
+
+  /// One step of one ball; returns the gain.
+  Result<double> move(std::uint32_t place) {
+    Result<double> gain = moves_->take(balls_, place, steps_[place]);
+    if (gain && gain.value() > 0) note_change();
+    return gain;
+  }
+
+  void note_change() {
+    for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
+  }
+
+  std::vector<Ball> all_balls() const {
+    std::vector<Ball> all;
+    for (std::uint32_t place = 0; place < balls_.places(); ++place) all.push_back(balls_.ball(place));
+    return all;
+  }
+
+  Result<SphereSet> result() const {
+    SphereSet set = {all_balls(), volumes_, stages_};
+    if (options_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
+    if (Status status = order_by_share(set.balls, options_.threads); !status.ok()) return status.error();
+    return set;
+  }
+
+  const Solid& solid_;
+  const SphereOptions& options_;
+  const Extractor& extractor_;
+  const SphereProgress& progress_;
+  DynamicUnion balls_;
+  Candidates candidates_;
+  std::unique_ptr<BallSteps> moves_;
+  GapFinder gaps_;
+  std::size_t levels_ = 0;
+  double shown_ = 0;             // reported share of the work
+  std::vector<double> volumes_;  // after each ball
+  std::map<std::size_t, std::vector<Ball>> stages_;
+  double estimated_error_;     // estimate of the steps below which the error is measured
+  double sampled_gap_;         // gap of samples below which a proof is tried
+  std::vector<double> steps_;  // by slot
+};
+
+/// Limit of coordinates and radii of balls in the box.
+double largest_number(const MeshReport& report) {
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    largest = std::max({largest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
+  }
+  return 2 * largest;
+}
+
+}  // namespace
+
+Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                               const SphereProgress& progress) {
+  const std::size_t most = options.count > 0 ? options.count : kMostBalls;
+  Result<DynamicUnion> balls =
+      DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report));
+  if (!balls) return balls.error();
+  return Placing(solid, options, extractor, progress, std::move(balls).value()).run();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,156 @@
+// Balls for one solid: approximated, proved, measured.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "base/point_ops.h"
+#include "medial_vk/spheres.h"
+#include "sphere_fits/measures/measures.h"
+#include "sphere_fits/methods/approximate.h"
+#include "sphere_fits/methods/prefixes.h"
+
+namespace medial_vk {
+namespace {
+
+/// Progress and stop of the methods, which run on several threads.
+SphereProgress guarded(const StageProgress& progress, const std::stop_token& stop) {
+  return [&progress, &stop, mutex = std::make_shared<std::mutex>()](const char* stage, double done) {
+    const std::lock_guard lock(*mutex);
+    if (progress) progress(stage, done);
+    return !stop.stop_requested();
+  };
+}
+
+/// An extractor that a request to `stop` reaches, too: the methods have a source of stops of their own.
+Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop) {
+  return [&extractor, &stop](const IndexedMesh& mesh, const ExtractionOptions& options,
+                             const ProgressCallback& progress, const std::stop_token& own) {
+    std::stop_source either;
+    const auto request = [&either] { either.request_stop(); };
+    const std::stop_callback on_stop(stop, request), on_own(own, request);
+    return extractor(mesh, options, progress, either.get_token());
+  };
+}
+
+/// Spheres that violate the contract are not returned.
+Status check_promise(SphereContract contract, const SphereMeasures& measures) {
+  const InsideProof& inside = measures.inside;
+  if (contract == SphereContract::kInside && !inside.proved()) {
+    return Error{ErrorCode::kInternal,
+                 fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}; nothing was written",
+                             inside.failed, inside.tested, inside.worst)};
+  }
+  if (contract == SphereContract::kCover && !measures.cover.surface_proved()) {
+    return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid; nothing was written"};
+  }
+  return {};
+}
+
+/// The distance of a point of a ball outside the solid is at most the difference of radius and distance of the centre
+/// to the boundary if the centre is inside, and at most their sum if it is not. Contract inside excludes points
+/// outside.
+ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector<Ball>& balls) {
+  ReachOut reach;
+  if (contract == SphereContract::kInside || balls.empty()) return reach;
+  reach.best = HUGE_VAL;
+  CompensatedSum sum;
+  for (const Ball& ball : balls) {
+    const double distance = solid.distance(ball.centre) * (solid.contains(ball.centre) ? -1 : 1);
+    const double out = std::max(0.0, ball.radius + distance + solid.rounding());
+    sum.add(out);
+    reach.best = std::min(reach.best, out);
+    reach.worst = std::max(reach.worst, out);
+  }
+  reach.mean = sum.value() / static_cast<double>(balls.size());
+  return reach;
+}
+
+Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                      const SphereProgress& progress) {
+  Result<std::vector<SphereSet>> sets = options.levels ? approximate_in_levels(solid, options, extractor, progress)
+                                                       : approximate_once(solid, options, extractor, progress);
+  if (!sets) return sets.error();
+  const auto goes_on = [&progress] { return progress("spheres", 1); };
+  Result<SphereMeasures> measured =
+      measure_spheres(solid, sets.value().back().balls, {.threads = {options.threads, goes_on}});
+  if (!measured) return measured.error();
+  if (Status status = check_promise(options.contract, measured.value()); !status) return status.error();
+  SphereFit out;
+  out.measures = std::move(measured).value();
+  if (solid.has_volume()) out.solid_volume = solid.volume();
+  for (SphereSet& set : sets.value()) {
+    out.reach.push_back(reach_of(solid, options.contract, set.balls));
+    out.levels.push_back(std::move(set.balls));
+  }
+  return out;
+}
+
+/// Method source may have no set of so few balls; one of more balls contains the curve, too.
+Result<SphereSet> inside_of_at_least(const Solid& solid, SphereOptions options, const Extractor& extractor,
+                                     const SphereProgress& progress) {
+  options.contract = SphereContract::kInside;
+  options.error = options.max_gap = 0;
+  Result<SphereSet> set = approximate_by_spheres(solid, options, extractor, progress);
+  for (int tries = 0; !set && set.error().code == ErrorCode::kUsage && tries < 6; ++tries) {
+    options.count *= 2;
+    set = approximate_by_spheres(solid, options, extractor, progress);
+  }
+  return set;
+}
+
+Result<CoverageCurve> curve_of(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+                               const SphereProgress& progress) {
+  Result<SphereSet> set = inside_of_at_least(solid, options, extractor, progress);
+  if (!set) return set.error();
+  CoverageCurve out;
+  if (solid.has_volume()) out.solid_volume = solid.volume();
+  out.ends = options.method == SphereMethod::kBest && set.value().balls.size() < options.count;
+  out.covered = std::move(set.value().volumes);  // from method best; other sets are measured by prefixes
+  if (!out.covered.empty()) return out;
+  Result<std::vector<double>> volumes = prefix_volumes(set.value().balls, options.threads);
+  if (!volumes) return volumes.error();
+  out.covered = std::move(volumes).value();
+  return out;
+}
+
+/// Throws no exception.
+template <class Work>
+auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
+    -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {
+  try {
+    const Result<Solid> solid = Solid::create(mesh);
+    if (!solid) return solid.error();
+    return work(solid.value(), guarded(progress, stop));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
+  }
+}
+
+}  // namespace
+
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
+                              const StageProgress& progress, const std::stop_token& stop) {
+  return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
+    return fit(solid, options, stopped_by(extractor, stop), on_progress);
+  });
+}
+
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+                              const StageProgress& progress, const std::stop_token& stop) {
+  return fit_spheres(mesh, options, device_extractor(context), progress, stop);
+}
+
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
+                                             const Extractor& extractor, const StageProgress& progress,
+                                             const std::stop_token& stop) {
+  return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
+    return curve_of(solid, options, stopped_by(extractor, stop), on_progress);
+  });
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,151 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/point_ops.h"
+#include "sphere_fits/measures/surface_samples.h"
+#include "sphere_fits/steps/ball_steps.h"
+#include "sphere_fits/steps/symmetric_difference.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kSpherePoints = 256;
+constexpr double kLeastCosine =
+    0.3;  // of a normal of the ball and the direction to the boundary; less is oblique, not far
+constexpr double kAcross = 0.999;  // least one of a face's normal and the direction to its inner points
+constexpr int kRounds = 8;
+constexpr double kRidge = 1e-3;
+
+/// The signed distance of the boundary from a sphere at one of its points, along its normal; positive: outwards.
+struct Height {
+  Point normal;
+  double value;
+};
+
+/// Changes of centre and radius.
+struct Change {
+  Point move{};
+  double growth = 0;
+};
+
+/// The change that leaves the least sum of |height - growth - move . normal|, by least squares whose weights are the
+/// inverses of the residuals of the previous round (iteratively reweighted least squares). `unit`: a unit of length.
+Change least_absolute(const std::vector<Height>& heights, double unit) {
+  Eigen::Vector4d change = Eigen::Vector4d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (const Height& height : heights) {
+      const Eigen::Vector4d row(height.normal[0], height.normal[1], height.normal[2], 1);
+      const double rest = height.value - row.dot(change);
+      const double weight = round == 0 ? 1 : 1 / std::max(std::fabs(rest) / unit, 1e-3);
+      matrix += weight * row * row.transpose();
+      right += weight * height.value * row;
+    }
+    // A few points on one side do not distinguish growth and motion; the change is then divided between them.
+    matrix.diagonal().array() += kRidge * matrix(3, 3);
+    change = matrix.ldlt().solve(right);
+  }
+  return {{change[0], change[1], change[2]}, change[3]};
+}
+
+class BalancingSteps : public BallSteps {
+ public:
+  explicit BalancingSteps(const Solid& solid) : solid_(solid), difference_(solid) {}
+
+  void came(const DynamicUnion& balls, std::uint32_t place) override {
+    find_others(balls, place, 0);
+    gained_ -= difference_.change(balls.ball(place), others_);
+  }
+
+  double error(const DynamicUnion& /*balls*/) const override {
+    return (difference_.of_none() - gained_) / solid_.volume();
+  }
+
+ private:
+  /// Balls that meet the ball, or would after such a motion; those that hold most of it first.
+  void find_others(const DynamicUnion& balls, std::uint32_t place, double reach) {
+    const Ball& ball = balls.ball(place);
+    std::vector<std::pair<double, Ball>> found;
+    for (std::uint32_t p = 0; p < balls.places(); ++p) {
+      if (p == place || !balls.holds(p)) continue;
+      const Ball& other = balls.ball(p);
+      const double apart = length(other.centre - ball.centre) - other.radius;
+      if (apart < ball.radius + reach) found.emplace_back(apart, other);
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    others_.clear();
+    for (const auto& [apart, other] : found) others_.push_back(other);
+  }
+
+  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) override {
+    const Ball& ball = balls.ball(place);
+    find_others(balls, place, 3 * step);
+    heights_.clear();
+    for (std::size_t k = 0; k < kSpherePoints; ++k) {
+      const Point normal = spiral_point(k, kSpherePoints);
+      const Point at = ball.centre + ball.radius * normal;
+      if (is_in_other(at)) continue;
+      heights_.push_back({normal, height_at(at, normal)});
+    }
+    if (heights_.empty()) return std::nullopt;
+    const Change change = least_absolute(heights_, step);
+    const double size = length(change.move) + std::fabs(change.growth);
+    if (!(size > 1e-6 * step)) return std::nullopt;
+    const double factor = std::min(1.0, step / size);
+    const Ball moved = {ball.centre + factor * change.move, ball.radius + factor * change.growth};
+    return moved.radius > 0 ? std::optional(moved) : std::nullopt;
+  }
+
+  /// Among the others that propose() has found: no step is longer than its limit there.
+  Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
+    const double gain = difference_.change(balls.ball(place), others_) - difference_.change(to, others_);
+    if (!(gain > 0)) return 0.0;
+    if (Status status = balls.move(place, to); !status.ok()) return status.error();
+    gained_ += gain;
+    return gain;
+  }
+
+  bool is_in_other(const Point& at) const {
+    return std::any_of(others_.begin(), others_.end(), [&](const Ball& other) {
+      const Point apart = at - other.centre;
+      return dot(apart, apart) < other.radius * other.radius;
+    });
+  }
+
+  /// To first order: to the plane through the nearest point of the boundary.
+  double height_at(const Point& at, const Point& normal) const {
+    const BvhHit hit = solid_.closest(at);
+    const double distance = std::sqrt(hit.squared_distance);
+    if (distance <= solid_.rounding()) return 0;
+    const Point towards = (1 / distance) * (hit.point - at);
+    const double sign = is_inside(at, towards, hit.triangle) ? 1 : -1;
+    return sign * distance / std::max(sign * dot(towards, normal), kLeastCosine);
+  }
+
+  /// Where the nearest point is not on an edge, and every face has the solid behind it, that face decides.
+  bool is_inside(const Point& at, const Point& towards, std::uint32_t triangle) const {
+    if (!solid_.has_volume()) return solid_.contains(at);
+    const Mesh& mesh = solid_.mesh().mesh;
+    const auto [a, b, c] = mesh.triangles[triangle];
+    double shorter;
+    const Point face = double_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], shorter);
+    const double cosine = dot(face, towards) / length(face);
+    return std::fabs(cosine) < kAcross ? solid_.contains(at) : cosine > 0;
+  }
+
+  const Solid& solid_;
+  SymmetricDifference difference_;
+  double gained_ = 0;
+  std::vector<Ball> others_;
+  std::vector<Height> heights_;
+};
+
+}  // namespace
+
+std::unique_ptr<BallSteps> balancing_steps(const Solid& solid) { return std::make_unique<BalancingSteps>(solid); }
+
+}  // namespace medial_vk

@@ -1,0 +1,22 @@
+#include "sphere_fits/steps/ball_steps.h"
+
+#include <algorithm>
+
+namespace medial_vk {
+
+Result<double> BallSteps::take(DynamicUnion& balls, std::uint32_t place, double& step) {
+  // In radii: a ball whose step is shorter has converged.
+  constexpr double kLongestStep = 0.5, kShortestStep = 1e-3;
+  if (step < kShortestStep * balls.ball(place).radius) return 0.0;
+  const std::optional<Ball> to = propose(balls, place, step);
+  if (!to) {
+    step /= 4;
+    return 0.0;
+  }
+  const Result<double> gain = try_move(balls, place, *to);
+  if (!gain) return gain.error();
+  step = gain.value() > 0 ? std::min(1.3 * step, kLongestStep * to->radius) : step / 2;
+  return gain.value();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,39 @@
+#include "cli/shared/device_opening.h"
+
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "cli/terminal/messages.h"
+
+namespace medial_vk::cli {
+
+void DeviceOpening::start(const std::string& wanted, unsigned threads) {
+  wanted_ = wanted;
+  ContextOptions options;
+  options.device = wanted;
+  options.threads = threads;
+  started_ = std::chrono::steady_clock::now();
+  // If no thread is available, it runs when the context is taken.
+  opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
+}
+
+unsigned DeviceOpening::threads_beside(std::size_t triangles, unsigned wanted) const {
+  constexpr std::chrono::milliseconds kLoading(50);
+  constexpr std::size_t kQuick = 50'000;  // prepared or indexed by one thread in about the time of loading
+  const bool is_loading = opening_.valid() && std::chrono::steady_clock::now() < started_ + kLoading;
+  return is_loading && triangles < kQuick ? 1 : wanted;
+}
+
+Status DeviceOpening::take(std::optional<Context>& context, std::optional<DeviceDescription>& description,
+                           std::vector<StageTime>& times) {
+  if (!opening_.valid()) return {};
+  Stopwatch stopwatch;
+  Result<Context> opened = opening_.get();
+  if (!opened) return with_hint(opened.error(), wanted_);
+  context.emplace(std::move(opened).value());
+  description = context->device();
+  times.push_back({"device", stopwatch.lap()});
+  return {};
+}
+
+}  // namespace medial_vk::cli

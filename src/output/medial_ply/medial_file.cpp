@@ -1,0 +1,114 @@
+#include "output/medial_ply/medial_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "common/file_extension.h"
+#include "medial_vk/version.h"
+#include "output/whole_files/little_endian.h"
+
+namespace medial_vk {
+namespace {
+
+std::string ply_header(const MedialHeader& header, std::size_t points, bool ascii) {
+  return fmt::format(
+      "ply\n"
+      "format {} 1.0\n"
+      "{}"
+      "element vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\nproperty double radius\n"
+      "property float spoke_a_x\nproperty float spoke_a_y\nproperty float spoke_a_z\n"
+      "property float spoke_b_x\nproperty float spoke_b_y\nproperty float spoke_b_z\n"
+      "property float object_angle\nproperty float flux\nproperty int sheet\n"
+      "end_header\n",
+      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points);
+}
+
+void append_binary(std::string& out, const MedialSphere& sphere) {
+  for (const double x : sphere.centre) append_little_endian(out, x);
+  append_little_endian(out, sphere.radius);
+  for (const float x : sphere.spoke_a) append_little_endian(out, x);
+  for (const float x : sphere.spoke_b) append_little_endian(out, x);
+  append_little_endian(out, sphere.object_angle);
+  append_little_endian(out, sphere.flux);
+  append_little_endian(out, sphere.sheet);
+}
+
+void append_text(std::string& out, const MedialSphere& sphere, char separator) {
+  const auto number = [&](double x) { fmt::format_to(std::back_inserter(out), "{:.17g}{}", x, separator); };
+  const auto single = [&](float x) { fmt::format_to(std::back_inserter(out), "{:.9g}{}", x, separator); };
+  for (const double x : sphere.centre) number(x);
+  number(sphere.radius);
+  for (const float x : sphere.spoke_a) single(x);
+  for (const float x : sphere.spoke_b) single(x);
+  single(sphere.object_angle);
+  single(sphere.flux);
+  fmt::format_to(std::back_inserter(out), "{}\n", sphere.sheet);
+}
+
+}  // namespace
+
+MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& parameters, double longest_side) {
+  MedialHeader header;
+  header.version = version();
+  header.grid_origin = grid.origin;
+  header.voxel_size = grid.voxel_size;
+  header.epsilon = parameters.epsilon * grid.voxel_size;
+  header.object_angle = parameters.object_angle;
+  header.radius_threshold = parameters.radius * longest_side;
+  return header;
+}
+
+Result<MedialFormat> medial_format_of(const std::string& path) {
+  const std::string extension = file_extension(path);
+  const std::pair<const char*, MedialFormat> known[] = {{".ply", MedialFormat::kPly},
+                                                        {".csv", MedialFormat::kCsv},
+                                                        {".npz", MedialFormat::kNpz},
+                                                        {".json", MedialFormat::kJson},
+                                                        {".glb", MedialFormat::kGlb}};
+  for (const auto& [name, format] : known) {
+    if (extension == name) return format;
+  }
+  return Error{
+      ErrorCode::kUsage,
+      fmt::format("cannot tell a format from the extension of '{}': use .ply, .csv, .npz, .json or .glb", path)};
+}
+
+std::string ply_comments(const MedialHeader& header) {
+  // The shortest digits that read back exactly: 0.6 stays 0.6.
+  return fmt::format(
+      "comment medial-vk {}\n"
+      "comment grid_origin {} {} {}\n"
+      "comment voxel_size {}\n"
+      "comment epsilon {}\n"
+      "comment object_angle {}\n"
+      "comment radius_threshold {}\n",
+      header.version, header.grid_origin[0], header.grid_origin[1], header.grid_origin[2], header.voxel_size,
+      header.epsilon, header.object_angle, header.radius_threshold);
+}
+
+std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii) {
+  constexpr std::size_t kBytesPerPoint = 4 * sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t);
+  std::string out = ply_header(header, spheres.size(), ascii);
+  if (!ascii) out.reserve(out.size() + spheres.size() * kBytesPerPoint);
+  for (const MedialSphere& sphere : spheres) {
+    if (ascii) {
+      append_text(out, sphere, ' ');
+    } else {
+      append_binary(out, sphere);
+    }
+  }
+  return out;
+}
+
+std::string encode_csv(std::span<const MedialSphere> spheres) {
+  std::string out =
+      "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z,object_angle,flux,sheet\n";
+  for (const MedialSphere& sphere : spheres) append_text(out, sphere, ',');
+  return out;
+}
+
+}  // namespace medial_vk

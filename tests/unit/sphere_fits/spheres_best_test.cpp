@@ -1,0 +1,240 @@
+// The best method, and each of its parts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "base/point_ops.h"
+#include "cpu_reference/queries.h"
+#include "medial_vk/ball_union.h"
+#include "medial_vk/prepare.h"
+#include "reference/reference_extractor.h"
+#include "sphere_fits/measures/envelope_distance.h"
+#include "sphere_fits/methods/best_method.h"
+#include "sphere_fits/steps/candidates.h"
+#include "sphere_fits/steps/gaps.h"
+#include "sphere_fits/steps/maximal_ball.h"
+#include "sphere_fits/steps/slide.h"
+#include "support/indexed.h"
+#include "support/reference_mesh.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::HasSubstr;
+
+/// A mesh that stays in memory, as its solid requires.
+struct Shape {
+  explicit Shape(Mesh raw)
+      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
+  Shape(const Shape&) = delete;
+
+  Result<SphereSet> fit(const SphereOptions& request) const {
+    return best_spheres(solid, request, reference_extractor(), {});
+  }
+  double error_of(const std::vector<Ball>& balls) const {
+    return 1 - measure_ball_union(balls).value().volume / solid.volume();
+  }
+
+  PreparedMesh mesh;
+  Solid solid;
+};
+
+Mesh turned_l_shape() {
+  Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);
+  test::rotate(mesh, {1, 2, 3}, 0.4);
+  return mesh;
+}
+
+TEST(MaximalBall, TouchesTwoSidesOfABox) {
+  const Shape box(test::make_box({4, 3, 1}));
+  const Ball ball = maximal_ball(box.solid, {2, 1.5, 0.1});
+  const double tolerance = 2 * box.solid.rounding();  // the radius is reduced by one rounding
+  EXPECT_NEAR(ball.radius, 0.5, tolerance);
+  EXPECT_NEAR(length(ball.centre - Point{2, 1.5, 0.5}), 0, tolerance);
+  const Ball at_edge = maximal_ball(box.solid, {2, 0.3, 0.1});  // contact z = 0, then y = 0
+  EXPECT_NEAR(at_edge.radius, 0.3, tolerance);
+}
+
+TEST(MaximalBall, HoldsTheBallAroundItsPointAndStaysInside) {
+  const Shape shape(turned_l_shape());
+  const reference::Tree tree(test::to_reference(shape.mesh));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int inside = 0;
+  while (inside < 500) {
+    const Point p = {1.5 * uniform(random), 1.5 * uniform(random), 1.5 * uniform(random)};
+    if (!shape.solid.contains(p)) continue;
+    ++inside;
+    const Ball ball = maximal_ball(shape.solid, p);
+    // The direction away from the contact has the uncertainty of the contact, seen from p.
+    const double distance = shape.solid.distance(p);
+    const double tolerance = 4 * shape.solid.rounding() * (1 + ball.radius / distance);
+    EXPECT_LE(length(p - ball.centre) + distance, ball.radius + tolerance);
+    EXPECT_LE(ball.radius, tree.closest({ball.centre[0], ball.centre[1], ball.centre[2]}).distance);
+    EXPECT_TRUE(shape.solid.contains(ball.centre));
+  }
+}
+
+TEST(Slider, MovesAlongASlabTowardsWhatIsUncovered) {
+  const Shape slab(test::make_box({10, 10, 1}));
+  DynamicUnion balls = std::move(DynamicUnion::build(2, 20)).value();
+  ASSERT_TRUE(balls.add({{5, 5, 0.5}, 0.5}).ok());
+  ASSERT_TRUE(balls.add({{5.2, 5, 0.5}, 0.5}).ok());
+  Slider slider(slab.solid);
+  const Point move = slider.direction(balls.ball(1), balls.exposure(1), 0.1);
+  EXPECT_GT(move[0], 0.01);
+  EXPECT_LE(length(move), 0.1 * (1 + 1e-12));
+  EXPECT_NEAR(move[1], 0, 1e-9);
+  EXPECT_NEAR(move[2], 0, 1e-9);
+}
+
+TEST(Slider, LeavesABallThatCannotGain) {
+  const Shape cube(test::make_box({1, 1, 1}));
+  DynamicUnion balls = std::move(DynamicUnion::build(1, 2)).value();
+  ASSERT_TRUE(balls.add({{0.5, 0.5, 0.5}, 0.5}).ok());
+  Slider slider(cube.solid);
+  EXPECT_EQ(slider.direction(balls.ball(0), balls.exposure(0), 0.1), (Point{0, 0, 0}));
+}
+
+TEST(Candidates, LazyChoicesAreTheGreedyOnes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Ball> all;
+  for (int n = 0; n < 120; ++n) {
+    all.push_back({{uniform(random), uniform(random), uniform(random)}, 0.1 + 0.2 * uniform(random)});
+  }
+  DynamicUnion balls = std::move(DynamicUnion::build(40, 2)).value();
+  Candidates candidates;
+  candidates.add(all);
+  for (int n = 0; n < 40; ++n) {
+    double best = 0;
+    for (const Ball& ball : all) best = std::max(best, balls.gain(ball).value());
+    const auto choice = candidates.take_best(balls).value();
+    ASSERT_TRUE(choice.has_value());
+    EXPECT_EQ(choice->gain, best);
+    ASSERT_TRUE(balls.add(choice->ball).ok());
+  }
+}
+
+TEST(Candidates, EndWhenNoneAddsAnything) {
+  DynamicUnion balls = std::move(DynamicUnion::build(4, 2)).value();
+  Candidates candidates;
+  candidates.add(std::vector<Ball>{{{0, 0, 0}, 1}, {{0.1, 0, 0}, 0.5}});
+  ASSERT_TRUE(balls.add(candidates.take_best(balls).value()->ball).ok());
+  EXPECT_FALSE(candidates.take_best(balls).value().has_value());
+}
+
+TEST(GapFinder, FindsTheCornersOfABoxAndTheVertices) {
+  const Shape box(test::make_box({1, 1, 1}));
+  DynamicUnion balls = std::move(DynamicUnion::build(4, 2)).value();
+  GapFinder gaps(box.solid, balls);
+  ASSERT_TRUE(balls.add({{0.5, 0.5, 0.5}, 0.5}).ok());
+  EXPECT_NEAR(gaps.widest_on_boundary().size, 0.5 * std::sqrt(3.0) - 0.5, 1e-14);
+  EXPECT_EQ(gaps.deepest_vertex().size, 0);
+  for (const Ball& ball : {Ball{{0.5, 0.4, 0.4}, 0.4}, Ball{{0.4, 0.5, 0.6}, 0.4}}) {
+    ASSERT_TRUE(balls.add(ball).ok());
+    for (const std::uint32_t place : balls.changed()) gaps.forget(place);
+  }
+  const GapFinder::Gap deepest = gaps.deepest_vertex();
+  double expected = 0;
+  for (std::uint32_t place = 0; place < 3; ++place) {
+    const std::vector<Point> vertices = balls.vertices(place).value();
+    for (const Point& v : vertices) expected = std::max(expected, box.solid.distance(v));
+  }
+  EXPECT_EQ(deepest.size, expected);
+}
+
+TEST(BestMethod, StaysInsideByTheReferencesDistances) {
+  const Shape shape(turned_l_shape());
+  const reference::Tree tree(test::to_reference(shape.mesh));
+  const SphereSet set = shape.fit({.count = 60, .resolution = 16}).value();
+  EXPECT_EQ(set.balls.size(), 60u);
+  for (const Ball& ball : set.balls) {
+    EXPECT_LE(ball.radius, tree.closest({ball.centre[0], ball.centre[1], ball.centre[2]}).distance);
+    EXPECT_TRUE(shape.solid.contains(ball.centre));
+  }
+}
+
+TEST(BestMethod, MoreBallsNeverLeaveMoreUncovered) {
+  const Shape shape(turned_l_shape());
+  double last = 1;
+  for (std::size_t count = 1; count <= 40; ++count) {
+    const double error = shape.error_of(shape.fit({.count = count, .resolution = 16}).value().balls);
+    // Both volumes are sums of 40 terms with 100 roundings each.
+    EXPECT_LE(error, last + 1e-12) << count << " balls";
+    last = error;
+  }
+}
+
+TEST(BestMethod, OneBallIsTheLargest) {
+  const Shape box(test::make_box({1.5, 1.2, 1}));
+  const SphereSet set = box.fit({.count = 1, .resolution = 12}).value();
+  ASSERT_EQ(set.balls.size(), 1u);
+  EXPECT_NEAR(set.balls[0].radius, 0.5, 1e-12);
+}
+
+// The medial surface of a ball is a point, that of a nearly round polyhedron little more: easily missed.
+TEST(BestMethod, NeedsNoMedialPoints) {
+  const Shape ball(test::make_sphere(1, 320));
+  const Result<SphereSet> found = ball.fit({.count = 3, .resolution = 8});
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  ASSERT_EQ(found.value().balls.size(), 3u);
+  const double deepest = ball.solid.distance({0, 0, 0});
+  // A ball at a facet's middle, e from an edge with the bend b, meets the next facet at the radius e / tan(b / 2),
+  // which is 1 in the limit of small facets: a ball of half the size cannot be the largest.
+  EXPECT_GE(found.value().balls.front().radius, 0.5 * deepest);
+  for (const Ball& b : found.value().balls) EXPECT_LE(b.radius, ball.solid.distance(b.centre) + ball.solid.rounding());
+}
+
+TEST(BestMethod, BeatsItsOwnCandidatesByFar) {
+  // Of 30 fixed candidates the greedy choice is the best that is known in general; sliding must find more.
+  const Shape shape(turned_l_shape());
+  ExtractionOptions parameters;
+  parameters.resolution = 16;
+  parameters.object_angle = 0.3;
+  const auto found = extract_and_certify(shape.solid.indexed(), parameters, reference_extractor()).value();
+  std::vector<Ball> medial;
+  for (const MedialSphere& s : found.extraction.spheres) medial.push_back({s.centre, s.radius});
+  Candidates candidates;
+  candidates.add(medial);
+  DynamicUnion greedy = std::move(DynamicUnion::build(30, 4)).value();
+  for (int n = 0; n < 30; ++n) ASSERT_TRUE(greedy.add(candidates.take_best(greedy).value()->ball).ok());
+  const double error = shape.error_of(shape.fit({.count = 30, .resolution = 16}).value().balls);
+  EXPECT_LT(error, 0.97 * (1 - greedy.volume() / shape.solid.volume()));
+}
+
+TEST(BestMethod, MeetsGoalsOrSaysWhatWasLeft) {
+  const Shape shape(turned_l_shape());
+  const SphereSet by_error = shape.fit({.error = 0.15, .resolution = 16}).value();
+  EXPECT_LE(shape.error_of(by_error.balls), 0.15);
+  const SphereSet fewer = shape.fit({.count = by_error.balls.size() - 1, .resolution = 16}).value();
+  EXPECT_GT(shape.error_of(fewer.balls), 0.15);
+  const SphereSet by_gap = shape.fit({.max_gap = 0.2, .resolution = 16}).value();
+  EXPECT_LE(measure_greatest_gap(shape.solid, by_gap.balls, {.tolerance = 1e-4}).value().upper, 0.2);
+  const Result<SphereSet> too_few = shape.fit({.count = 3, .error = 0.01, .resolution = 16});
+  ASSERT_FALSE(too_few.ok());
+  EXPECT_EQ(too_few.error().code, ErrorCode::kUsage);
+  EXPECT_THAT(too_few.error().message, HasSubstr("3 balls leave"));
+}
+
+TEST(BestMethod, GapsAreFilledWhenCandidatesAreUsedUp) {
+  const Shape cube(test::make_box({1, 1, 1}));
+  EXPECT_EQ(cube.fit({.count = 8, .resolution = 1}).value().balls.size(), 8u);
+}
+
+TEST(BestMethod, StopsWhenAsked) {
+  const Shape shape(turned_l_shape());
+  SphereOptions request{.count = 50, .resolution = 16};
+  const Result<SphereSet> set =
+      best_spheres(shape.solid, request, reference_extractor(), [](const char*, double done) { return done < 0.3; });
+  ASSERT_FALSE(set.ok());
+  EXPECT_EQ(set.error().code, ErrorCode::kInterrupted);
+}
+
+}  // namespace
+}  // namespace medial_vk

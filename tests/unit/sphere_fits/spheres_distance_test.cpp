@@ -1,0 +1,182 @@
+// Distances between solids and balls: those that a formula gives, and bounds against samples.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/point_ops.h"
+#include "sphere_fits/cover/smallest_ball.h"
+#include "sphere_fits/measures/envelope_distance.h"
+#include "sphere_fits/measures/surface_samples.h"
+#include "support/extraction.h"
+#include "support/indexed.h"
+#include "support/solids/ball_families.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using namespace test;
+
+struct Case {
+  PreparedMesh mesh;
+  std::unique_ptr<Solid> solid;
+
+  explicit Case(Mesh input) : mesh(prepare(std::move(input))) {
+    solid = std::make_unique<Solid>(Solid::create(test::indexed(mesh)).value());
+  }
+};
+
+Envelope envelope_of(const std::vector<Ball>& balls) { return std::move(Envelope::build(balls).value()); }
+
+void expect_bounds(const Bounds& bounds, double truth, double tolerance) {
+  EXPECT_LE(bounds.lower, truth + 1e-9);
+  EXPECT_GE(bounds.upper, truth - 1e-9);
+  EXPECT_LE(bounds.upper - bounds.lower, tolerance);
+}
+
+/// A ball of some radius in the middle of a cube of side 2.
+void expect_in_cube(double radius, double solid_to_balls, double balls_to_solid, double boundary_to_envelope,
+                    double envelope_to_boundary) {
+  const Case cube(make_box({2, 2, 2}));
+  DistanceOptions options;
+  options.tolerance = 2.5e-4;
+  const double tolerance = 2.51e-4 * cube.solid->diagonal();
+  const EnvelopeDistances d = measure_distances(*cube.solid, envelope_of({{{1, 1, 1}, radius}}), options).value();
+  expect_bounds(d.solid_to_balls, solid_to_balls, tolerance);
+  expect_bounds(d.boundary_to_balls, solid_to_balls, tolerance);
+  expect_bounds(d.balls_to_solid, balls_to_solid, tolerance);
+  expect_bounds(d.boundary_to_envelope, boundary_to_envelope, tolerance);
+  expect_bounds(d.envelope_to_boundary, envelope_to_boundary, tolerance);
+}
+
+TEST(EnvelopeDistance, BallInACube) {
+  const double corner = std::sqrt(3.0);
+  expect_in_cube(1, corner - 1, 0, corner - 1, 1 - 1 / corner);
+  expect_in_cube(1.2, corner - 1.2, 0.2, corner - 1.2, 1 - 1.2 / corner);
+  expect_in_cube(1.8, 0, 0.8, 0.8, 0.8);
+}
+
+TEST(EnvelopeDistance, FromInsideTheUnionToEveryKindOfFeature) {
+  // Two balls that meet in a circle of radius 0.8 in the plane x = 0, and one far away.
+  const Envelope two = envelope_of({{{-0.6, 0, 0}, 1}, {{0.6, 0, 0}, 1}, {{9, 0, 0}, 1}});
+  EXPECT_NEAR(two.distance({-1.5, 0, 0}), 0.1, 1e-9);                    // a sphere
+  EXPECT_NEAR(two.distance({0.1, 0.2, 0}), std::hypot(0.1, 0.6), 1e-9);  // the circle
+  EXPECT_NEAR(two.distance({0.1, 0, 0}), std::hypot(0.1, 0.8), 1e-9);    // equally near to all of the circle
+  EXPECT_NEAR(two.distance({-0.6, 0, 0}), 1, 1e-9);                      // a centre
+  EXPECT_NEAR(two.distance({0, 3, 0}), std::hypot(0.6, 3) - 1, 1e-12);
+  EXPECT_LT(two.signed_distance({-1.5, 0, 0}), 0);
+  // Three that meet in two points at height h.
+  const double third = 2 * std::numbers::pi / 3;
+  std::vector<Ball> three;
+  for (int k = 0; k < 3; ++k) three.push_back({{0.5 * std::cos(k * third), 0.5 * std::sin(k * third), 0}, 1});
+  const Envelope envelope = envelope_of(three);
+  EXPECT_EQ(envelope.vertices().size(), 2u);
+  EXPECT_NEAR(envelope.distance({0, 0, 0.1}), std::sqrt(0.75) - 0.1, 1e-9);
+}
+
+/// The nearest of many points of the envelope is never nearer than the result, and not much farther.
+TEST(EnvelopeDistance, AgreesWithSamples) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Envelope envelope = envelope_of(random_balls(40, seed, 0.1, 0.3));
+    const std::vector<WeightedPoint> samples = sample_envelope(envelope, 60'000, 0);
+    double area = 0;
+    for (const WeightedPoint& sample : samples) area += sample.area;
+    EXPECT_NEAR(area, envelope.measured().area, 1e-3 * area);
+    for (const Ball& query : random_balls(200, seed + 100, 0.1, 0.2)) {
+      double nearest = 1e9;
+      for (const WeightedPoint& sample : samples) nearest = std::min(nearest, length(sample.at - query.centre));
+      const double distance = envelope.distance(query.centre);
+      EXPECT_LE(distance, nearest + 1e-8);
+      EXPECT_GE(distance, nearest - 0.03);
+    }
+  }
+}
+
+/// Values at samples of boundary and envelope never exceed the upper bounds, and the bounds are as tight as requested.
+TEST(EnvelopeDistance, BoundsHoldSamples) {
+  int number = 0;
+  for (Mesh input : {make_turned_torus(), make_l_shape(2, 0.7, 0.5), make_cup(1, 0.2, 1.5, 24)}) {
+    const Case solid(std::move(input));
+    const MeshReport& report = solid.mesh.report;
+    for (double scale : {0.1, 0.3}) {
+      std::vector<Ball> balls = random_balls(60, static_cast<unsigned>(++number), 0.3, 1);
+      for (Ball& ball : balls) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          ball.centre[k] = report.lower[k] + ball.centre[k] * (report.upper[k] - report.lower[k]);
+        }
+        ball.radius *= scale;
+      }
+      const Envelope envelope = envelope_of(balls);
+      const EnvelopeDistances d = measure_distances(*solid.solid, envelope).value();
+      for (const Bounds& bounds :
+           {d.solid_to_balls, d.balls_to_solid, d.boundary_to_balls, d.boundary_to_envelope, d.envelope_to_boundary}) {
+        EXPECT_LE(bounds.upper - bounds.lower, 1.01e-3 * solid.solid->diagonal());
+      }
+      double gap = 0, to_envelope = 0, to_boundary = 0, out = 0;
+      for (const Point& p : sample_surface(solid.mesh.mesh, 3000)) {
+        gap = std::max(gap, envelope.tree().nearest(p).distance);
+        to_envelope = std::max(to_envelope, envelope.distance(p));
+      }
+      for (const WeightedPoint& p : sample_envelope(envelope, 3000, 0)) {
+        to_boundary = std::max(to_boundary, solid.solid->distance(p.at));
+        if (!solid.solid->contains(p.at)) out = std::max(out, solid.solid->distance(p.at));
+      }
+      EXPECT_LE(gap, d.boundary_to_balls.upper);
+      EXPECT_LE(gap, d.solid_to_balls.upper);
+      EXPECT_LE(to_envelope, d.boundary_to_envelope.upper);
+      EXPECT_LE(to_boundary, d.envelope_to_boundary.upper);
+      EXPECT_LE(out, d.balls_to_solid.upper);
+      EXPECT_GT(to_envelope, 0.8 * d.boundary_to_envelope.lower);
+      EXPECT_GT(to_boundary, 0.8 * d.envelope_to_boundary.lower);
+    }
+  }
+}
+
+TEST(EnvelopeDistance, DoesNotDependOnThreads) {
+  const Case solid(make_turned_torus());
+  const Envelope envelope = envelope_of(random_balls(50, 7, 0.2, 0.4));
+  DistanceOptions one;
+  one.threads = 1;
+  const EnvelopeDistances a = measure_distances(*solid.solid, envelope).value();
+  const EnvelopeDistances b = measure_distances(*solid.solid, envelope, one).value();
+  EXPECT_EQ(a.envelope_to_boundary.lower, b.envelope_to_boundary.lower);
+  EXPECT_EQ(a.envelope_to_boundary.upper, b.envelope_to_boundary.upper);
+  EXPECT_EQ(a.boundary_to_envelope.upper, b.boundary_to_envelope.upper);
+  EXPECT_EQ(a.balls_to_solid.upper, b.balls_to_solid.upper);
+}
+
+TEST(EnvelopeDistance, TooFewCellsLeaveTheBoundsApart) {
+  const Case solid(make_turned_torus());
+  DistanceOptions few;
+  few.cells = 100;
+  const Envelope envelope = envelope_of(random_balls(50, 7, 0.2, 0.4));
+  const EnvelopeDistances coarse = measure_distances(*solid.solid, envelope, few).value();
+  const EnvelopeDistances fine = measure_distances(*solid.solid, envelope).value();
+  EXPECT_GE(coarse.envelope_to_boundary.upper, fine.envelope_to_boundary.lower);
+  EXPECT_LE(coarse.envelope_to_boundary.lower, fine.envelope_to_boundary.upper);
+}
+
+TEST(EnvelopeDistance, NoBallsAreAnError) {
+  const Case solid(make_turned_torus());
+  EXPECT_EQ(measure_distances(*solid.solid, envelope_of({})).error().code, ErrorCode::kUsage);
+}
+
+TEST(SmallestBall, OfKnownPoints) {
+  const std::vector<Point> one = {{1, 2, 3}, {1, 2, 3}};
+  EXPECT_EQ(smallest_ball(one).radius, 0);
+  const std::vector<Point> two = {{0, 0, 0}, {2, 0, 0}, {1, 0.5, 0}};
+  EXPECT_NEAR(smallest_ball(two).radius, 1, 1e-12);
+  std::vector<Point> cube;
+  for (int k = 0; k < 8; ++k) cube.push_back({k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
+  EXPECT_NEAR(smallest_ball(cube).radius, std::sqrt(0.75), 1e-12);
+  // Points of a sphere, and some in it.
+  std::vector<Point> sphere;
+  for (std::size_t k = 0; k < 500; ++k) sphere.push_back((k % 3 == 0 ? 1.0 : 0.7) * spiral_point(k, 500));
+  const Ball ball = smallest_ball(sphere);
+  EXPECT_NEAR(ball.radius, 1, 1e-3);
+  for (const Point& p : sphere) EXPECT_LE(length(p - ball.centre), ball.radius);
+}
+
+}  // namespace
+}  // namespace medial_vk
