@@ -11,6 +11,7 @@
 #include "base/point_ops.h"
 #include "base/stopwatch.h"
 #include "input/text_scanner.h"
+#include "robots/kept_extractions.h"
 #include "robots/share_out.h"
 
 namespace medial_vk {
@@ -22,6 +23,12 @@ double volume_of(const Ball& ball) { return 4.0 / 3 * std::numbers::pi * ball.ra
 struct Group {
   std::vector<std::size_t> parts;
   std::size_t balls = 0;
+};
+
+/// What the curve of a part and its spheres share.
+struct PartWork {
+  IndexedMesh mesh;
+  Extractor extractor;
 };
 
 /// An open mesh has no volume; the volume between its surface and the middle of its box serves instead.
@@ -44,7 +51,7 @@ class Fitting {
         extractor_(extractor),
         progress_(progress),
         stop_(stop),
-        indexed_(parts.size()),
+        work_(parts.size()),
         fits_(parts.size()) {}
 
   Result<std::vector<PartFit>> run() {
@@ -140,12 +147,11 @@ class Fitting {
     NeedCurve curve;
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
-    Result<IndexedMesh> mesh = indexed(number);
-    if (!mesh) return named(part, mesh.error());
+    if (Status status = begin(number); !status) return named(part, status.error());
     SphereOptions options = goals_.options;
     options.count = count;
     const Result<CoverageCurve> found =
-        measure_coverage_curve(mesh.value(), options, extractor_, reporter(part), stop_);
+        measure_coverage_curve(work_[number]->mesh, options, work_[number]->extractor, reporter(part), stop_);
     if (!found) return named(part, found.error());
     ++done_;
     const double whole = part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh)));
@@ -154,14 +160,12 @@ class Fitting {
     return curve;
   }
 
-  /// Computed for the curve of a part, and used again for its spheres.
-  Result<IndexedMesh> indexed(std::size_t number) {
-    if (!indexed_[number]) {
-      Result<IndexedMesh> made = IndexedMesh::create(parts_[number].mesh, goals_.options.threads);
-      if (!made) return made;
-      indexed_[number].emplace(std::move(made).value());
-    }
-    return *indexed_[number];
+  Status begin(std::size_t number) {
+    if (work_[number]) return {};
+    Result<IndexedMesh> mesh = IndexedMesh::create(parts_[number].mesh, goals_.options.threads);
+    if (!mesh) return mesh.error();
+    work_[number].emplace(std::move(mesh).value(), kept_extractions(extractor_));
+    return {};
   }
 
   StageProgress reporter(const Part& part) const {
@@ -185,13 +189,13 @@ class Fitting {
     }
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    Result<IndexedMesh> mesh = indexed(number);
-    if (!mesh) return named(part, mesh.error());
+    if (Status status = begin(number); !status) return named(part, status.error());
     SphereOptions options = goals_.options;
     options.count = count;
-    Result<SphereFit> fitted = fit_spheres(mesh.value(), options, extractor_, reporter(part), stop_);
+    Result<SphereFit> fitted =
+        fit_spheres(work_[number]->mesh, options, work_[number]->extractor, reporter(part), stop_);
     if (!fitted) return named(part, fitted.error());
-    indexed_[number].reset();
+    work_[number].reset();
     ++done_;
     take(part, std::move(fitted).value(), fit);
     fit.seconds = stopwatch.lap();
@@ -259,7 +263,7 @@ class Fitting {
   const Extractor& extractor_;
   const FitProgress& progress_;
   const std::stop_token& stop_;
-  std::vector<std::optional<IndexedMesh>> indexed_;  // by part, while it is needed
+  std::vector<std::optional<PartWork>> work_;  // by part, while it is needed
   std::vector<PartFit> fits_;
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };

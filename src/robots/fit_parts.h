@@ -42,7 +42,8 @@ using FitProgress = std::function<void(const Part& part, double done)>;
 /// Contract inside: no ball is outside its part, even by the rounding of its pose. A goal for several parts is
 /// distributed by need (robots/share_out.h), measured by error against count of balls inside, for every contract. With
 /// the method best a larger number gives no part fewer balls, and no part of contract inside more error. Every part is
-/// indexed once. Errors: those of fit_spheres(), naming link and part; kUsage if a link has more parts than balls.
+/// indexed once, and `extractor` runs once for each resolution of it. Errors: those of fit_spheres(), naming link and
+/// part; kUsage if a link has more parts than balls.
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, const Extractor& extractor,
                                        const FitProgress& progress = {}, const std::stop_token& stop = {});
 

@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <map>
+#include <utility>
+
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
 #include "reference/reference_extractor.h"
@@ -139,6 +143,24 @@ TEST_F(FitParts, FaultsNameLinkAndPart) {
   goals_.options.max_gap = 0.1;
   EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": the method source knows no greatest gap"));
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
+}
+
+// The curve of a part and its spheres start from the same medial spheres.
+TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
+  for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {
+    goals_.options.method = method;
+    goals_.total = 30;
+    std::map<std::pair<double, std::uint32_t>, int> runs;  // by extent of the part and resolution
+    const Extractor counted = [&, extractor = reference_extractor()](
+                                  const IndexedMesh& mesh, const ExtractionOptions& options, const auto&... rest) {
+      ++runs[{mesh.prepared().report.upper[0], options.resolution}];
+      return extractor(mesh, options, rest...);
+    };
+    const Result<std::vector<PartFit>> fits = fit_parts(parts_, goals_, counted);
+    ASSERT_TRUE(fits.ok()) << fits.error().message;
+    EXPECT_GE(runs.size(), 2u);
+    for (const auto& [grid, count] : runs) EXPECT_EQ(count, 1) << grid.first << " at " << grid.second;
+  }
 }
 
 TEST_F(FitParts, StopsWhenAsked) {

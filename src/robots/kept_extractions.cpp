@@ -1,0 +1,23 @@
+#include "robots/kept_extractions.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace medial_vk {
+
+Extractor kept_extractions(const Extractor& extractor) {
+  using Kept = std::vector<std::pair<ExtractionOptions, Extraction>>;
+  return [&extractor, kept = std::make_shared<Kept>()](const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                       const ProgressCallback& progress,
+                                                       const std::stop_token& stop) -> Result<Extraction> {
+    for (const auto& [of, extraction] : *kept) {
+      if (of == options) return extraction;
+    }
+    Result<Extraction> extraction = extractor(mesh, options, progress, stop);
+    if (extraction.ok()) kept->emplace_back(options, extraction.value());
+    return extraction;
+  };
+}
+
+}  // namespace medial_vk
