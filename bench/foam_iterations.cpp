@@ -77,7 +77,7 @@ std::vector<Medial> medial_points(const Bvh& bvh, const Ball& sphere, int tries)
   return out;
 }
 
-/// One sphere in all iterations.
+/// The results of one sphere in all iterations.
 struct Run {
   SphereSamples samples;
   std::vector<Medial> medial;

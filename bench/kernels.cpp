@@ -59,7 +59,7 @@ class Subject {
       : context_(&context), name_(std::move(name)) {
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh));
     if (!prepared.ok()) give_up(name_ + ": " + prepared.error().message);
-    Result<IndexedMesh> indexed = IndexedMesh::create(std::move(prepared).value());
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value());
     if (!indexed.ok()) give_up(name_ + ": " + indexed.error().message);
     mesh_.emplace(std::move(indexed).value());
     parameters_.resolution = resolution;

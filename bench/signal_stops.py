@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How long the program takes to end after a signal (docs/reliability.md): SIGTERM at moments spread evenly over a run.
+"""Measures the time from a signal to the end of the program (docs/reliability.md): SIGTERM, spread evenly over a run.
 
   bench/signal_stops.py [--stops N] PROGRAM ARGUMENT ...
 
-Prints one row of a table: seconds of a run that nobody stops, stops, median and worst milliseconds from the signal to
-the end of the process. Runs in a folder of its own and fails if a stopped run leaves a file or does not exit with 130.
+Prints one row of a table: seconds of an undisturbed run, number of stops, median and worst milliseconds from the signal to
+the end of the process. It runs in a folder of its own and fails if a stopped run leaves a file or does not exit with 130.
 """
 import os
 import signal
@@ -15,7 +15,7 @@ import time
 
 
 def run(command, folder, stop_after=None):
-    """Seconds from the signal to the end, or of the whole run; and the exit code."""
+    """Returns the seconds from the signal to the end, or of the whole run, and the exit code."""
     begin = time.monotonic()
     process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE)
@@ -44,7 +44,7 @@ def main(arguments):
     stops = []
     for i in range(count):
         with tempfile.TemporaryDirectory() as folder:
-            # Not before the handlers are installed, some milliseconds after the start.
+            # The handlers are installed some milliseconds after the start.
             seconds, code, messages = run(command, folder, 0.03 + (whole - 0.03) * i / count)
             if code == 0:
                 continue  # the run had already finished
@@ -52,7 +52,7 @@ def main(arguments):
                 sys.exit(f"{messages}exit code {code}, left {os.listdir(folder)}")
             stops.append(seconds)
     if not stops:
-        sys.exit("every run was done before its signal")
+        sys.exit("every run had finished before its signal")
     stops.sort()
     name = " ".join(os.path.basename(a) for a in arguments[1:])
     print(f"| `{name}` | {whole:.1f} | {len(stops)} | {1e3 * stops[len(stops) // 2]:.0f} | {1e3 * stops[-1]:.0f} |")

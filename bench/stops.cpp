@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
       "|---|---|---|---|---|---|---|\n",
       context.device().name, context.device().driver);
   for (const std::string& path : meshes) {
-    const IndexedMesh mesh = or_exit(IndexedMesh::create(or_exit(prepare_mesh(or_exit(read_mesh(path))))));
+    const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(or_exit(read_mesh(path))))));
     const Latencies l = measure(context, mesh, parameters, count, seconds);
     if (l.stops.empty()) continue;
     fmt::print("| {} | {} | {:.2f} | {} | {:.0f} | {:.0f} | {:.0f} |\n", path.substr(path.find_last_of('/') + 1),

@@ -1,6 +1,6 @@
-/* Only in sanitized builds: libraries stay loaded until the process ends. The Vulkan loader closes drivers and layers
-   when the last instance goes; a leak found after that would have nameless frames, and tests/lsan.supp could not tell
-   theirs from ours. */
+/* Sanitized builds only: keeps libraries loaded until the process ends. The Vulkan loader closes drivers and layers with
+   the last instance; a leak that is found after that has frames without names, so that tests/lsan.supp could not
+   distinguish leaks of a driver from those of the project. */
 int dlclose(void* library);
 int dlclose(void* library) {
   (void)library;

@@ -11,7 +11,7 @@
 medial_vk::Status print_medial_spheres(medial_vk::Mesh mesh, medial_vk::Context& context) {
   auto prepared = medial_vk::prepare_mesh(std::move(mesh));  // cleaned, oriented, inspected
   if (!prepared) return prepared.error();
-  auto indexed = medial_vk::IndexedMesh::create(std::move(prepared).value());
+  auto indexed = medial_vk::IndexedMesh::build(std::move(prepared).value());
   if (!indexed) return indexed.error();
   medial_vk::AnalysisOptions options;
   options.extraction.resolution = 40;  // voxels along the longest side

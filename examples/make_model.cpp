@@ -133,7 +133,7 @@ class SurfaceNets {
       corner[i] = vertex(cell);
     }
     if (!from_inside) std::swap(corner[1], corner[3]);
-    // Along the shorter diagonal.
+    // The quadrilateral is cut along the shorter diagonal.
     const auto& p = mesh_.vertices;
     const Vector a = p[corner[2]] - p[corner[0]], b = p[corner[3]] - p[corner[1]];
     const std::size_t first = dot(a, a) <= dot(b, b) ? 0 : 1;

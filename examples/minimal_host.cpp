@@ -128,7 +128,7 @@ int main() {
     medial_vk::ExtractionOptions parameters;
     parameters.resolution = 40;
     parameters.memory_budget = 256u << 20;
-    const auto indexed = take(medial_vk::IndexedMesh::create(mesh));
+    const auto indexed = take(medial_vk::IndexedMesh::build(mesh));
     auto job = take(medial_vk::ExtractionJob::create(context, indexed, parameters));
     const VkCommandBuffer commands = begin_commands(host.device, pool);
     check(medial_vk::record(commands, job));

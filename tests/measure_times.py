@@ -4,7 +4,7 @@
     ctest --preset release --output-junit times.xml
     tests/measure_times.py build/release/times.xml [FACTOR]
 
-Tests of a second and more are listed. FACTOR: by what to multiply the times, if the machine had other work.
+Tests of a second and more are listed. FACTOR: a factor for the times, if the machine had other load.
 """
 import pathlib
 import sys

@@ -40,7 +40,7 @@ set(times
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/sphere" 5
   "property.SphereCover.LevelsAreTheAnswersForTheirNumbers" 5
   "unit.BalancedSpheres.MeetAnErrorThatIsMeasuredOtherwise" 5
-  "unit.FitParts.StopsWhereverItIsAsked" 5
+  "unit.FitParts.StopsAtAnyQuery" 5
   "unit.ReferenceUndecided.HiddenPointsAreAsTheirVoxelSays" 5
   "unit.SphereMeasures.AnOpenMeshHasAnEstimate" 5
   "analytic.ReferenceAnalytic.IndependentSamplesAreFound" 4
@@ -126,7 +126,7 @@ set(times
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/l_shape" 1
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/plate_with_hole" 1
   "analytic.Solids/KnownSheets.EachIsFoundOnceAndNothingElse/plate_with_two_holes" 1
-  "embedding.Threads.HandAContextOn" 1
+  "embedding.Threads.PassAContextOn" 1
   "faults.CopyingQueue.ExtractsAlike/KernelsAreLate" 1
   "faults.HostMemory.ComesFromTheHostsCallbacksAndGoesBackToThem" 1
   "faults.HostMemory.RunsOutBesideCopies" 1
@@ -162,7 +162,7 @@ set(times
   "picture.Scenes/Golden.OnTheDevice/balls_by_sheet" 1
   "picture.Scenes/Golden.OnTheDevice/box_from_above" 1
   "picture.Scenes/Golden.OnTheDevice/points_by_angle" 1
-  "property.Determinism.SmallPiecesGiveTheSame" 1
+  "property.Determinism.SmallChunksGiveTheSame" 1
   "property.Dismissal.OfAMessLosesNoSalientSample" 1
   "property.Foam.HoldsTheContactsAfterARefinement" 1
   "property.Foam.RegionShrinksWithMoreSamplesOfTheHull" 1
@@ -192,7 +192,7 @@ set(times
   "unit.Foam.BoundsAreSmallAboveAPlane" 1
   "unit.FrozenShadersTest.ComputeTheSame" 1
   "unit.HollowSolid.ItsCavityMayStay" 1
-  "unit.JoinPieces.AsAPlainProgramWould" 1
+  "unit.JoinComponents.AsAPlainProgramWould" 1
   "unit.Lanes.SharedMemoryGivesTheSameWhereListsHoldClusters" 1
   "unit.MeshIndexTest.ExtractionsAreThoseWithout" 1
   "unit.MeshIndexTest.ModeThesisDoesWithoutOne" 1

@@ -15,7 +15,7 @@ Result<std::unique_ptr<DeviceRun>> DeviceRun::create(Context::Impl& context, con
                                                      std::span<const Point> spheres, std::uint32_t group_size,
                                                      std::span<const Point> scattered) {
   std::unique_ptr<DeviceRun> run(new DeviceRun(context));
-  const Result<IndexedMesh> indexed = IndexedMesh::create(mesh);
+  const Result<IndexedMesh> indexed = IndexedMesh::build(mesh);
   if (!indexed.ok()) return indexed.error();
   Result<DeviceMesh> device = DeviceMesh::create(context, indexed.value(), false);
   if (!device.ok()) return device.error();
@@ -61,13 +61,13 @@ Result<DeviceRun::Queries> DeviceRun::upload_groups(std::span<const Point> point
     const Point p = mesh_->to_unit(points[i]);
     texels[i] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), 3.4e38f};
   }
-  Result<Buffer> asked = arena_.create_buffer(texels.size() * 16, MemoryKind::kDevice, "queries");
-  if (!asked.ok()) return asked.error();
+  Result<Buffer> positions = arena_.create_buffer(texels.size() * 16, MemoryKind::kDevice, "queries");
+  if (!positions.ok()) return positions.error();
   Result<Buffer> table = arena_.create_buffer(slots.size_bytes(), MemoryKind::kDevice, "slots");
   if (!table.ok()) return table.error();
-  queries.asked = asked.value();
+  queries.positions = positions.value();
   queries.slots = table.value();
-  if (Status s = upload(*context_, queries.asked, std::as_bytes(std::span(texels))); !s.ok()) return s.error();
+  if (Status s = upload(*context_, queries.positions, std::as_bytes(std::span(texels))); !s.ok()) return s.error();
   if (Status s = upload(*context_, queries.slots, std::as_bytes(slots)); !s.ok()) return s.error();
   return queries;
 }
@@ -87,7 +87,7 @@ double seconds(const Result<std::vector<StageTime>>& times) {
 double DeviceRun::packets(const Queries& q) {
   return seconds(run_commands(*context_, [&](Recorder& r) {
     r.begin_stage("packets");
-    packets_->closest(r, {.groups = q.groups, .group_size = q.group_size}, q.slots.range(), q.asked.range(),
+    packets_->closest(r, {.groups = q.groups, .group_size = q.group_size}, q.slots.range(), q.positions.range(),
                       nearest_.range(), hits_.range(), TreeQueries::Ties::kIndex);
     return r.status();
   }));
@@ -96,7 +96,7 @@ double DeviceRun::packets(const Queries& q) {
 double DeviceRun::one_by_one(const Queries& q) {
   return seconds(run_commands(*context_, [&](Recorder& r) {
     r.begin_stage("one by one");
-    single_->closest(r, QueryCount::of(q.groups * q.group_size), q.asked.range(), nearest_.range(), hits_.range(),
+    single_->closest(r, QueryCount::of(q.groups * q.group_size), q.positions.range(), nearest_.range(), hits_.range(),
                      TreeQueries::Ties::kIndex);
     return r.status();
   }));

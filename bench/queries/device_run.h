@@ -1,4 +1,4 @@
-// Queries that stay on the device, for the time of the kernels.
+// Queries that stay on the device, to measure the time of the kernels alone.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class DeviceRun {
 
  private:
   struct Queries {
-    Buffer asked, slots;
+    Buffer positions, slots;
     std::uint32_t groups = 0;
     std::uint32_t group_size = 0;
   };

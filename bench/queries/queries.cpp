@@ -82,7 +82,7 @@ std::unique_ptr<Subject> make_subject(Context& context, const std::string& name,
   auto s = std::make_unique<Subject>(value_or_exit(make_workload(context, stem, mesh_named(name), queries)));
   const Workload& w = s->workload;
   const MeshView view{w.mesh.vertices, w.mesh.triangles, {}, true};
-  s->scene = std::make_unique<Scene>(value_or_exit(Scene::create(context, value_or_exit(IndexedMesh::create(view)))));
+  s->scene = std::make_unique<Scene>(value_or_exit(Scene::create(context, value_or_exit(IndexedMesh::build(view)))));
   s->device = value_or_exit(DeviceRun::create(Internals::of(context), view, w.spheres, kGroup, w.shuffled));
   for (const std::size_t count : kFew) {
     const std::vector<Point> points = scattered_points(w, count);

@@ -74,7 +74,7 @@ Result<Workload> make_workload(Context& context, std::string name, Mesh mesh, st
   w.name = std::move(name);
   const Point sides = normalise(mesh);
   w.mesh = std::move(mesh);
-  const Result<IndexedMesh> indexed = IndexedMesh::create(MeshView{w.mesh.vertices, w.mesh.triangles, {}, true});
+  const Result<IndexedMesh> indexed = IndexedMesh::build(MeshView{w.mesh.vertices, w.mesh.triangles, {}, true});
   if (!indexed.ok()) return indexed.error();
   Result<Scene> scene = Scene::create(context, indexed.value());
   if (!scene.ok()) return scene.error();

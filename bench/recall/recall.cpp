@@ -46,7 +46,7 @@ void declare(CLI::App& app, Options& o) {
   app.add_option("--resolutions", o.resolutions, "voxels along the longest side")->check(CLI::Range(1, 4096));
   app.add_option("--thesis-resolutions", o.thesis_resolutions, "the same for mode thesis")->check(CLI::Range(1, 4096));
   app.add_option("--angles", o.angles, "thresholds of the object angle, radians")->check(CLI::Range(0.01, 1.5));
-  app.add_option("--samples", o.samples, "samples wanted for each threshold")->check(CLI::Range(1, 100'000'000));
+  app.add_option("--samples", o.samples, "requested samples for each threshold")->check(CLI::Range(1, 100'000'000));
   app.add_option("--seed", o.seed, "of the samples");
   app.add_option("--threads", o.threads, "of the sampler, 0: all; the samples stay the same");
   app.add_option("--backend", o.backend, "vulkan, cpu")->check(CLI::IsMember({"vulkan", "cpu"}));
@@ -95,12 +95,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Samples that climb may end at the same corner of the medial surface. Those in different cubes of this side count as
 /// distinct.
 std::size_t count_apart(const std::vector<MedialSample>& samples, double side) {
-  std::set<std::array<long long, 3>> places;
+  std::set<std::array<long long, 3>> cubes;
   for (const MedialSample& s : samples) {
-    places.insert(
+    cubes.insert(
         {std::llround(s.centre.x() / side), std::llround(s.centre.y() / side), std::llround(s.centre.z() / side)});
   }
-  return places.size();
+  return cubes.size();
 }
 
 /// Draws the requested number of samples that are also clear of their voxel's faces: a share of 0.9 along each axis.
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> resolutions_for(const Subject& subject, const std::ve
 
 Status measure(const Subject& subject, const Options& options, Context* context, std::vector<RecallRow>& rows) {
   const std::vector<MedialSample> samples = draw_samples(subject, options);
-  const Result<IndexedMesh> made = IndexedMesh::create(PreparedMesh(subject.mesh), options.threads);
+  const Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(subject.mesh), options.threads);
   if (!made.ok()) return made.error();
   const IndexedMesh& indexed = made.value();
   for (const std::string& mode : options.modes) {

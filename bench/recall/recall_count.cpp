@@ -13,19 +13,19 @@ using Voxel = std::array<std::uint32_t, 3>;
 constexpr std::size_t kMostNamed = 5;
 
 /// The voxel of a point, and the distance of the point from its faces as a share of the voxel side.
-struct Place {
+struct Position {
   Voxel voxel;
   double depth;
 };
 
-Place place_of(const VoxelGrid& grid, const Eigen::Vector3d& p) {
-  Place place = {{}, 1};
+Position position_of(const VoxelGrid& grid, const Eigen::Vector3d& p) {
+  Position position = {{}, 1};
   for (int axis = 0; axis < 3; ++axis) {
     const double x = (p[axis] - grid.origin[axis]) / grid.voxel_size, cell = std::floor(x);
-    place.voxel[axis] = static_cast<std::uint32_t>(cell);
-    place.depth = std::min({place.depth, x - cell, cell + 1 - x});
+    position.voxel[axis] = static_cast<std::uint32_t>(cell);
+    position.depth = std::min({position.depth, x - cell, cell + 1 - x});
   }
-  return place;
+  return position;
 }
 
 std::size_t angle_bin(double angle) {
@@ -76,12 +76,12 @@ RecallRow count_recall(const std::string& mesh, const std::vector<MedialSample>&
   const double narrow = (1 + std::sqrt(0.75)) * extraction.grid.voxel_size;
   for (const MedialSample& sample : samples) {
     if (sample.object_angle < row.angle + kAngleSlack) continue;
-    const Place place = place_of(extraction.grid, sample.centre);
-    Tally one = {1, found.contains(place.voxel), 0};
-    one.undecided = one.found == 0 && undecided.contains(place.voxel);
+    const Position position = position_of(extraction.grid, sample.centre);
+    Tally one = {1, found.contains(position.voxel), 0};
+    one.undecided = one.found == 0 && undecided.contains(position.voxel);
     row.dismissal += one;
     if (one.lost() > 0) remember(row.first_lost, sample);
-    if (sample.object_angle < row.angle + kClearAngle || place.depth < kClearOfFaces) continue;
+    if (sample.object_angle < row.angle + kClearAngle || position.depth < kClearOfFaces) continue;
     row.recall[sample.radius < narrow ? kNarrow : kWide][angle_bin(sample.object_angle)] += one;
     if (one.missed() > 0) remember(row.first_missed, sample);
   }

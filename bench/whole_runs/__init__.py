@@ -1,1 +1,1 @@
-"""What bench/run and bench/compare share: meshes, timed runs, tables and plots. Python's standard library only."""
+"""The shared parts of bench/run and bench/compare: meshes, timed runs, tables and plots, by the standard library alone."""

@@ -14,7 +14,7 @@ class RunFailed(Exception):
 
 
 def wait(process, limit):
-    """Waits for the process; its exit status and resource usage, or RunFailed after `limit` seconds."""
+    """Waits for the process and returns its resource usage; raises RunFailed after `limit` seconds."""
     end = time.monotonic() + limit
     pause = 0.0005  # seconds; the interval of polling adds a little to the measured time
     while True:
@@ -30,7 +30,7 @@ def wait(process, limit):
 
 
 def run_once(binary, mesh, folder, options=(), limit=600):
-    """One whole run that writes its points and nothing else: seconds of wall and CPU time, MiB at most."""
+    """One whole run that writes only its points: wall and CPU seconds, and the peak memory in MiB."""
     command = [str(binary), str(mesh), "-q", "-o", str(Path(folder) / "points.ply"), *options]
     start = time.perf_counter()
     with open(Path(folder) / "errors.txt", "w+", encoding="utf-8") as errors:
@@ -44,7 +44,7 @@ def run_once(binary, mesh, folder, options=(), limit=600):
 
 
 def reported_run(binary, mesh, folder, options=(), limit=600):
-    """The same with what its report says. A report has more in it than points (volumes of unions): it takes longer."""
+    """The same, with the values of its report. A run with a report takes longer, as it also measures volumes of unions."""
     report = Path(folder) / "report.json"
     run = run_once(binary, mesh, folder, [*options, "--report", str(report)], limit)
     facts = json.loads(report.read_text(encoding="utf-8"))
@@ -70,7 +70,7 @@ def median_run(binary, mesh, folder, options=(), repeats=3, limit=600):
 
 
 def exponent(xs, ys):
-    """The slope of the least-squares line through log y against log x; None for fewer than two places."""
+    """The slope of the least-squares line through log y against log x; None for fewer than two values of x."""
     if len(set(xs)) < 2:
         return None
     u, v = [math.log(x) for x in xs], [math.log(y) for y in ys]
@@ -79,7 +79,7 @@ def exponent(xs, ys):
 
 
 def processor():
-    """The name of the processor, as the system gives it."""
+    """The name of the processor, from the operating system."""
     try:
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
             if line.startswith("model name"):

@@ -1,4 +1,4 @@
-"""Meshes to measure with: made in place, or found."""
+"""Meshes for measurements: generated or found."""
 
 import math
 import os

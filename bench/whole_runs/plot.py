@@ -17,7 +17,7 @@ WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 460, 340, 56, 46, 14, 44
 
 
 def label(value):
-    """A number as people write it: 0.25, 160, 16k, 1M."""
+    """A number in short form: 0.25, 160, 16k, 1M."""
     for size, letter in ((1e6, "M"), (1e3, "k")):
         if value >= size:
             return f"{value / size:.3g}{letter}"
@@ -25,19 +25,19 @@ def label(value):
 
 
 def ticks(low, high):
-    """Round numbers between low and high: of the finest of these steps within a decade that gives nine at most."""
+    """Round numbers between low and high, in the finest of these steps that gives at most nine numbers."""
     powers = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)
     for steps in ([1 + i / 10 for i in range(90)], [1 + i / 5 for i in range(45)], [1 + i / 2 for i in range(18)],
                   [1, 1.5, 2, 3, 4, 5, 7], [1, 2, 5], [1]):
-        places = [step * 10.0**power for power in powers for step in steps]
-        places = [place for place in places if low <= place <= high]
-        if len(places) <= 9:
-            return places
-    return places
+        numbers = [step * 10.0**power for power in powers for step in steps]
+        numbers = [number for number in numbers if low <= number <= high]
+        if len(numbers) <= 9:
+            return numbers
+    return numbers
 
 
 class Axis:
-    """Places of values along a logarithmic axis from pixel `start` to pixel `end`."""
+    """Maps values to positions on a logarithmic axis from pixel `start` to pixel `end`."""
 
     def __init__(self, values, start, end):
         self.low, self.high = min(values) / 1.15, max(values) * 1.15
@@ -49,7 +49,7 @@ class Axis:
 
 
 def chart(title, x_name, y_name, series, x_ticks=None):
-    """One chart as SVG elements. `series`: name, [(x, y), ...] with positive numbers, and what the legend adds."""
+    """One chart as SVG elements. `series`: name, [(x, y), ...] with positive numbers, and an addition for the legend."""
     points = [point for _, line, _ in series for point in line]
     x_axis = Axis([x for x, _ in points], LEFT, WIDTH - RIGHT)
     y_axis = Axis([y for _, y in points], HEIGHT - BOTTOM, TOP)

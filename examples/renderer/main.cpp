@@ -82,7 +82,7 @@ class Renderer {
       : folder_(std::move(folder)),
         torus_(kAround, kAlong),
         context_(take(medial_vk::Context::adopt(adopted()))),
-        mesh_(take(medial_vk::IndexedMesh::create(torus_.view()))),
+        mesh_(take(medial_vk::IndexedMesh::build(torus_.view()))),
         job_(take(medial_vk::ExtractionJob::create(context_, mesh_, parameters(), {kFramesInFlight, 4}))),
         pass_(host_, kSize, job_.buffers()) {
     auto pool = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);

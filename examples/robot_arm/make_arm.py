@@ -3,9 +3,9 @@
 
     make_arm.py FOLDER
 
-Needs nothing but Python; the same bytes each time. What is hard about real arms is in it: links that are thin (a plate, a
-flange), concave (a fork, a bracket, fingers), hollow on one side (a shell), turned and scaled meshes, a package:// path,
-and primitives. Lengths are in metres, but for one mesh in millimetres.
+The script needs only Python and writes the same bytes each time. The arm has the difficulties of real ones: links that
+are thin (a plate, a flange), concave (a fork, a bracket, fingers) or hollow on one side (a shell), turned and scaled
+meshes, a package:// path, and primitives. Lengths are in metres, except for one mesh in millimetres.
 """
 import math
 import pathlib

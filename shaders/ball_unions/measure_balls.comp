@@ -35,7 +35,7 @@ void main() {
     return;
   }
   start_cell();
-  ask_hints();
+  test_hints();
   walk_balls();
   MeasuredBall found = MeasuredBall(0.0, 0.0, -1.0, -1.0);
   bool given_up = cell_failed || spent + 16u * corner_count > push.iterations;

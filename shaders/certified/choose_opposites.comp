@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) readonly buffer FoundPoints { FoundPoint found[]; }
 layout(set = 0, binding = 3) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 4) writeonly buffer Opposites { vec4 opposites[]; };  // w: the sample
 layout(set = 0, binding = 5) writeonly buffer Tallies { vec4 tallies[]; };
-layout(set = 0, binding = 6) writeonly buffer Asked { uint asked[]; };  // groups of kFluxGroup opposites
+layout(set = 0, binding = 6) writeonly buffer Requests { uint requests[]; };  // groups of kFluxGroup opposites
 
 void main() {
   uint index = invocation_index();
@@ -43,6 +43,6 @@ void main() {
   uint groups = (count + kFluxGroup - 1u) / kFluxGroup;
   for (uint k = count; k < groups * kFluxGroup; ++k) opposites[base + k] = last;
   tallies[index] = vec4(sum, used, float(count), 0.0);
-  uint slot = atomicAdd(counters[kAsked], groups);  // in any order: every result is written to its own slot
-  for (uint k = 0u; k < groups; ++k) asked[slot + k] = (base / kFluxGroup) + k;
+  uint slot = atomicAdd(counters[kRequests], groups);  // in any order: every result is written to its own slot
+  for (uint k = 0u; k < groups; ++k) requests[slot + k] = (base / kFluxGroup) + k;
 }

@@ -14,7 +14,7 @@
 
 layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Lines { Line lines[]; };
-layout(set = 0, binding = 4) readonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 4) readonly buffer Requests { uint requests[]; };
 layout(set = 0, binding = 5) buffer Winners { uint winners[]; };
 layout(set = 0, binding = 6) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "certified/closure.glsl"
@@ -38,8 +38,8 @@ bool is_inside(vec3 point) {
 }
 
 void main() {
-  if (invocation_index() >= counters[kAsked]) return;
-  uint index = asked[invocation_index()];
+  if (invocation_index() >= counters[kRequests]) return;
+  uint index = requests[invocation_index()];
   vec3 point = lines[index].accepted == 1u ? lines[index].p.xyz : lines[index].q.xyz;
   float turn = dot(lines[index].toward_p.xyz, lines[index].toward_q.xyz);
   if (is_inside(point)) elect(index, lines[index].voxel, turn);

@@ -21,13 +21,13 @@ layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Parents { Cell parents[]; };
 layout(set = 0, binding = 4) readonly buffer Nearest { uvec2 nearest[]; };
 layout(set = 0, binding = 5) buffer States { uvec4 states[]; };
-layout(set = 0, binding = 6) readonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 6) readonly buffer Requests { uint requests[]; };
 
 void main() {
   uint index = invocation_index();
   bool is_top = step.second_task != 0u;
-  if (index >= counters[is_top ? kParents : kAsked]) return;
-  uint item = is_top ? index : asked[index];
+  if (index >= counters[is_top ? kParents : kRequests]) return;
+  uint item = is_top ? index : requests[index];
   vec3 centre;
   float clearance;
   if (is_top) {

@@ -17,7 +17,7 @@ layout(set = 0, binding = 5) readonly buffer Masks { uint masks[]; };
 layout(set = 0, binding = 6) readonly buffer Open { uint open[]; };
 layout(set = 0, binding = 7) readonly buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 8) buffer States { uvec4 states[]; };     // kept, list entries, mask words, flags
-layout(set = 0, binding = 9) writeonly buffer Asked { uint asked[]; };  // kept children that do not know their side
+layout(set = 0, binding = 9) writeonly buffer Requests { uint requests[]; };  // kept children whose side is not known
 layout(set = 0, binding = 10) readonly buffer Counts { uvec4 counts[]; };  // y: contacts that touch
 
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most cells
@@ -130,6 +130,6 @@ void main() {
   COUNT_TESTS(tests);
   if (is_empty)
     states[item] = uvec4(0);
-  else if (must_ask_side(states[item].w, nearest_distance))
-    asked[atomicAdd(counters[kAsked], 1u)] = item;  // in any order: every result is written to its own state
+  else if (must_decide_side(states[item].w, nearest_distance))
+    requests[atomicAdd(counters[kRequests], 1u)] = item;  // in any order: every result is written to its own state
 }

@@ -115,9 +115,9 @@ void main() {
           bool cube_by_prism = touches_cube(prism, v, texels.normal);
           bool touches = contact && cube_by_front && cube_by_back && cube_by_prism;
           axes.least = touches ? min(axes.least, cosines(axes, texels.normal)) : axes.least;
-          uvec2 place = count_lanes(contact ? 1u : 0u);
-          if (contact) lists[offset.y + position + place.x] = t;
-          position += place.y;
+          uvec2 counted = count_lanes(contact ? 1u : 0u);
+          if (contact) lists[offset.y + position + counted.x] = t;
+          position += counted.y;
         }
         tests += run.count;
         word &= word - 1u;

@@ -24,7 +24,7 @@ layout(set = 0, binding = 4) readonly buffer Points { vec4 points[]; };  // oppo
 layout(set = 0, binding = 5) buffer Lines { Line lines[]; };
 layout(set = 0, binding = 6) readonly buffer FoundPoints { FoundPoint found[]; };
 layout(set = 0, binding = 7) buffer Nearest { uvec2 nearest[]; };  // squared distance (bits), triangle
-layout(set = 0, binding = 8) buffer Asked { uint asked[]; };  // groups of opposites; lines without a known side
+layout(set = 0, binding = 8) buffer Requests { uint requests[]; };  // groups of opposites; lines without a known side
 layout(set = 0, binding = 9) readonly buffer Masks { uint masks[]; };  // of the lists, for every line or group
 layout(set = 0, binding = 10) buffer Winners { uint winners[]; };
 layout(set = 0, binding = 11) readonly buffer Order { uint order[]; };  // of lines and samples: sort_by_work.comp
@@ -52,15 +52,15 @@ vec3 point_of(uint item, uint index) {
 
 // The slot for the result of a point.
 uint result_of(uint item, uint index) {
-  uint place = kSource == kSamples ? sample_of_group(item % kGroupsPerSphere, index) : 0u;
-  return kSource == kSamples ? item / kGroupsPerSphere * kFluxSamples + place : item * kPointsPerLane + index;
+  uint sample_index = kSource == kSamples ? sample_of_group(item % kGroupsPerSphere, index) : 0u;
+  return kSource == kSamples ? item / kGroupsPerSphere * kFluxSamples + sample_index : item * kPointsPerLane + index;
 }
 
 vec3 point[kPointsPerLane];
 float best[kPointsPerLane];
 uint triangle[kPointsPerLane];
 
-void ask(uint t, bool counts) {
+void test(uint t, bool counts) {
   TriangleTexels texels = load_triangle(t);
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k) {
     float d = squared_distance_to_triangle(point[k], texels);
@@ -71,12 +71,12 @@ void ask(uint t, bool counts) {
 }
 
 // Examines the entries whose bits are set, with an iteration for each, and one for each word. Returns their number.
-uint ask_masked(Cell cell, uint base, uint begin, uint end) {
+uint test_masked(Cell cell, uint base, uint begin, uint end) {
   uint w = begin / 32u, last_word = (end - 1u) / 32u, word = masks[base + w], count = 0u;
   for (;;) {
     bool counts = word != 0u;
     uint bit = counts ? uint(findLSB(word)) : 0u;
-    ask(lists[cell.list_begin + 32u * w + bit], counts);
+    test(lists[cell.list_begin + 32u * w + bit], counts);
     count += counts ? 1u : 0u;
     word &= word - 1u;
     bool next = word == 0u;
@@ -86,9 +86,9 @@ uint ask_masked(Cell cell, uint base, uint begin, uint end) {
   }
 }
 
-void ask_all(Cell cell, uint entry, uint end) {
+void test_all(Cell cell, uint entry, uint end) {
   for (;;) {
-    ask(lists[cell.list_begin + entry], true);
+    test(lists[cell.list_begin + entry], true);
     if (++entry >= end) break;
   }
 }
@@ -98,7 +98,7 @@ void main() {
   // Groups of opposites are packed, from the whole block of spheres that the caller gives.
   const bool is_packed = kSource == kOpposites;
   if ((is_packed ? item : step.first_item + item) >= counters[step.items_counter] * step.items_multiplier) return;
-  if (is_packed) item = asked[item];
+  if (is_packed) item = requests[item];
   if (kIsLine && step.depth <= kSortedDepth || kSource == kSamples) item = order[item];
   Cell cell = cells[cell_of(item)];
   uint entry = step.first_entry;
@@ -113,12 +113,12 @@ void main() {
   }
   uint end = min(list_count, entry + kEntriesPerRound);
   if (kIsLine) {
-    uint asked_count = ask_masked(cell, line_mask_begin(cell, lines[item].seed), entry, end);
-    COUNT_TESTS(kPointsPerLane * asked_count);
+    uint test_count = test_masked(cell, line_mask_begin(cell, lines[item].seed), entry, end);
+    COUNT_TESTS(kPointsPerLane * test_count);
   } else if (kSource == kSamples) {
-    ask_masked(cell, sample_mask_begin(cell, item % kGroupsPerSphere), entry, end);
+    test_masked(cell, sample_mask_begin(cell, item % kGroupsPerSphere), entry, end);
   } else {
-    ask_all(cell, entry, end);
+    test_all(cell, entry, end);
     COUNT_TESTS(kPointsPerLane * (end - entry));
   }
   [[unroll]] for (uint k = 0; k < kPointsPerLane; ++k)

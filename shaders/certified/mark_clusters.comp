@@ -21,7 +21,7 @@ layout(set = 0, binding = 5) buffer TouchMasks { uint touch_masks[]; };
 // Contacts, twice; the cluster of the second witness; the sum of the axes of those that touch, as a packed direction.
 layout(set = 0, binding = 6) writeonly buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
-layout(set = 0, binding = 8) writeonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 8) writeonly buffer Requests { uint requests[]; };
 
 const uint kSweeps = 4u;
 
@@ -141,15 +141,15 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
 }
 
 // Dismissal by an axis (axis_test.glsl), for all eight at once: sweeps are made while any of them needs one.
-bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, bool asks, uint base) {
+bool is_dismissed(Cell parent, uint child, vec3 centre, vec3 axis, float theta, bool is_open, uint base) {
   float enough = cosine(theta) + kAxisSlack;
   bool dismissed = false;
   for (uint sweep = 0u; sweep < kSweeps; ++sweep) {
     Offender worst = worst_offender(parent, child, centre, axis, base);
-    dismissed = dismissed || (asks && worst.cosine > enough);
-    asks = asks && !dismissed;
+    dismissed = dismissed || (is_open && worst.cosine > enough);
+    is_open = is_open && !dismissed;
     axis = unit_or_zero(axis + (worst.help - axis) / (float(sweep) + 2.5));
-    if (or_of_lanes(asks ? 1u : 0u) == 0u) break;
+    if (or_of_lanes(is_open ? 1u : 0u) == 0u) break;
   }
   return dismissed;
 }
@@ -170,16 +170,16 @@ void main() {
 
   bool exists = is_in_grid(coordinates), is_empty = !exists;
   uint flags = parent.flags & kCellInside;
-  bool asks_side = must_ask_side(flags, tally.clearance);
-  if (asks_side && step.open_edges == 0u) {
+  bool needs_side = must_decide_side(flags, tally.clearance);
+  if (needs_side && step.open_edges == 0u) {
     flags |= tally.behind ? kCellInside : 0u;
     is_empty = is_empty || tally.in_front;
-    asks_side = !tally.behind;
+    needs_side = !tally.behind;
   }
   float theta = dismissal_angle(front.distance);
   is_empty = is_dismissed(parent, child, centre, unit_or_zero(tally.axis), theta, !is_empty, base) || is_empty;
   if (exists) COUNT(kVisitedCount, 1u);
   if (child == 0u) COUNT(kClusterTestCount, 8u * parent.list_count);
   states[item] = is_empty ? uvec4(0u) : uvec4(1u, tally.entries, (tally.entries + 31u) / 32u, flags);
-  if (!is_empty && asks_side) asked[atomicAdd(counters[kAsked], 1u)] = item;
+  if (!is_empty && needs_side) requests[atomicAdd(counters[kRequests], 1u)] = item;
 }

@@ -32,7 +32,7 @@ layout(set = 0, binding = 7) buffer Counts { uvec4 counts[]; };
 layout(set = 0, binding = 8) buffer Axes { vec4 axes[]; };
 layout(set = 0, binding = 9) buffer States { uvec4 states[]; };  // kept, list entries, mask words, flags
 layout(set = 0, binding = 10) writeonly buffer Open { uint open[]; };
-layout(set = 0, binding = 11) writeonly buffer Asked { uint asked[]; };
+layout(set = 0, binding = 11) writeonly buffer Requests { uint requests[]; };
 
 const uint kSeenUntrusted = 1u;  // a contact that touches has no trusted normal
 // The centre is not clearly behind, or not clearly in front of, one of the triangles that may be the nearest.
@@ -197,19 +197,19 @@ void settle(uint item, vec3 centre, uint parent_flags, Marks marks) {
   bool is_empty = marks.axis.w > cosine(theta) + kAxisSlack;
   uint flags = parent_flags & kCellInside;
   if ((count.w & kSeenUntrusted) != 0u && nearest_distance <= step.circumradius) flags |= kCellUntrusted;
-  bool asks = must_ask_side(flags, nearest_distance);
-  if (asks && step.open_edges == 0u) {
+  bool needs_side = must_decide_side(flags, nearest_distance);
+  if (needs_side && step.open_edges == 0u) {
     bool inside = (count.w & kSeenInFront) == 0u, outside = (count.w & kSeenBehind) == 0u;
     flags |= inside ? kCellInside : 0u;
     is_empty = is_empty || outside;
-    asks = !inside;
+    needs_side = !inside;
   }
   states[item] = is_empty ? uvec4(0u) : uvec4(1u, count.x, (count.x + 31u) / 32u, flags);
   bool is_kept = !is_empty && incompatible(obedience_of(marks.first.y, centre, theta),
                                            obedience_of(count.z, centre, theta));
   // In any order: every result is written to its own state.
   if (!is_empty && !is_kept) open[atomicAdd(counters[kOpen], 1u)] = item;
-  if (is_kept && asks) asked[atomicAdd(counters[kAsked], 1u)] = item;
+  if (is_kept && needs_side) requests[atomicAdd(counters[kRequests], 1u)] = item;
 }
 
 void main() {
@@ -243,8 +243,8 @@ void main() {
   for (uint walks = 1u;; ++walks) {
     Marks marks = mark(parent, child, centre, front, back, prism, begin, end, before);
     bool is_inside = in_parent || (marks.count.w & kSeenInFront) == 0u;
-    bool is_wrong = prism.is_asked && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
-    prism.is_asked = prism.is_asked && !is_wrong;
+    bool is_wrong = prism.is_tested && !(is_inside && clears_boundary(uintBitsToFloat(marks.first.x)));
+    prism.is_tested = prism.is_tested && !is_wrong;
     if (is_so_of_any(is_wrong)) continue;
     // Inside the loop, as the walks of other lanes of its vector may change the values of a lane after it has left the
     // loop (docs/reliability.md).

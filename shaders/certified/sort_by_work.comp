@@ -12,7 +12,7 @@ layout(set = 0, binding = 1) readonly buffer Work { uint work[]; };  // number o
 layout(set = 0, binding = 2) writeonly buffer Order { uint order[]; };
 
 const uint kClasses = 128u;
-shared uint places[kClasses];
+shared uint positions[kClasses];
 
 // Eight classes for every power of two, most first.
 uint class_of(uint contacts) {
@@ -27,28 +27,28 @@ void main() {
   uint all = counters[step.items_counter] * step.items_multiplier;
   uint left = all - min(all, step.first_item + block);
   uint items = min(left, kSortedPerLane * gl_WorkGroupSize.x);
-  for (uint c = lane; c < kClasses; c += gl_WorkGroupSize.x) places[c] = 0u;
+  for (uint c = lane; c < kClasses; c += gl_WorkGroupSize.x) positions[c] = 0u;
   barrier();
   // Eight invocations process a run of items: if they are one vector, the items of a class keep their order.
   uint first = kSortedPerLane * (lane & ~7u) + (lane & 7u);
-  uint place[kSortedPerLane];  // class and, above it, number in the class
+  uint rank[kSortedPerLane];  // class and, above it, number in the class
   uint contacts = 0u;
   for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u) {
     contacts += work[block + i];
     uint c = class_of(work[block + i]);
-    place[k] = c + kClasses * atomicAdd(places[c], 1u);
+    rank[k] = c + kClasses * atomicAdd(positions[c], 1u);
   }
   if (step.second_task != 0u) COUNT_TESTS(kFluxGroup * contacts);
   barrier();
   if (lane == 0u) {
     uint sum = 0u;
     for (uint c = 0u; c < kClasses; ++c) {
-      uint number = places[c];
-      places[c] = sum;
+      uint number = positions[c];
+      positions[c] = sum;
       sum += number;
     }
   }
   barrier();
   for (uint k = 0u, i = first; k < kSortedPerLane && i < items; ++k, i += 8u)
-    order[block + places[place[k] % kClasses] + place[k] / kClasses] = block + i;
+    order[block + positions[rank[k] % kClasses] + rank[k] / kClasses] = block + i;
 }

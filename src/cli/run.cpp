@@ -126,7 +126,7 @@ class ExtractionRun {
     if (interrupted()) return stopped();
     Stopwatch stopwatch;
     const unsigned threads = opening_.threads_beside(mesh.mesh.triangles.size(), options_.threads);
-    Result<IndexedMesh> made = IndexedMesh::create(std::move(mesh), threads);
+    Result<IndexedMesh> made = IndexedMesh::build(std::move(mesh), threads);
     if (!made) return with_hint(made.error());
     mesh_.emplace(std::move(made).value());
     record_.longest_side = mesh_->longest_side();
@@ -349,7 +349,7 @@ Status parse_and_run(const std::vector<std::string>& arguments) {
 
 int run(const std::vector<std::string>& arguments) {
   install_interrupt_handlers();
-  const char* const command = !arguments.empty() && arguments[0] == "spheres" ? "medial-vk spheres" : "medial-vk";
+  const Command command = !arguments.empty() && arguments[0] == "spheres" ? Command::kSpheres : Command::kExtract;
   try {
     const Status status = parse_and_run(arguments);
     return status ? 0 : report_error(status.error(), command);

@@ -73,7 +73,7 @@ Error too_long(const std::string& name, std::uint64_t most_bytes) {
 }
 
 /// The length of a regular file; 0 for streams and devices, whose length is unknown.
-std::uint64_t told_length(std::FILE* file) {
+std::uint64_t known_length(std::FILE* file) {
   struct stat status = {};
   if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
   return static_cast<std::uint64_t>(status.st_size);
@@ -84,11 +84,11 @@ Result<std::string> read_bytes(const std::string& path, const std::string& name,
       path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
       [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
   if (!file) return file_error(name, fmt::format("cannot open: {}", std::strerror(errno)));
-  const std::uint64_t told = told_length(file.get());
-  if (told > most_bytes) return too_long(name, most_bytes);
+  const std::uint64_t known = known_length(file.get());
+  if (known > most_bytes) return too_long(name, most_bytes);
   std::string bytes;
   // One byte more shows whether the file has ended.
-  const auto grow = [&](std::uint64_t size) { bytes.resize(std::min(std::max(size, told), most_bytes) + 1); };
+  const auto grow = [&](std::uint64_t size) { bytes.resize(std::min(std::max(size, known), most_bytes) + 1); };
   std::size_t used = 0;
   for (;;) {
     if (used == bytes.size()) grow(std::max<std::size_t>(1u << 20, bytes.size() * 2));

@@ -12,7 +12,7 @@ namespace {
 /// For a number that std::from_chars found out of range: too small (true) or too large (false). The position of its
 /// first nonzero digit decides; any number near 1 was in range.
 bool is_underflow(std::string_view word) {
-  std::int64_t place = 0;  // decimal exponent of the first non-zero digit, without the written exponent
+  std::int64_t magnitude = 0;  // decimal exponent of the first non-zero digit, without the written exponent
   bool in_fraction = false, found = false;
   std::size_t i = 0;
   for (; i < word.size() && word[i] != 'e' && word[i] != 'E'; ++i) {
@@ -22,13 +22,13 @@ bool is_underflow(std::string_view word) {
       if (!found && word[i] != '0') {
         found = true;
         if (in_fraction)
-          --place;
+          --magnitude;
         else
-          place = 0;
+          magnitude = 0;
       } else if (found && !in_fraction) {
-        ++place;
+        ++magnitude;
       } else if (!found && in_fraction) {
-        --place;
+        --magnitude;
       }
     }
   }
@@ -39,7 +39,7 @@ bool is_underflow(std::string_view word) {
     if (word[i] == '-') negative = true;
     if (word[i] >= '0' && word[i] <= '9') exponent = std::min<std::int64_t>(exponent * 10 + (word[i] - '0'), 1ll << 40);
   }
-  return place + (negative ? -exponent : exponent) < 0;
+  return magnitude + (negative ? -exponent : exponent) < 0;
 }
 
 std::string_view without_plus(std::string_view word) {

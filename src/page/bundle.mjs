@@ -36,7 +36,7 @@ function policy(script, style) {
 
 function fill(template, parts) {
   return template.replace(/<!--build: (\w+)-->/g, (_, name) => {
-    if (!(name in parts)) throw new Error(`page.html asks for ${name}`);
+    if (!(name in parts)) throw new Error(`page.html requires ${name}, which is missing`);
     return parts[name];
   });
 }

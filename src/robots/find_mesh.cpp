@@ -70,7 +70,7 @@ Result<fs::path> path_in_package(const std::string& inner, const MeshPlaces& pla
   std::string shown = medial_vk::quoted(name);
   shown = shown.substr(1, shown.size() - 2);
   return invalid(
-      fmt::format("the package \"{0}\" is found nowhere; say where it is with --package {0}=FOLDER or "
+      fmt::format("the package \"{0}\" is not found; name its folder with --package {0}=FOLDER or "
                   "ROS_PACKAGE_PATH",
                   shown));
 }

@@ -162,7 +162,7 @@ class Fitting {
 
   Status begin(std::size_t number) {
     if (work_[number]) return {};
-    Result<IndexedMesh> mesh = IndexedMesh::create(parts_[number].mesh, goals_.options.threads);
+    Result<IndexedMesh> mesh = IndexedMesh::build(parts_[number].mesh, goals_.options.threads);
     if (!mesh) return mesh.error();
     work_[number].emplace(std::move(mesh).value(), kept_extractions(extractor_));
     return {};

@@ -64,7 +64,7 @@ TEST(ReferenceAnalytic, DistanceToASphere) {
   }
 }
 
-// In a convex solid the distance is the least one to a face's plane, and a point is medial where two are least.
+// In a convex solid the distance is the least distance to the plane of a face, and a point is medial if two are least.
 class BoxInMode : public testing::TestWithParam<bool> {};
 
 TEST_P(BoxInMode, EveryPointIsOnABisector) {
@@ -117,8 +117,8 @@ TEST(ReferenceAnalytic, SpheresOfACubeInItsOwnGrid) {
   expect_certified(mesh, result, parameters);
 }
 
-// The ideal medial axis is a segment. Facets of sagitta s put salient points at most s / (1 - cos(2 theta)) away from
-// it: a point at that distance has its nearest facets all on one side.
+// The ideal medial surface is a segment. Facets of sagitta s put salient points at most s / (1 - cos(2 theta)) away
+// from it: a point at that distance has its nearest facets all on one side.
 TEST(ReferenceAnalytic, CapsuleKeepsToItsAxis) {
   constexpr int kSegments = 64;
   const double radius = 0.4, length = 1.0;

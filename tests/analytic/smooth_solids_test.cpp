@@ -46,7 +46,7 @@ TurnedSolid extract_turned(Mesh solid, std::uint32_t resolution) {
   return out;
 }
 
-/// Of a geodesic sphere of radius 1 with as many facets.
+/// The longest edge of a geodesic sphere of radius 1 with this number of facets.
 double longest_edge(std::uint32_t triangles) {
   const Mesh sphere = test::make_sphere(1, triangles);
   double longest = 0;

@@ -48,7 +48,7 @@ void expect_consistent(const std::vector<Ball>& balls, const BallUnion& found) {
   expect_measures(found, test::measure_by_complex(balls, found.complex));
 }
 
-/// Ties may be broken differently: only the topology is the same.
+/// Compares the topology only, since ties may be broken differently.
 /// `touching`: spheres touch on the union's surface, within the tolerance of touching; simplices of such spheres are in
 /// the project's complex, which changes no topology, but inclusion and exclusion knows no tolerance.
 void expect_same_union(const std::vector<Ball>& balls, bool touching = false) {
@@ -60,7 +60,7 @@ void expect_same_union(const std::vector<Ball>& balls, bool touching = false) {
   EXPECT_EQ(euler(found.complex), euler(complex));
 }
 
-/// Without ties: simplex by simplex.
+/// Compares simplex by simplex, for balls without ties.
 void expect_same_complex(const std::vector<Ball>& balls) {
   const BallUnion found = measure(balls);
   const DualComplex complex = test::dual_complex_by_cgal(balls);
@@ -72,7 +72,7 @@ void expect_same_complex(const std::vector<Ball>& balls) {
   EXPECT_EQ(betti_numbers(found.complex).value(), betti_numbers(complex).value());
 }
 
-/// The oracle itself, against slices.
+/// Compares the oracle itself with slices.
 TEST(UnionByCgal, OfADozenAgainstSlices) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     const auto balls = test::random_balls(12, seed, 0.2, 0.6);

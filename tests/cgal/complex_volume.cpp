@@ -128,20 +128,20 @@ class Measuring {
   }
 
  private:
-  /// Adds it and takes its share away from its faces.
+  /// Adds the volume of the tetrahedron and subtracts its shares of directions from its faces.
   void take_tetrahedron(const std::array<std::uint32_t, 4>& t) {
     const auto at = [&](std::size_t k) -> const Vector& { return spheres_[t[k]].centre; };
     sum_.volume += tetrahedron_volume(at(0), at(1), at(2), at(3));
     for (std::size_t k = 0; k < 4; ++k) {
-      triangles_[place_of(complex_.triangles, face(t, k))] -= Real(0.5);
-      corners_[place_of(complex_.vertices, t[k])] -=
+      triangles_[index_in(complex_.triangles, face(t, k))] -= Real(0.5);
+      corners_[index_in(complex_.vertices, t[k])] -=
           corner_share(at(k), at((k + 1) % 4), at((k + 2) % 4), at((k + 3) % 4));
       for (std::size_t j = k + 1; j < 4; ++j) {
         std::array<std::size_t, 2> others;
         for (std::size_t m = 0, n = 0; m < 4; ++m) {
           if (m != k && m != j) others[n++] = m;
         }
-        edges_[place_of(complex_.edges, std::array{t[k], t[j]})] -=
+        edges_[index_in(complex_.edges, std::array{t[k], t[j]})] -=
             edge_share(at(k), at(j), at(others[0]), at(others[1]));
       }
     }

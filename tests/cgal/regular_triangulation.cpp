@@ -74,7 +74,7 @@ class Classifier {
  private:
   using Handle = Triangulation::Vertex_handle;
 
-  /// Sorted names; false if one of them is not a ball.
+  /// Gives the sorted names of the vertices; returns false if one of them is not a ball.
   template <std::size_t N>
   bool name(const std::array<Handle, N>& vertices, std::array<std::uint32_t, N>& names) const {
     for (std::size_t k = 0; k < N; ++k) names[k] = vertices[k]->info();

@@ -179,7 +179,7 @@ TEST_F(CommandLine, ReportAndPicture) {
   EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
 }
 
-TEST_F(CommandLine, PictureAsAskedFor) {
+TEST_F(CommandLine, PictureAsRequested) {
   const ToolResult result = run_cpu({"part.obj", "--picture", "p.png", "--view", "-1,1,0.5", "--size", "96x64",
                                      "--show", "both", "--colour", "sheet", "-v"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -1,5 +1,5 @@
 // The tool is killed a hundred times, at moments spread over a run: files are the previous ones, or whole new ones, or
-// absent, and there are no others. For every kind of file that the program writes.
+// absent, and there are no others. This holds for every kind of file that the program writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -31,7 +31,7 @@ void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
 class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
  protected:
   static constexpr int kKills = 100;
-  static constexpr const char* kOld = "what was there before";
+  static constexpr const char* kOld = "the earlier content";
 
   Kills() {
     Mesh part = test::make_l_shape(2.0, 0.6, 0.8);
@@ -50,7 +50,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     return seconds;
   }
 
-  /// True if it is the file that a whole run writes, up to the times in it.
+  /// True if these are the bytes that a whole run writes, up to the times in them.
   bool is_whole(const std::string& file, const std::string& bytes) const {
     if (file.ends_with(".json")) return nlohmann::json::accept(bytes);
     if (file.ends_with(".html")) return bytes.ends_with(whole_.at(file).substr(whole_.at(file).size() - 64));
@@ -64,7 +64,7 @@ class Kills : public test::ToolTest, public testing::WithParamInterface<Job> {
     }
   }
 
-  /// Killed between the two calls that replace a file: the file that remains under another name is whole.
+  /// The tool was killed between the two calls that replace a file: the file that remains under another name is whole.
   void expect_whole_leftover(bool had_files) {
     std::size_t left_over = 0;
     for (const std::string& name : folder_.names()) {

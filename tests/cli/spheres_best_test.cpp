@@ -137,7 +137,7 @@ TEST_F(SpheresCommand, BestGivesTheSameBytesOnAnyNumberOfThreads) {
 
 TEST_F(SpheresCommand, EveryLevelKeepsItsContract) {
   const PreparedMesh mesh = part();
-  const Solid solid = std::move(Solid::create(test::indexed(mesh))).value();
+  const Solid solid = std::move(Solid::build(test::indexed(mesh))).value();
   // A cover takes seconds: few of them.
   for (const auto& [contract, count] : {std::pair{"inside", "8"}, {"cover", "2"}}) {
     ASSERT_EQ(best({"part.obj", "--count", count, "--contract", contract, "--levels", "-q", "-o", "a.json"}).exit_code,

@@ -40,13 +40,13 @@ class SpheresCommand : public ToolTest {
     write_file(path("two.urdf"), kRobot);
   }
 
-  /// By the source's method on the CPU.
+  /// Runs the source's method on the CPU.
   ToolResult spheres(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"spheres", "--method", "source", "--backend", "cpu"});
     return run(std::move(arguments));
   }
 
-  /// By the best method on the CPU, with few candidates: a second at most. The report is in report().
+  /// Runs the best method on the CPU, with few candidates, which takes a second at most. The report is in report().
   ToolResult best(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"spheres", "--backend", "cpu", "--resolution", "20", "--report", "r.json"});
     return run(std::move(arguments));

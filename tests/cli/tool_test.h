@@ -17,7 +17,7 @@ class ToolTest : public testing::Test {
 
   ToolCall call(std::vector<std::string> arguments) const { return {std::move(arguments), path("")}; }
 
-  /// Quickly on the CPU, with further arguments.
+  /// A short run on the CPU, with further arguments.
   ToolCall cpu_call(std::vector<std::string> arguments) const {
     for (const char* argument : {"--backend", "cpu", "--resolution", "12"}) arguments.push_back(argument);
     return call(std::move(arguments));

@@ -69,7 +69,7 @@ class WorkCounts : public testing::Test {
 };
 
 TEST_F(WorkCounts, AnAnalysisBuildsOneTreeAndUploadsOnce) {
-  const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh()).value()).value();
+  const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh()).value()).value();
   AnalysisOptions options;
   options.extraction.resolution = 40;
   options.volumes = options.medial_mesh = true;
@@ -84,7 +84,7 @@ TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
     for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
       trees = uploads = 0;
       int extractions = 0;
-      const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(test::make_box({1, 0.7, 0.45})).value()).value();
+      const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(test::make_box({1, 0.7, 0.45})).value()).value();
       SphereOptions options;
       options.method = method;
       options.contract = contract;
@@ -104,7 +104,7 @@ TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
 
 // Vertices that move refit the tree.
 TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
-  IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh()).value()).value();
+  IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh()).value()).value();
   Scene scene = Scene::create(*context_, mesh).value();
   std::vector<Point> vertices = mesh.prepared().mesh.vertices;
   for (Point& p : vertices) p[0] *= 1.5;
@@ -115,7 +115,7 @@ TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
 }
 
 TEST_F(WorkCounts, OneThreadIsOneThread) {
-  const IndexedMesh mesh = IndexedMesh::create(prepare_mesh(large_mesh(), 1).value(), 1).value();
+  const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh(), 1).value(), 1).value();
   AnalysisOptions options;
   options.extraction.resolution = 60;
   options.volumes = options.removal_orders = options.medial_mesh = true;
@@ -133,7 +133,7 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   EXPECT_EQ(threads, 0);
 }
 
-// Otherwise the test above could not fail.
+// Without this, the test above could not fail.
 TEST_F(WorkCounts, MoreThreadsAreStarted) {
   ASSERT_TRUE(prepare_mesh(large_mesh(), 4).ok());
   EXPECT_GT(threads, 0);

@@ -32,7 +32,7 @@ constexpr bool kSanitized = false;
 /// for a thousand. A leaked VkDevice costs tens of KiB, an object of Vulkan some hundred bytes.
 constexpr double kMostGrowth = 256 * 1024;
 
-/// Without the user's pipeline cache.
+/// A context that does not use the user's pipeline cache.
 Context make_context() {
   Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
   if (!context.ok()) throw std::runtime_error(context.error().message);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""No state of the process: the library's object files hold no variable that can be written, but those listed here.
+"""The library has no global state: its object files hold no writable variable except those that are listed here.
 
   global_state.py libmedial_vk.a
 
-Looks at what objdump says of every symbol's section. What is constant but holds addresses (.data.rel.ro) is made
-read-only before a program starts.
+Reads the section of every symbol by objdump. Constants that hold addresses (.data.rel.ro) become read-only before a
+program starts.
 """
 import re
 import subprocess
@@ -12,9 +12,9 @@ import sys
 
 # (object file, name): the reason why it may exist.
 ALLOWED = [
-    (r"instance\.cpp\.o", r"medial_vk::volk_mutex\(\)::mutex", "guards what follows"),
+    (r"instance\.cpp\.o", r"medial_vk::volk_mutex\(\)::mutex", "guards the variables below"),
     (r"volk_source\.c\.o", r"medial_vk_(vk|volk)\w+", "volk's pointers to the loader and to functions of instances"),
-    (r"volk_source\.c\.o", r"loaded(Module|Instance|Device)", "the loader, and what volk was given last"),
+    (r"volk_source\.c\.o", r"loaded(Module|Instance|Device)", "the loader, and the last arguments of volk"),
     (r"required_limits\.cpp\.o", r".*::kRequired", "constexpr; g++ 12 leaves it where addresses are filled in"),
     (r".*", r"DW\.ref\.\w+", "the compiler's, for exceptions: never written"),
 ]
@@ -38,16 +38,17 @@ def variables(library):
 
 
 def main():
-    seen, strangers = 0, []
+    seen, unlisted = 0, []
     for member, section, name in variables(sys.argv[1]):
         seen += 1
         if not any(re.fullmatch(m, member) and re.fullmatch(n, name) for m, n, _ in ALLOWED):
-            strangers.append(f"{member}: {name} in {section}")
-    if strangers:
-        sys.exit("variables that outlive a call; if one must be, say why in this script:\n" + "\n".join(strangers))
+            unlisted.append(f"{member}: {name} in {section}")
+    if unlisted:
+        sys.exit("variables that outlive a call; if one is necessary, add it with the reason to this script:\n"
+                 + "\n".join(unlisted))
     if seen == 0:
-        sys.exit("not even volk's: does objdump understand this file?")
-    print(f"{seen} variables, all of them known")
+        sys.exit("not even the variables of volk were found: can objdump read this file?")
+    print(f"{seen} variables, all of them listed")
 
 
 main()

@@ -45,7 +45,7 @@ Solid solid(std::size_t i) {
   return box;
 }
 
-/// Without the user's pipeline cache.
+/// A context that does not use the user's pipeline cache.
 Context make_context() {
   Result<Context> context = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
   if (!context.ok()) throw std::runtime_error(context.error().message);
@@ -124,7 +124,7 @@ TEST_F(Threads, WithAContextEachAnswerLikeOne) {
 }
 
 // Created by one thread, used by others in turn, destroyed by another.
-TEST_F(Threads, HandAContextOn) {
+TEST_F(Threads, PassAContextOn) {
   const std::vector<Solid> meshes = solids();
   const std::vector<std::string> expected = one_after_the_other(meshes);
   std::optional<Context> context;
@@ -158,7 +158,7 @@ std::string record_and_move(const Solid& mesh) {
   RecordingHost host(make_context());
   Result<Context> context = Context::adopt(host.lend());
   if (!context.ok()) return context.error().message;
-  Result<IndexedMesh> indexed = IndexedMesh::create(mesh.view());
+  Result<IndexedMesh> indexed = IndexedMesh::build(mesh.view());
   if (!indexed.ok()) return indexed.error().message;
   Result<ExtractionJob> job = ExtractionJob::create(context.value(), indexed.value(), small_job());
   if (!job.ok()) return job.error().message;
@@ -177,7 +177,7 @@ std::string record_and_move(const Solid& mesh) {
   return out;
 }
 
-// In the way of a program with several windows: each thread has a device, a context that has adopted it, and a job.
+// As in a program with several windows, each thread has a device, a context that has adopted it, and a job.
 TEST_F(Threads, RecordJobsAtOnce) {
   const std::vector<Solid> meshes = solids();
   std::vector<std::string> expected, found(kThreads);
@@ -195,11 +195,11 @@ TEST_F(Threads, RecordJobsAtOnce) {
 }
 
 // One device, one context, one job: created by one thread, with each frame recorded by another.
-TEST_F(Threads, HandAJobOn) {
+TEST_F(Threads, PassAJobOn) {
   const Solid mesh = solid(1);
   RecordingHost host(make_context());
   Context context = Context::adopt(host.lend()).value();
-  IndexedMesh indexed = IndexedMesh::create(mesh.view()).value();
+  IndexedMesh indexed = IndexedMesh::build(mesh.view()).value();
   ExtractionJob job = ExtractionJob::create(context, indexed, small_job()).value();
   for (std::size_t i = 0; i < kThreads; ++i) {
     std::thread([&] {

@@ -46,7 +46,7 @@ class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQu
 
 TEST_P(CopyingQueue, AnswersQueriesAlike) {
   const PreparedMesh mesh = small_box();
-  expect_same([&](Context& context) { return make_scene_and_ask(context, mesh); });
+  expect_same([&](Context& context) { return make_scene_and_query(context, mesh); });
 }
 
 TEST_P(CopyingQueue, FollowsAMeshThatMoves) {
@@ -54,10 +54,10 @@ TEST_P(CopyingQueue, FollowsAMeshThatMoves) {
   expect_same([&](Context& context) -> Answer {
     IndexedMesh indexed = test::indexed(mesh);
     Scene scene = Scene::create(context, indexed).value();
-    const std::string before = ask_everything(scene).value();
+    const std::string before = query_everything(scene).value();
     EXPECT_TRUE(indexed.move_vertices(moved.mesh.vertices).ok());
     EXPECT_TRUE(scene.update(indexed).ok());
-    return before + ask_everything(scene).value();
+    return before + query_everything(scene).value();
   });
 }
 
@@ -109,7 +109,7 @@ TEST_P(CopyingQueue, RefusesBatchesThatDoNotFit) {
   EXPECT_FALSE(refuses([](QuerySet& set) { set.batch = 40; }));
 }
 
-TEST_P(CopyingQueue, StartsOverAfterAQueryThatCannotBeAsked) {
+TEST_P(CopyingQueue, StartsOverAfterAQueryThatCannotBeWritten) {
   Context context = open_discrete().value();
   QueryBatches batches(Internals::of(context), 64, false);
   std::vector<float> values(500), answers;

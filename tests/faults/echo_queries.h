@@ -10,7 +10,7 @@
 
 namespace medial_vk::test {
 
-/// In batches of 60, in groups of 20. `answers` must outlive the queries.
+/// The queries run in batches of 60 and groups of 20. `answers` must outlive them.
 inline QuerySet echo(std::span<const float> values, std::vector<float>& answers) {
   answers.assign(values.size(), -1.0f);
   QuerySet set;
@@ -22,9 +22,9 @@ inline QuerySet echo(std::span<const float> values, std::vector<float>& answers)
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[first + i], 0, 0, 0};
     return {};
   };
-  set.record = [](Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items) {
+  set.record = [](Recorder& r, std::uint32_t count, const Buffer& queries, std::span<const Buffer, 2> items) {
     EXPECT_EQ(count % 20, 0u);
-    r.copy(asked, 0, items[0], 0, count * sizeof(Texel));
+    r.copy(queries, 0, items[0], 0, count * sizeof(Texel));
     r.barrier();
   };
   set.read = [&answers](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {

@@ -96,7 +96,7 @@ inline Answer extract(Context& context, const PreparedMesh& mesh, Mode mode) {
 }
 
 /// Closest points by both ways, empty balls, winding numbers, flux.
-inline Answer ask_everything(Scene& scene) {
+inline Answer query_everything(Scene& scene) {
   std::string out;
   for (const std::size_t count : {50u, 4096u}) {
     const std::vector<Point> points = points_around(count);
@@ -119,18 +119,18 @@ inline Answer ask_everything(Scene& scene) {
   return out;
 }
 
-inline Answer make_scene_and_ask(Context& context, const PreparedMesh& mesh) {
+inline Answer make_scene_and_query(Context& context, const PreparedMesh& mesh) {
   Result<Scene> scene = in_runtime([&] { return test::make_scene(context, mesh.view()); });
   if (!scene.ok()) return scene.error();
-  return ask_everything(scene.value());
+  return query_everything(scene.value());
 }
 
 /// Calls and allocations fail one by one: all of them, or the first and every n-th after it, where the environment
 /// variable MEDIAL_VK_FAULT_STRIDE gives n. With a sanitizer, a run with every one of them takes too long.
 inline std::uint64_t fault_stride() {
   static const std::uint64_t stride = [] {
-    const char* asked = std::getenv("MEDIAL_VK_FAULT_STRIDE");
-    const std::uint64_t number = asked != nullptr ? std::strtoull(asked, nullptr, 10) : 1;
+    const char* text = std::getenv("MEDIAL_VK_FAULT_STRIDE");
+    const std::uint64_t number = text != nullptr ? std::strtoull(text, nullptr, 10) : 1;
     if (number == 0) throw std::invalid_argument("MEDIAL_VK_FAULT_STRIDE is no positive number");
     if (number > 1) std::cout << "MEDIAL_VK_FAULT_STRIDE: one of " << number << " fails\n";
     return number;
@@ -138,7 +138,7 @@ inline std::uint64_t fault_stride() {
   return stride;
 }
 
-/// With the interposer installed. Skipped without a device.
+/// A test with the interposer installed. It is skipped without a device.
 class FaultTest : public testing::Test {
  protected:
   void SetUp() override {

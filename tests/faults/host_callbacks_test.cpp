@@ -116,7 +116,7 @@ TEST_F(HostCallbacks, GetAllMemoryBack) {
       ASSERT_TRUE(answer.ok()) << answer.error().message;
       EXPECT_GT(allocator.allocations(), before);
     }
-    ASSERT_TRUE(make_scene_and_ask(context.value(), mesh).ok());
+    ASSERT_TRUE(make_scene_and_query(context.value(), mesh).ok());
   }
   EXPECT_EQ(allocator.alive(), 0u);
   EXPECT_EQ(allocator.foreign(), 0u);
@@ -162,7 +162,7 @@ TEST_F(HostCallbacks, RunOut) {
     ASSERT_TRUE(context.ok());
     const PreparedMesh mesh = small_box();
     const std::vector<std::pair<const char*, Job>> jobs = {
-        {"queries", [&](Context& c) { return make_scene_and_ask(c, mesh); }},
+        {"queries", [&](Context& c) { return make_scene_and_query(c, mesh); }},
         {"certified extraction", [&](Context& c) { return extract(c, mesh, Mode::kCertified); }},
         {"thesis extraction", [&](Context& c) { return extract(c, mesh, Mode::kThesis); }}};
     for (const auto& [name, job] : jobs) {

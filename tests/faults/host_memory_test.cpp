@@ -24,7 +24,7 @@ namespace {
 
 class HostMemory : public FaultTest {
  protected:
-  /// Fails every allocation of the job (fault_stride()), one a run.
+  /// Fails every allocation of the job (fault_stride()), one per run.
   void fail_every_allocation(const char* name, const std::function<Answer()>& job) {
     const Answer expected = job();
     ASSERT_TRUE(expected.ok()) << expected.error().message;
@@ -66,7 +66,7 @@ TEST_F(HostMemory, RunsOutInQueries) {
   Result<Context> context = open();
   ASSERT_TRUE(context.ok());
   const PreparedMesh mesh = small_box();
-  fail_every_allocation("queries", [&] { return make_scene_and_ask(context.value(), mesh); });
+  fail_every_allocation("queries", [&] { return make_scene_and_query(context.value(), mesh); });
 }
 
 TEST_F(HostMemory, RunsOutInCertifiedExtraction) {
@@ -98,14 +98,14 @@ TEST_F(HostMemory, RunsOutBesideCopies) {
       QueryBatches batches(Internals::of(context), 64, false);
       const QuerySet queries = echo(values, answers);
       const Status status =
-          in_runtime([&] { return catch_out_of_memory("asking", [&] { return batches.run(queries); }); });
+          in_runtime([&] { return catch_out_of_memory("the queries", [&] { return batches.run(queries); }); });
       if (!status.ok()) return status.error();
       std::string out;
       for (const float a : answers) append_bytes(out, a);
       return out;
     });
     const PreparedMesh mesh = small_box();
-    fail_every_allocation("queries, two queues", [&] { return make_scene_and_ask(context, mesh); });
+    fail_every_allocation("queries, two queues", [&] { return make_scene_and_query(context, mesh); });
     fail_every_allocation("certified extraction, two queues", [&] { return extract(context, mesh, Mode::kCertified); });
   }
 }
@@ -142,7 +142,7 @@ std::string bytes_of(const BallUnion& measured, const BettiNumbers& betti) {
   return out;
 }
 
-// On one thread, the one whose allocations fail. Degenerate balls need exact arithmetic, which allocates, too.
+// The union is measured on one thread, whose allocations fail. Degenerate balls need exact arithmetic, which allocates.
 TEST_F(HostMemory, RunsOutInAUnionOfBalls) {
   for (const std::vector<Ball>& balls :
        {random_balls(40, 1, 0.1, 0.3), lattice(3, 0.9), through_a_point(20, 2, true)}) {
@@ -156,7 +156,7 @@ TEST_F(HostMemory, RunsOutInAUnionOfBalls) {
   }
 }
 
-/// Removes balls. When that fails, nothing has changed, and it can be done again.
+/// Removes balls. A removal that fails has changed nothing and can be repeated.
 Status remove_or_leave(ShrinkingUnion& rest, std::span<const std::uint32_t> balls) {
   const std::vector<double> before(rest.volumes().begin(), rest.volumes().end());
   const std::vector<std::uint32_t> changed(rest.changed().begin(), rest.changed().end());
@@ -195,22 +195,22 @@ TEST_F(HostMemory, RunsOutInAShrinkingUnion) {
 /// All queries of a union.
 std::string bytes_of(const DynamicUnion& balls) {
   std::string out;
-  append_bytes(out, balls.places());
+  append_bytes(out, balls.slots());
   append_bytes(out, balls.size());
   append_bytes(out, balls.volume());
-  for (const std::uint32_t place : balls.changed()) append_bytes(out, place);
-  for (std::uint32_t place = 0; place < balls.places(); ++place) {
-    append_bytes(out, balls.holds(place));
-    if (!balls.holds(place)) continue;
-    append_bytes(out, balls.ball(place));
-    append_bytes(out, balls.exposure(place));
-    const std::vector<Point> vertices = balls.vertices(place).value();
+  for (const std::uint32_t slot : balls.changed()) append_bytes(out, slot);
+  for (std::uint32_t slot = 0; slot < balls.slots(); ++slot) {
+    append_bytes(out, balls.holds(slot));
+    if (!balls.holds(slot)) continue;
+    append_bytes(out, balls.ball(slot));
+    append_bytes(out, balls.exposure(slot));
+    const std::vector<Point> vertices = balls.vertices(slot).value();
     for (const Point& vertex : vertices) append_bytes(out, vertex);
   }
   return out;
 }
 
-/// A change, or a query. When it fails, nothing has changed: neither the balls nor the record of the last change.
+/// Performs a change or a query. If it fails, neither the balls nor the record of the last change may have changed.
 Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& change) {
   const std::string before = bytes_of(balls);
   Status status = in_runtime(change);
@@ -219,7 +219,7 @@ Status change_or_leave(DynamicUnion& balls, const std::function<Status()>& chang
   return status;
 }
 
-/// After a failed change: the previous one is undone, as if nothing had been tried since.
+/// After a failed change the previous one is undone, as if there had been no attempt since.
 void expect_undone(DynamicUnion& balls, double volume) {
   balls.undo();
   EXPECT_EQ(balls.volume(), volume);
@@ -237,8 +237,8 @@ TEST_F(HostMemory, RunsOutInADynamicUnion) {
     changes.reserve(list.size() + 6);
     for (const Ball& ball : list)
       changes.emplace_back([&balls, &status_of, ball] { return status_of(balls.add(ball)); });
-    for (const std::uint32_t place : {3u, 7u, 29u}) changes.emplace_back([&, place] { return balls.remove(place); });
-    for (const std::uint32_t place : {5u, 6u}) changes.emplace_back([&, place] { return balls.move(place, other); });
+    for (const std::uint32_t slot : {3u, 7u, 29u}) changes.emplace_back([&, slot] { return balls.remove(slot); });
+    for (const std::uint32_t slot : {5u, 6u}) changes.emplace_back([&, slot] { return balls.move(slot, other); });
     changes.emplace_back([&] { return status_of(balls.add(other)); });
     const std::size_t count = changes.size();
     changes.emplace_back([&] { return status_of(balls.gain({{0.5, 0.5, 0.5}, 0.3})); });
@@ -262,6 +262,19 @@ TEST_F(HostMemory, RunsOutInARecordedJob) {
   const PreparedMesh mesh = small_box(), moved = sheared(mesh);
   Context context = Context::adopt(host.lend()).value();
   fail_every_allocation("a recorded job", [&] { return make_job_and_record(host, context, mesh, moved); });
+}
+
+TEST(CatchOutOfMemory, NeedsNoMemoryForItsMessage) {
+  const auto exhausted = [] {
+    return catch_out_of_memory("work whose name does not fit into a short string",
+                               []() -> Status { throw std::bad_alloc(); });
+  };
+  EXPECT_EQ(exhausted().error().message, "out of memory while work whose name does not fit into a short string");
+  fail_new(1);
+  const Status without_message = in_runtime(exhausted);
+  EXPECT_TRUE(stop_failing_new());
+  EXPECT_EQ(without_message.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_EQ(without_message.error().message, "out of memory");
 }
 
 TEST(ParallelBlocks, PassOnWhatABodyThrowsOnceAllThreadsHaveEnded) {

@@ -84,7 +84,7 @@ inline PreparedMesh sheared(PreparedMesh mesh) {
 /// A job on a context of the host's device, the mesh moved, recorded and run.
 inline Answer make_job_and_record(LentDevice& host, Context& context, const PreparedMesh& mesh,
                                   const PreparedMesh& moved) {
-  Result<IndexedMesh> indexed = in_runtime([&] { return IndexedMesh::create(mesh.view()); });
+  Result<IndexedMesh> indexed = in_runtime([&] { return IndexedMesh::build(mesh.view()); });
   if (!indexed.ok()) return indexed.error();
   const auto create = [&] { return ExtractionJob::create(context, indexed.value(), small_job(Mode::kCertified)); };
   Result<ExtractionJob> job = in_runtime(create);

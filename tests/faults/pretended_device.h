@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "limits_asked.h"
+#include "limit_checks.h"
 #include "vulkan_calls.h"
 #include "vulkan_interposer.h"
 
@@ -53,7 +53,7 @@ inline VkResult make_call(vkCreateBufferTag, VkDevice device, const VkBufferCrea
   VulkanInterposer& self = VulkanInterposer::get();
   const bool is_shared = info->sharingMode == VK_SHARING_MODE_CONCURRENT && info->queueFamilyIndexCount == 2;
   if (is_shared != self.profile().copying_queue.has_value())
-    self.violation("a buffer is shared by families, or not, where it should not be, or should");
+    self.violation("the sharing of a buffer among queue families does not fit its use");
   real.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   return call_real<vkCreateBufferTag>(device, static_cast<const VkBufferCreateInfo*>(&real), callbacks, buffer);
 }
@@ -70,7 +70,7 @@ inline VkResult make_call(vkQueueSubmitTag, VkQueue queue, std::uint32_t count, 
                                 [&self](std::string what) { self.violation(std::move(what)); });
 }
 
-// Work for which somebody waits has to run in the end.
+// Work for which a call waits must run in the end.
 template <class... Args>
 void let_run(VulkanInterposer& self, vkDeviceWaitIdleTag, Args...) {
   self.two_queues.run_until({});

@@ -2,7 +2,7 @@
 // (WorkUnderWay).
 #pragma once
 
-#include "limits_asked.h"
+#include "limit_checks.h"
 #include "vulkan_calls.h"
 #include "vulkan_interposer.h"
 

@@ -78,7 +78,7 @@ std::vector<Answer> all_answers(Context& context) {
   std::vector<Answer> answers;
   for (const PreparedMesh& mesh : {small_box(), torus(30, 15)}) {
     for (const Mode mode : {Mode::kCertified, Mode::kThesis}) answers.push_back(extract(context, mesh, mode));
-    answers.push_back(make_scene_and_ask(context, mesh));
+    answers.push_back(make_scene_and_query(context, mesh));
   }
   return answers;
 }
@@ -108,7 +108,7 @@ TEST_F(PoorDevice, WithNoMoreThanWhatIsRequiredGivesTheSameAnswers) {
     EXPECT_TRUE(answers[1][i].value() == answers[0][i].value()) << "answer " << i;
   }
 
-  // The table of requirements covers what is used.
+  // The table of requirements covers the usage.
   const Usage usage = vulkan().usage();
   const std::map<std::string, std::uint32_t> used = {{"maxPerStageDescriptorStorageBuffers", usage.storage_buffers},
                                                      {"maxDescriptorSetStorageBuffers", usage.storage_buffers},
@@ -136,7 +136,7 @@ TEST_F(PoorDevice, ReadsALargeMeshThroughStorageBuffers) {
     vulkan().set_profile(poor ? minimum_profile(true) : DeviceProfile{});
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
-    answers.push_back(make_scene_and_ask(context.value(), mesh));
+    answers.push_back(make_scene_and_query(context.value(), mesh));
     ASSERT_TRUE(answers.back().ok()) << answers.back().error().message;
     EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
   }
@@ -156,7 +156,7 @@ TEST_F(PoorDevice, ReadsAMeshBeyondTheStorageBuffersAsTexels) {
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
     answers.push_back({extract(context.value(), mesh, Mode::kCertified), extract(context.value(), mesh, Mode::kThesis),
-                       make_scene_and_ask(context.value(), mesh)});
+                       make_scene_and_query(context.value(), mesh)});
     EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
   }
   for (std::size_t i = 0; i < answers[0].size(); ++i) {

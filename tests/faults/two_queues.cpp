@@ -5,8 +5,8 @@
 namespace medial_vk::test {
 
 VkQueue TwoQueues::copying_queue() {
-  static int place;
-  return reinterpret_cast<VkQueue>(&place);
+  static int marker;
+  return reinterpret_cast<VkQueue>(&marker);
 }
 
 VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fence, LateQueue late, const Submit& real,
@@ -20,7 +20,7 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
                   info.signalSemaphoreCount != 0 ? info.pSignalSemaphores[0] : VK_NULL_HANDLE, fence};
   // The semaphores that a submission waits for have been submitted before it.
   if (work.waits != VK_NULL_HANDLE && promised_.erase(work.waits) == 0)
-    report("a submission waits for a semaphore that nobody signals");
+    report("a submission waits for a semaphore that no submission signals");
   if (work.signals != VK_NULL_HANDLE && !promised_.insert(work.signals).second)
     report("a semaphore is signalled twice");
   const bool copies = queue == copying_queue();
@@ -42,7 +42,7 @@ VkResult TwoQueues::run(const Kept& work) {
   info.commandBufferCount = work.commands != VK_NULL_HANDLE ? 1 : 0;
   info.pCommandBuffers = &work.commands;
   const VkResult result = real_(info, work.fence);
-  if (result != VK_SUCCESS) report_("what was kept could not be submitted");
+  if (result != VK_SUCCESS) report_("the kept submissions could not be submitted");
   if (work.signals != VK_NULL_HANDLE) signalled_.insert(work.signals);
   return result;
 }

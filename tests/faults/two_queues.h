@@ -22,14 +22,14 @@ class TwoQueues {
 
   static VkQueue copying_queue();
 
-  /// Submissions to the late queue are kept until somebody waits for them. Those to the other queue run at once, after
-  /// the submissions for which they wait. `report`: a wait for a semaphore that will never be signalled, a second
-  /// signal, submissions of a form that is not supported here.
+  /// Submissions to the late queue are kept until a call waits for them. Those to the other queue run at once, after
+  /// the submissions for which they wait. `report` receives a wait for a semaphore that will never be signalled, a
+  /// second signal, and submissions of a form that is not supported here.
   VkResult submit(VkQueue queue, const VkSubmitInfo& info, VkFence fence, LateQueue late, const Submit& real,
                   const Report& report);
   /// Runs all kept submissions, up to the one that signals this fence, or all of them.
   void run_until(std::optional<VkFence> fence);
-  /// A semaphore was destroyed: another one may receive its handle.
+  /// Forgets a destroyed semaphore, since another one may receive its handle.
   void forget(VkSemaphore semaphore) {
     signalled_.erase(semaphore);
     promised_.erase(semaphore);

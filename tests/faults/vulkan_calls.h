@@ -42,7 +42,7 @@ auto call_real(Args... args) {
     [[maybe_unused]] static constexpr const char* kHandle = handle; \
   };
 
-// Calls that can fail, and what they create.
+// Calls that can fail, and the objects that they create.
 #define MEDIAL_VK_FALLIBLE(X)                                              \
   X(vkCreateInstance, kHost | kDevice, "VkInstance")                       \
   X(vkCreateDevice, kHost | kDevice | kLost, "VkDevice")                   \

@@ -57,14 +57,15 @@ class VulkanFaults : public FaultTest {
               << calls.size() << " functions\n";
   }
 
-  /// Of a job on a persistent context, for all faults. Faults of memory: a scene beside it must still give results.
+  /// Fails the calls of a job on a persistent context, by all faults. After faults of memory, another scene must still
+  /// give the same results.
   void fail_every_call_of(const std::string& name, const Job& job) {
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
     const PreparedMesh mesh = small_box();
     Scene beside = test::make_scene(context.value(), mesh.view()).value();
     const std::vector<Point> points = points_around(5);
-    const auto ask = [&] {
+    const auto query = [&] {
       std::string out;
       const auto closest = beside.closest_points(points);
       EXPECT_TRUE(closest.ok()) << closest.error().message;
@@ -72,8 +73,8 @@ class VulkanFaults : public FaultTest {
         for (const ClosestPoint& c : closest.value()) append_bytes(out, c.distance);
       return out;
     };
-    const std::string expected = ask();
-    const auto afterwards = [&](std::uint64_t) { EXPECT_TRUE(ask() == expected); };
+    const std::string expected = query();
+    const auto afterwards = [&](std::uint64_t) { EXPECT_TRUE(query() == expected); };
     for (const Fault fault : kMemoryFaults)
       fail_every_call(
           fault, name, [&] { return job(context.value()); }, afterwards);
@@ -120,7 +121,7 @@ TEST_F(VulkanFaults, OfListingDevices) {
 
 TEST_F(VulkanFaults, OfQueries) {
   const PreparedMesh mesh = small_box();
-  fail_every_call_of("queries", [&](Context& context) { return make_scene_and_ask(context, mesh); });
+  fail_every_call_of("queries", [&](Context& context) { return make_scene_and_query(context, mesh); });
 }
 
 TEST_F(VulkanFaults, OfCertifiedExtraction) {
@@ -148,7 +149,7 @@ class TwoQueueFaults : public VulkanFaults, public testing::WithParamInterface<L
 
 TEST_P(TwoQueueFaults, OfQueries) {
   const PreparedMesh mesh = small_box();
-  fail_every_call_of("queries, two queues", [&](Context& context) { return make_scene_and_ask(context, mesh); });
+  fail_every_call_of("queries, two queues", [&](Context& context) { return make_scene_and_query(context, mesh); });
 }
 
 TEST_P(TwoQueueFaults, OfCertifiedExtraction) {
@@ -303,12 +304,12 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     IndexedMesh indexed_moved = indexed;
     ASSERT_TRUE(indexed_moved.move_vertices(moved.mesh.vertices).ok());
     Scene scene = Scene::create(context.value(), indexed).value();
-    const std::string before = ask_everything(scene).value();
+    const std::string before = query_everything(scene).value();
     const auto job = [&]() -> Answer {
       const Status updated = scene.update(indexed_moved);
       // Afterwards: a scene that is in an intermediate state must report that, and not give results for a mixture of
       // two meshes.
-      Answer now = ask_everything(scene);
+      Answer now = query_everything(scene);
       if (!updated.ok()) {
         EXPECT_TRUE(!now.ok() || now.value() == before);
         return updated.error();
@@ -318,7 +319,7 @@ TEST_F(VulkanFaults, OfAnUpdatedScene) {
     const auto back = [&](std::uint64_t) {
       const Status updated = scene.update(indexed);
       ASSERT_TRUE(updated.ok()) << updated.error().message;
-      const Answer now = ask_everything(scene);
+      const Answer now = query_everything(scene);
       ASSERT_TRUE(now.ok());
       EXPECT_TRUE(now.value() == before);
     };

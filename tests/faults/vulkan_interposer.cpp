@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "limits_asked.h"
+#include "limit_checks.h"
 #include "pretended_device.h"
 #include "resources_used.h"
 #include "vulkan_calls.h"
@@ -63,7 +63,7 @@ struct Hook<Tag, VkResult (*)(Args...)> {
       }
     }
     if (fault != VK_SUCCESS) return fault;
-    look_at(Tag(), args...);
+    check_call(Tag(), args...);
     current_call = Tag::kName;
     const VkResult result = make_call(Tag(), args...);
     current_call = nullptr;

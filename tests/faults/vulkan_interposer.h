@@ -57,7 +57,7 @@ struct Usage {
   std::uint64_t memory_bytes = 0;  // the same
 };
 
-/// One per process; in use from the first call of get() on.
+/// There is one object per process, which is in use from the first call of get() on.
 class VulkanInterposer {
  public:
   static VulkanInterposer& get();

@@ -1,4 +1,4 @@
-// Resources of submitted work until somebody has waited for it: none of them may be destroyed.
+// The resources of submitted work, none of which may be destroyed before a call has waited for the work.
 #pragma once
 
 #include <volk.h>

@@ -1,4 +1,4 @@
-"""The cases of read_back.py that are about glTF: by what the specification says, and by assimp."""
+"""The cases of read_back.py for glTF: against the specification, and by assimp."""
 import json
 import struct
 
@@ -8,7 +8,7 @@ SINGLE = float(np.finfo(np.float32).eps)
 
 
 def parse_glb(path):
-    """Section 4 of the specification, for what no reader of Debian knows."""
+    """Reads a GLB by Section 4 of the specification, for parts that no reader of Debian supports."""
     data = path.read_bytes()
     magic, version, length, json_length, json_type = struct.unpack_from("<4sIII4s", data)
     assert (magic, version, length, json_type) == (b"glTF", 2, len(data), b"JSON")
@@ -30,11 +30,11 @@ def accessor(document, buffer, index):
 
 
 def expect_glb_balls(run, indices, middle, centres, radii):
-    """Single precision about the middle, and inside of the exact ball."""
+    """Centres are relative to the middle, in single precision, and the drawn ball lies inside the exact one."""
     assert sorted(indices) == list(range(len(run.reference["radius"])))
     exact, exact_radius = run.centres()[indices], run.reference["radius"][indices]
     extent = np.abs(exact - middle).max()
-    assert extent < 2, "places are given from the middle of all"
+    assert extent < 2, "positions are relative to the middle of all points"
     distance = np.linalg.norm(middle + np.float64(centres) - exact, axis=1)
     assert distance.max() <= SINGLE * extent, distance.max()
     missing = exact_radius - np.float64(radii)
@@ -54,7 +54,7 @@ def expect_unit_ball(points):
 
 
 def expect_brighter_with_angle(angles, colours):
-    """As Viridis is; `colours` are linear."""
+    """Expects the colours of Viridis; `colours` are linear."""
     light = (colours @ (0.2126, 0.7152, 0.0722))[np.argsort(angles)]
     light /= light.max()
     assert np.diff(light).min() >= -0.01 and light.min() < 0.5 * light.max(), (np.diff(light).min(), light.min())

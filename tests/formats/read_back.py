@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the medial points of one solid in one format, opens the file with a reader that others wrote, and compares.
+"""Writes the medial points of one solid in one format, opens the file with an independent reader, and compares.
 
     read_back.py CASE MEDIAL_VK ASSIMP
 
-The truth is the medial PLY of the same run: the same options give the same points. Ends with 77 if a reader is missing.
+The reference is the medial PLY of the same run, since the same options give the same points. The exit code is 77 if a
+reader is missing.
 """
 import csv
 import itertools
@@ -38,7 +39,7 @@ class Run:
         self.header = self.read_comments("reference.ply")
 
     def write_solid(self):
-        """A wedge of a prism, far from the origin, so that places in single precision show what they lose."""
+        """A wedge of a prism, far from the origin, so that the error of single precision is visible."""
         corners = [(0, 0), (2, 0), (2, 0.6), (0.7, 0.7), (0.5, 2), (0, 2)]
         offset = (1000.25, -77.5, 3.125)
         lines = []
@@ -66,7 +67,7 @@ class Run:
         return columns
 
     def read_comments(self, name):
-        """meshio does not keep comments."""
+        """The comments, read from the header, since meshio drops them."""
         text = (self.folder / name).read_bytes().split(b"end_header\n")[0].decode()
         found = dict(re.findall(r"^comment (\S+) (.+)$", text, re.MULTILINE))
         return {key: np.array([float(word) for word in value.split()]) for key, value in found.items()
@@ -79,7 +80,7 @@ class Run:
         return np.floor((self.centres() - self.header["grid_origin"]) / self.header["voxel_size"]).astype(np.int64)
 
     def through_assimp(self, path):
-        """What Assimp understood, as it writes it again: a glTF document and its buffer."""
+        """The result of Assimp, written again by it: a glTF document and its buffer."""
         out = self.folder / "assimp.gltf"
         try:
             subprocess.run([self.assimp, "export", str(path), str(out)], check=True, stdout=subprocess.DEVNULL)
@@ -91,7 +92,7 @@ class Run:
 
 
 def expect_same(run, columns):
-    """Bit by bit, name by name."""
+    """Compares all columns by name, bit by bit."""
     assert sorted(columns) == sorted(COLUMNS), columns.keys()
     for name in COLUMNS:
         wanted = run.reference[name]
@@ -131,7 +132,7 @@ def csv_table(run):
 
 
 def expect_marks(run, seam, rim):
-    """Seams told anew from the voxels around; rims are neither everywhere nor nowhere."""
+    """Computes seams again from the neighbouring voxels; some points, but not all, must be at rims."""
     assert seam.dtype == rim.dtype == bool
     sheets = {tuple(voxel): sheet for voxel, sheet in zip(run.voxels().tolist(), run.reference["sheet"].tolist())}
     around = list(itertools.product((-1, 0, 1), repeat=3))
@@ -182,7 +183,7 @@ def mesh_ply(run, *options):
 
 
 def expect_inside(run, balls):
-    """In exact arithmetic: no vertex outside of its ball. And in doubles: on its surface."""
+    """In exact arithmetic no vertex lies outside its ball; in doubles each lies on its surface."""
     off = np.linalg.norm(balls - run.centres()[:, None, :], axis=2) - run.reference["radius"][:, None]
     assert np.abs(off).max() < 1e-11, np.abs(off).max()
     for ball, centre, radius in zip(balls[::20], run.centres()[::20], run.reference["radius"][::20]):
@@ -232,7 +233,7 @@ def without_edges(run, name):
 
 
 def expect_medial_mesh(run, edges, triangles):
-    """Neighbouring voxels, few of them farther apart; sides of triangles are edges."""
+    """Edges join neighbouring voxels, with few exceptions; the sides of triangles are edges."""
     ends = np.concatenate([edges, triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]])
     assert len(triangles) > 50 and ends.min() >= 0 and ends.max() < len(run.reference["radius"])
     apart = np.abs(run.voxels()[ends[:, 0]] - run.voxels()[ends[:, 1]]).max(axis=1)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Fits spheres to the example arm and reads every format back with a parser that others wrote.
+"""Fits spheres to the example arm and reads every format back with an independent parser.
 
     spheres_back.py CASE MEDIAL_VK MAKE_ARM
 
-All formats must hold the same spheres, to the last bit. Case `inside` tests them against the meshes of the URDF, read here
-by other code: no sphere of a link sticks out of that geometry of the link which holds its centre. Ends with 77 if a parser
-is missing.
+All formats must hold the same spheres, to the last bit. Case `inside` tests them against the meshes of the URDF, which are
+read here by other code: each sphere lies inside the geometry of its link that holds its centre. The exit code is 77 if a
+parser is missing.
 """
 import csv
 import json
@@ -141,7 +141,7 @@ def numbers(element, attribute, default):
 
 
 def distance_to_triangles(p, t):
-    """From a point to each of the triangles: the nearest of the face's foot, if it is in the face, and of the edges."""
+    """The distance of a point to each triangle: to its foot in the face, if that lies in the face, or to the edges."""
     a, b, c = t[:, 0], t[:, 1], t[:, 2]
 
     def to_segment(u, v):
@@ -156,7 +156,7 @@ def distance_to_triangles(p, t):
 
 
 def winding(p, t):
-    """By solid angles (Van Oosterom and Strackee 1983)."""
+    """The winding number by solid angles (Van Oosterom and Strackee 1983)."""
     a, b, c = (t[:, i] - p for i in range(3))
     x, y, z = (numpy.linalg.norm(v, axis=1) for v in (a, b, c))
     det = (a * numpy.cross(b, c)).sum(1)
@@ -164,7 +164,7 @@ def winding(p, t):
 
 
 def slack_in(geometry, p):
-    """How far a point is inside a geometry, in its frame; negative: outside."""
+    """The depth of a point in a geometry, in its frame; negative if it lies outside."""
     shape = geometry[0]
     if shape.tag == "sphere":
         return float(shape.get("radius")) - numpy.linalg.norm(p)
@@ -192,7 +192,7 @@ def test_inside(folder):
                 local = turn.T @ (numpy.array([x, y, z]) - numbers(origin, "xyz", "0 0 0"))
                 slack = max(slack, slack_in(collision.find("geometry"), local) - r)
             worst = min(worst, slack)
-    print(f"the sphere that comes nearest to sticking out has a slack of {worst:.3g} m")
+    print(f"the least distance of a sphere from the outside is {worst:.3g} m")
     # Distances here are rounded, too, by some 1e-16 m.
     assert worst > -1e-15, worst
 
@@ -215,7 +215,7 @@ def main():
         expected, found = from_json(fit(folder, "a.json")), parse(fit(folder, output, *more))
         assert len(expected) == 7 and sum(map(len, expected.values())) > 60
         assert list(found) == list(expected), list(found)
-        if case == "foam":  # by geometry: a link's may stand in another order
+        if case == "foam":  # by geometry, since those of a link may be in another order
             found, expected = ({link: sorted(s) for link, s in d.items()} for d in (found, expected))
         for link, spheres in expected.items():
             assert found[link] == spheres, link

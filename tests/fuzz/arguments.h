@@ -9,14 +9,14 @@
 
 namespace medial_vk::fuzz {
 
-/// One per line, as main() receives them: any bytes but 0, which also ends an argument.
+/// The arguments, one per line, as main() receives them: of any bytes but 0, which also ends an argument.
 std::vector<std::string> arguments(std::string_view text);
 
 /// True for one in 64 lines, and always for the same lines, so that findings can be reproduced.
 bool is_sample(const std::vector<std::string>& arguments);
 
-/// The state that one line leaves may change the next: `options` of a parser that has parsed others are compared with
-/// those of a `fresh` one.
+/// Compares the `options` of a parser that has parsed other lines with those of a `fresh` one, since the state that one
+/// line leaves could change the next.
 template <class Options>
 void require_no_trace(const Result<Options>& options, const Result<Options>& fresh) {
   require(fresh.ok() == options.ok(), "earlier lines do not decide about this one");

@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (options.ok()) {
     fuzz::require_in_range(options.value());
   } else {
-    fuzz::require(options.error().code == ErrorCode::kUsage, "what is wrong with a command line is its usage");
+    fuzz::require(options.error().code == ErrorCode::kUsage, "an error of a command line is an error of usage");
     fuzz::require(!options.error().message.empty(), "an error has a message");
   }
   if (fuzz::is_sample(words)) fuzz::require_no_trace(options, cli::parse_options(words));

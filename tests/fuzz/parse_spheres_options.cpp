@@ -39,9 +39,10 @@ void require_usable(const cli::SpheresOptions& options) {
   require_goal(options);
   require(!options.input.empty(), "there is an input");
   require(!options.output.empty(), "there is an output");
-  require(!options.request.levels || has_levels(options.format), "the format has levels, if they are wanted");
+  require(!options.request.levels || has_levels(options.format), "the format has levels, if they are requested");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
-  require(!options.check || options.request.contract != SphereContract::kBalanced, "what is checked was promised");
+  require(!options.check || options.request.contract != SphereContract::kBalanced,
+          "only a promised contract is checked");
   require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
   require(!options.is_robot || options.histogram.empty(), "a histogram is of one mesh");
   require(std::ranges::any_of(options.view.towards, [](double x) { return x != 0; }), "--view is a direction");
@@ -63,7 +64,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::vector<std::string> words = fuzz::arguments(fuzz::as_text(data, size));
   const Result<cli::SpheresOptions> options = parser.parse(words);
   if (!options.ok()) {
-    fuzz::require(options.error().code == ErrorCode::kUsage, "what is wrong with a command line is its usage");
+    fuzz::require(options.error().code == ErrorCode::kUsage, "an error of a command line is an error of usage");
     fuzz::require(!options.error().message.empty(), "an error has a message");
   } else if (!options.value().help) {
     fuzz::require_usable(options.value());

@@ -12,7 +12,7 @@ void require_prepared(const PreparedMesh& prepared, std::size_t vertices_given, 
   const Mesh& mesh = prepared.mesh;
   const MeshReport& report = prepared.report;
   require(!mesh.triangles.empty(), "a prepared mesh has triangles");
-  require(report.vertices == mesh.vertices.size() && report.triangles == mesh.triangles.size(), "counts are true");
+  require(report.vertices == mesh.vertices.size() && report.triangles == mesh.triangles.size(), "counts are right");
   require(prepared.flags.size() == mesh.triangles.size(), "every triangle has flags");
   require(prepared.vertex_of_input.size() == vertices_given, "every input vertex is accounted for");
   require(prepared.input_of_triangle.size() == mesh.triangles.size(), "every triangle comes from one of the input");
@@ -24,7 +24,7 @@ void require_prepared(const PreparedMesh& prepared, std::size_t vertices_given, 
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
-      require(v < mesh.vertices.size(), "faces use vertices that are there");
+      require(v < mesh.vertices.size(), "faces use existing vertices");
       used[v] = true;
       for (int k = 0; k < 3; ++k) {
         const double x = mesh.vertices[v][k];
@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Result<Mesh> mesh = parse_mesh(bytes, fuzz::kName);
   fuzz::require_mesh_or_message(mesh, bytes);
   if (!mesh.ok()) return 0;
-  fuzz::require(!mesh.value().triangles.empty(), "what is read has triangles");
+  fuzz::require(!mesh.value().triangles.empty(), "a mesh that was read has triangles");
   const std::size_t vertices = mesh.value().vertices.size(), triangles = mesh.value().triangles.size();
   const Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value());
   if (prepared.ok()) {

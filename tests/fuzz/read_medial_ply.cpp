@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const bool ascii : {false, true}) {
     const std::string written = encode_ply(file.value().header, file.value().spheres, ascii);
     const Result<MedialFile> again = decode_ply(written, fuzz::kName);
-    fuzz::require(again.ok(), "what was written can be read");
+    fuzz::require(again.ok(), "a written file can be read");
     fuzz::require_same(file.value(), again.value());
   }
   return 0;

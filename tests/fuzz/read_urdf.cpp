@@ -14,10 +14,10 @@ bool is_finite(const Point& p) {
 }
 
 void require_geometry(const Geometry& geometry) {
-  require(is_finite(geometry.origin.shift), "places are finite");
+  require(is_finite(geometry.origin.shift), "positions are finite");
   for (const Point& row : geometry.origin.rotation) {
     require(is_finite(row) && std::ranges::all_of(row, [](double x) { return std::fabs(x) <= 1 + 1e-9; }),
-            "turns are turns");
+            "rotations are rotations");
   }
   require(is_finite(geometry.scale), "scales are finite");
   if (geometry.kind == GeometryKind::kMesh) {
@@ -38,7 +38,7 @@ void require_robot(const Robot& robot) {
   for (const Joint& joint : robot.joints) {
     require(joint.parent < robot.links.size() && joint.child < robot.links.size(), "joints join links");
   }
-  require(link_poses(robot).size() == robot.links.size(), "every link has a place");
+  require(link_poses(robot).size() == robot.links.size(), "every link has a pose");
 }
 
 }  // namespace

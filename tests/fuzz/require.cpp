@@ -35,7 +35,7 @@ void require_mesh_or_message(const Result<Mesh>& mesh, std::string_view bytes) {
     for (const double x : p) require(std::isfinite(x), "coordinates are finite");
   }
   for (const Triangle& t : read.triangles) {
-    for (const std::uint32_t v : t) require(v < read.vertices.size(), "faces use vertices that are there");
+    for (const std::uint32_t v : t) require(v < read.vertices.size(), "faces use existing vertices");
   }
 }
 

@@ -26,7 +26,8 @@ class BallUnionOnDevice : public test::DeviceTest {
     EXPECT_TRUE(result.ok()) << result.error().message;
     return std::move(result).value();
   }
-  /// Compares with the host; at most `redone` balls may be left to it. Records the largest error relative to its bound.
+  /// Compares with the host; the host may measure at most `redone` balls itself. Records the largest error relative to
+  /// its bound.
   DeviceBallUnion expect_within_bounds(const std::vector<Ball>& balls, std::size_t redone);
 };
 

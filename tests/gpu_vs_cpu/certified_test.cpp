@@ -128,7 +128,7 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, parameters));
   EXPECT_TRUE(test::passes_certificate(mesh, reference, parameters));
   EXPECT_EQ(device.extraction.grid.size, reference.grid.size);
-  // Balls that the device accepted and double precision rejected: caused by rounding, so hardly any.
+  // Balls that the device accepted and double precision rejected are rare, since only rounding causes them.
   EXPECT_LE(device.certificate.rejected, device.extraction.spheres.size() / 100);
 
   const std::size_t points = reference.spheres.size();

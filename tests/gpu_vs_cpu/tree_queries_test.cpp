@@ -214,7 +214,7 @@ TEST_F(TreeQueriesTest, RefusesWhatCannotBeAnswered) {
   EXPECT_TRUE(scene.closest_points({}).value().empty());
   EXPECT_TRUE(scene.closest_points_of_groups({}, 5).value().empty());
   EXPECT_EQ(scene.closest_points_of_groups(std::vector<Point>(7), 5).error().message,
-            "7 points are no groups of 5 (1 to 262144)");
+            "`group_size` must be 1 to 262144 and divide the number of points; it is 5 for 7 points");
   EXPECT_EQ(scene.closest_points_of_groups(std::vector<Point>(7), 0).error().code, ErrorCode::kUsage);
   Mesh flat;
   flat.vertices = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};

@@ -105,7 +105,7 @@ class RecordedJob : public testing::Test {
     return to;
   }
 
-  /// Records, submits, waits, and compares the job's report of itself.
+  /// Records, submits and waits, and compares the counts that the job reports.
   Recorded run(ExtractionJob& job) {
     const VkCommandBuffer commands = begin();
     const Status status = record(commands, job);
@@ -117,8 +117,8 @@ class RecordedJob : public testing::Test {
     EXPECT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
     Recorded out;
     std::memcpy(&out.counts, counts.mapped, sizeof(out.counts));
-    const RecordedCounts told = job.counts();
-    EXPECT_EQ(std::memcmp(&told, &out.counts, sizeof(told)), 0);
+    const RecordedCounts reported = job.counts();
+    EXPECT_EQ(std::memcmp(&reported, &out.counts, sizeof(reported)), 0);
     const auto* first = static_cast<const RecordedSphere*>(spheres.mapped);
     out.spheres.assign(first, first + out.counts.spheres);
     std::ranges::sort(out.spheres, {},
@@ -219,7 +219,7 @@ void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions&
     ASSERT_TRUE(test::move(alone, own, mesh.view()).ok());
     expect_equal(recorded, run(alone));
   }
-  // Without a move: the mesh is unchanged.
+  // No move is recorded, so the mesh is unchanged.
   const Recorded last = run(job);
   expect_medial(context, meshes.back().view(), last, job.placement());
 }
@@ -257,7 +257,7 @@ TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
     end_and_submit(commands);
   }
   ASSERT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
-  EXPECT_EQ(job.value().counts().spheres, expected[0].spheres);  // of the older one
+  EXPECT_EQ(job.value().counts().spheres, expected[0].spheres);  // of the older sequence
 }
 
 TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
@@ -271,7 +271,7 @@ TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
   EXPECT_EQ(recorded.counts.spheres, 0u);
 }
 
-// Lists longer than one round reads: the sequence reports that, and the next one has more rounds.
+// Lists exceed one round: the sequence reports that, and the next one has more rounds.
 TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
   Context context = adopt();
   const DeformingTorus torus(200, 300);
@@ -321,7 +321,7 @@ TEST_F(RecordedJob, TheDeviceOutlivesItsContexts) {
   }
 }
 
-TEST_F(RecordedJob, AHostThatWillNotDoIsToldWhy) {
+TEST_F(RecordedJob, RefusesAnUnsuitableHostWithTheReason) {
   HostDevice host = lend(*vulkan_);
   EXPECT_TRUE(check_device(host).ok());
   host.queue_family = 99;

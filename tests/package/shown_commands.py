@@ -3,12 +3,12 @@
 
     shown_commands.py SOURCE_DIR PROGRAM=FILE ...
 
-A command is a line of a block of code marked `sh` or not at all, an example of the help or of the manual page, or words
-in backticks that call one of the project's programs or scripts. Each must end with 0 and write the files that it names.
-Every document has a folder of its own, in which its commands run in their order; two documents are at work at a time. A
-command that has run for another document, on files with the same bytes, is not run again: its files are copied.
-What cannot be run here stands in NOT_RUN with the reason; a command that is neither run nor listed fails the test, and so
-does an entry that nothing matches any more. Ends with 77 if there is no Vulkan device.
+A command is a line of a code block that is marked `sh` or unmarked, an example of the help or of the manual page, or words
+in backticks that call one of the project's programs or scripts. Each must exit with 0 and write the files that it names.
+Every document has a folder of its own, in which its commands run in their order; two documents run at a time. A command
+that has run for another document, on files with the same bytes, is not run again: its files are copied.
+NOT_RUN lists the commands that cannot be run here, with the reasons; a command that is neither run nor listed fails the
+test, and so does an entry that no command matches. The exit code is 77 if there is no Vulkan device.
 """
 import concurrent.futures
 import hashlib
@@ -24,7 +24,7 @@ import time
 
 # The beginnings of commands that are not run, and the reasons.
 NOT_RUN = {
-    r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or goes on for hours; .ci/run calls scripts/test",
+    r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or runs for hours; .ci/run calls scripts/test",
     r"build/release/bin/test_": "is a program of tests that ctest runs, too",
     r"scripts/install-dependencies": "installs packages",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
@@ -32,11 +32,11 @@ NOT_RUN = {
     r"ctest ": "runs this test",
     r"node tests/page/look.mjs PAGE": "names no file; with files it is run",
     r"medial-vk spheres( MESH| ROBOT.urdf)?$": "names the command; a run of it has a goal",
-    r"medial-vk VERSION": "is no command but a comment of the PLY",
-    r"medial-vk out/torus.ply": "wants a mesh of 5,000,000 triangles",
+    r"medial-vk VERSION": "is not a command but a comment of the PLY",
+    r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
 }
-# Replacements for words of a reader's own, and the form in which a command is run without its surroundings.
+# Replacements for words that readers supply, and for commands that cannot run here in the documented form.
 WORDS = [(r"\bMESH\b", "turtle.obj"), (r"\bFILE\b", "report.json"), (r"^perf record ", ""),
          (r"^scripts/run (\S+) -- ", r"medial-vk \1 "), (r"build/release/bin/", "")]
 CALLS = re.compile(r"(^|\s)(medial-vk|make_model|renderer|examples/robot_arm/make_arm.py|scripts/[\w-]+|bench/[\w-]+|cmake|ctest|node) \S")
@@ -63,7 +63,7 @@ def commands_of_manual_page(text):
 
 
 def shown(source, programs):
-    """(where, command) for all of them."""
+    """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
     for words in ([], ["spheres"]):
@@ -96,11 +96,11 @@ def outputs_of(words):
 
 
 class Skip(Exception):
-    """Why nothing can be tested here."""
+    """The reason why no command can be tested here."""
 
 
 class Done:
-    """The commands that have run, and the files that they wrote, by words and bytes of what they read."""
+    """The commands that have run, and the files that they wrote, by their words and the bytes of their inputs."""
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
@@ -108,7 +108,7 @@ class Done:
         self.lock, self.runs = threading.Lock(), {}
 
     def once(self, key, run):
-        """What run(folder for copies of its files) has returned, now or before; and: was it before?"""
+        """Returns the result of run(folder for copies of its files), now or earlier, and whether it was earlier."""
         with self.lock:
             before = key in self.runs
             if not before:
@@ -124,7 +124,7 @@ class Done:
 
 
 class Folder:
-    """Where the commands of one document run, with the models that they name."""
+    """The folder in which the commands of one document run, with the models that they name."""
 
     def __init__(self, path, source, programs, done=None, models=None):
         self.path, self.source, self.programs, self.done = pathlib.Path(path), source, programs, done
@@ -169,12 +169,12 @@ class Folder:
         return subprocess.run(words, cwd=self.path, capture_output=True, text=True)
 
     def run(self, command):
-        """What was not as it should be; None if the command is one that this build cannot run."""
+        """Returns the fault of a command, empty if there is none; None if this build cannot run the command."""
         words = shlex.split(command)
         if words[0] == "node" and not shutil.which("node"):
             return None
         if words[0] not in (*self.programs, "node", "examples/robot_arm/make_arm.py"):
-            return "is neither a program that this test knows nor listed in NOT_RUN"
+            return "is neither a program of this test nor listed in NOT_RUN"
         files = outputs_of(words)
         for file in files:
             (self.path / file).unlink(missing_ok=True)
@@ -187,13 +187,13 @@ class Folder:
         return wrong
 
     def key(self, words):
-        """The words, and the bytes of the files and folders that they name. What a robot names is the same in all folders."""
+        """The words, and the bytes of the files that they name. A robot names the same files in all folders."""
         named = [self.path / word for word in words[1:]]
         files = [f for n in named for f in ([n] if n.is_file() else sorted(n.rglob("*")) if n.is_dir() else []) if f.is_file()]
         return (*words, *((str(f.relative_to(self.path)), hashlib.sha256(f.read_bytes()).digest()) for f in files))
 
     def run_now(self, words, files, copies):
-        """As run(), with the seconds that it took; all that it wrote is copied."""
+        """Like run(), and returns the seconds as well; all written files are copied."""
         there = {f: f.stat().st_mtime_ns for f in self.path.rglob("*") if f.is_file()}
         begin = time.monotonic()
         wrong = self.judge(words, files)
@@ -224,15 +224,15 @@ def not_run(command):
 
 
 def run_document(where, commands, folder):
-    """(command, what was wrong or None, seconds) for each, said at once."""
+    """Runs the commands and prints each result at once; returns (command, fault or None, seconds) for each."""
     results = []
     for command in commands:
         for shown_as, meant in WORDS:
             command = re.sub(shown_as, meant, command)
         folder.seconds = 0
         wrong = folder.run(command)
-        said = "cannot be run by this build" if wrong is None else wrong or "ok"
-        print(f"{where}: {command}: {said} ({folder.seconds:.1f} s)", flush=True)
+        result = "cannot be run by this build" if wrong is None else wrong or "ok"
+        print(f"{where}: {command}: {result} ({folder.seconds:.1f} s)", flush=True)
         results.append((command, wrong))
     return results
 
@@ -263,10 +263,10 @@ def main():
                 workers.shutdown(cancel_futures=True)
                 print(f"SKIPPED: {skip}")
                 sys.exit(77)
-    failures += [f"NOT_RUN lists {p}, which is shown nowhere" for p in NOT_RUN if p not in listed]
+    failures += [f"NOT_RUN lists {p}, which no document shows" for p in NOT_RUN if p not in listed]
     print(f"{ran} commands were run, {len(done.runs)} of them different")
     if ran < 20:
-        failures.append("that is too few: are they still found?")
+        failures.append("too few commands were found")
     if failures:
         print("\n".join(["", *failures]))
         sys.exit(1)

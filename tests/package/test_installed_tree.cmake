@@ -1,5 +1,5 @@
-# Installs the build into an empty folder, moves it, and builds and runs other people's programs against it: by
-# find_package, with a Vulkan of their own, by pkg-config; and with the source folder inside theirs.
+# Installs the build into an empty folder, moves it, and builds and runs programs of users against it: by
+# find_package, with a Vulkan of their own, by pkg-config, and with the source folder inside their own.
 # Needs: BUILD_DIR SOURCE_DIR CONFIG GENERATOR CXX_COMPILER CXX_FLAGS NM VERSION
 cmake_minimum_required(VERSION 3.25)
 
@@ -95,7 +95,7 @@ endforeach()
 
 run("medial-vk --version" ${prefix}/bin/medial-vk --version)
 if(NOT output MATCHES "${VERSION}")
-  message(FATAL_ERROR "medial-vk --version does not say ${VERSION}: ${output}")
+  message(FATAL_ERROR "medial-vk --version does not print ${VERSION}: ${output}")
 endif()
 
 # No symbol of Vulkan or volk may leak out of the library.
@@ -129,8 +129,8 @@ run("pkg-config: build a host" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_
   -lvulkan -o ${work}/minimal_host_pkg_config)
 run_host("pkg-config" ${work}/minimal_host_pkg_config)
 
-# add_subdirectory. Compiled without optimisation, in half of the time: what is tested is how the two projects fit, and
-# the answer of a box takes no longer.
+# add_subdirectory. Compiled without optimisation, which takes half of the time: the test concerns how the two projects
+# fit together, and the extraction of a box takes no longer.
 run("embedded: configure" ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package/embedded -B ${work}/embedded -G ${GENERATOR}
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
   -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DCMAKE_C_FLAGS_DEBUG=-O0 -DMEDIAL_VK_DIR=${SOURCE_DIR})

@@ -1,5 +1,5 @@
-# README.md shows the marked part of examples/embed.cpp, word for word, in its place: sentence, picture, command, what you
-# get, the program, results, limits. It and the manual page name the very options that --help lists; so does the page of
+# README.md shows the marked part of examples/embed.cpp, word for word, and has its sections in order: sentence, picture,
+# command, output, program, results, limits. It and the manual page name the very options that --help lists; so does the page of
 # `medial-vk spheres`.
 # Needs: SOURCE_DIR MEDIAL_VK
 cmake_minimum_required(VERSION 3.25)
@@ -18,7 +18,7 @@ set(last -1)
 foreach(part "![" "## Two commands" "## What you get" "## Use it in a program" "## Results" "## Limits")
   string(FIND "${readme}" "${part}" position)
   if(NOT position GREATER last)
-    message(SEND_ERROR "README.md: '${part}' is missing or not in its place")
+    message(SEND_ERROR "README.md: '${part}' is missing or out of order")
   endif()
   set(last ${position})
 endforeach()
@@ -29,7 +29,7 @@ string(REPLACE "\\-" "-" page "${page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-spheres.1 spheres_page)
 string(REPLACE "\\-" "-" spheres_page "${spheres_page}")
 
-# compare_options(DOCUMENT TEXT COMMAND ...): with what `medial-vk COMMAND ... --help` lists.
+# compare_options(DOCUMENT TEXT COMMAND ...): compares with the list of `medial-vk COMMAND ... --help`.
 function(compare_options document text)
   execute_process(COMMAND ${MEDIAL_VK} ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCHALL "--[a-z][a-z-]+" in_help "${help}")
@@ -43,7 +43,7 @@ function(compare_options document text)
   endforeach()
   foreach(option IN LISTS named)
     if(NOT option IN_LIST in_help)
-      message(SEND_ERROR "${document} names ${option}, which medial-vk ${ARGN} --help does not know")
+      message(SEND_ERROR "${document} names ${option}, which medial-vk ${ARGN} --help does not list")
     endif()
   endforeach()
 endfunction()

@@ -4,7 +4,7 @@ import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 
-/** The program to run, or null. */
+/** The path of the browser, or null. */
 export function findChromium() {
   const names = [process.env.CHROMIUM, 'chromium', 'chromium-browser', 'google-chrome'];
   return names.find((name) => name && spawnSync(name, ['--version'], {stdio: 'ignore'}).status === 0) ?? null;
@@ -83,7 +83,7 @@ export class Page {
     this.browser = browser;
     this.session = session;
     this.complaints = [];  // Errors and warnings of the console, exceptions, violations of the policy.
-    this.requests = [];    // Everything asked for but the page itself.
+    this.requests = [];    // All requests except that for the page itself.
     browser.listeners.push((message) => { if (message.sessionId === session) this.hear(message); });
   }
 

@@ -28,7 +28,7 @@ export function lShape(moved = [0, 0, 0]) {
   return prism(polygon, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]], 0.8, moved);
 }
 
-/** A folder that is gone after the test, and the tool in it. */
+/** A folder that is removed after the test, and the tool in it. */
 export class Workshop {
   constructor(tool) {
     this.tool = resolve(tool);
@@ -54,7 +54,7 @@ export class Workshop {
   }
 }
 
-/** What docs/formats.md says of a binary medial PLY. */
+/** Reads a binary medial PLY as docs/formats.md defines it. */
 export function readPly(bytes) {
   const mark = 'end_header\n';
   const begin = bytes.indexOf(mark) + mark.length;

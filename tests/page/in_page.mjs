@@ -1,6 +1,6 @@
 // Functions that run inside the page, transferred as text.
 
-/** What is on the canvas: share of pixels that are drawn, number of colours, and a number that tells pictures apart. */
+/** The content of the canvas: share of drawn pixels, number of colours, and a number that distinguishes pictures. */
 export function look() {
   const {viewer} = window.medialVk;
   viewer.drawNow(false);
@@ -19,14 +19,14 @@ export function look() {
   return {share: drawn / pixels.length, colours: colours.size, mark};
 }
 
-/** What the mesh covers of the canvas, from -1 to 1: left, bottom, right, top; and the part below that the legend takes. */
+/** The bounds of the mesh on the canvas, from -1 to 1 (left, bottom, right, top), and the height of the legend below. */
 export function modelBounds() {
   const {viewer} = window.medialVk;
   const {vertices} = viewer.scene;
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
-  const place = viewer.camera.position.clone();
+  const position = viewer.camera.position.clone();
   for (let i = 0; i < vertices.length; i += 3) {
-    const {x, y} = place.fromArray(vertices, i).applyMatrix4(viewer.model.matrixWorld).project(viewer.camera);
+    const {x, y} = position.fromArray(vertices, i).applyMatrix4(viewer.model.matrixWorld).project(viewer.camera);
     [x, y].forEach((value, k) => {
       bounds[k] = Math.min(bounds[k], value);
       bounds[k + 2] = Math.max(bounds[k + 2], value);
@@ -37,7 +37,7 @@ export function modelBounds() {
   return {bounds, strip: legend.width === stage.width ? 2 * legend.height / stage.height : 0};
 }
 
-/** Contrast (WCAG 2) of every visible text with what is behind it; the worst first. */
+/** Contrast (WCAG 2) of every visible text with its background; the worst first. */
 export function contrasts() {
   // Through a canvas, which accepts every notation of a colour.
   const brush = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
@@ -77,7 +77,7 @@ export function nameless() {
     !(element.labels?.length || element.textContent.trim() || element.getAttribute('aria-label'))).map((e) => e.id);
 }
 
-/** Elements that stick out of the screen to the right, but for those inside something that scrolls by itself. */
+/** Elements that extend beyond the right edge of the screen, except those in an element that scrolls by itself. */
 export function tooWide() {
   const wide = document.documentElement.clientWidth;
   const scrolls = (element) => {

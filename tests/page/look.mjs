@@ -1,6 +1,6 @@
-// Takes a picture of a page, to be looked at.
+// Takes a picture of a page, for inspection.
 //   node look.mjs PAGE.html PICTURE.png [dark] [phone] [SCRIPT] [size=WIDTHxHEIGHT] [clip=X,Y,WIDTH,HEIGHT]
-// SCRIPT runs in the page before. A clip is shown eight times as large. Ends with 77 if there is no Chromium.
+// SCRIPT runs in the page first. A clip is enlarged eight times. The exit code is 77 if there is no Chromium.
 import {writeFileSync} from 'node:fs';
 import {resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';

@@ -1,6 +1,6 @@
 // Runs one test of the page in headless Chromium.
 //   node run.mjs TOOL TEST
-// Ends with 77 if there is no Chromium, or if the tool was built without its page.
+// The exit code is 77 if there is no Chromium, or if the tool was built without its page.
 import {Browser, findChromium} from './browser.mjs';
 import {Workshop} from './fixtures.mjs';
 import {tests as pageTests} from './tests.mjs';

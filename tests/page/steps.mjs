@@ -7,11 +7,11 @@ import * as inPage from './in_page.mjs';
 export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 export const kSmall = ['--resolution', '30'];
 
-export const ask = (page, name) => page.evaluate(`(${inPage[name]})()`);
-export const look = (page) => ask(page, 'look');
+export const evaluateInPage = (page, name) => page.evaluate(`(${inPage[name]})()`);
+export const look = (page) => evaluateInPage(page, 'look');
 export const grouped = (n) => n.toLocaleString('en-US');
 
-/** No complaint, and nothing asked for. */
+/** Asserts that the page caused no message and no request. */
 export function assertQuiet(page) {
   assert.deepEqual(page.complaints, []);
   assert.deepEqual(page.requests, []);
@@ -52,7 +52,7 @@ export function assertNear(actual, expected, tolerance) {
   actual.forEach((x, i) => assert.ok(Math.abs(x - expected[i]) <= tolerance, `${actual} is not ${expected}`));
 }
 
-/** The panel says of a point what the PLY says; lengths to single precision of the model's size. */
+/** Asserts that the panel shows the values of the PLY for a point; lengths to single precision of the model's size. */
 export function assertSame(values, point, size) {
   assertNear(numbersIn(values.centre), point.centre, 2e-7 * size + 1e-6);
   assertNear(numbersIn(values.radius), [point.radius], 2e-7 * size + 1e-6);
@@ -64,6 +64,6 @@ export function assertSame(values, point, size) {
   assertNear(numbersIn(values['spoke b']), point.spokes[1], 1e-4);
 }
 
-/** Places of some points on the screen. */
+/** Positions of some points on the screen. */
 export const project = (page, i) => page.evaluate(`(() => { const {left, top} = document.getElementById('view')
   .getBoundingClientRect(); const [x, y] = medialVk.viewer.project(${i}); return [left + x, top + y]; })()`);

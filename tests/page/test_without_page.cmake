@@ -1,4 +1,4 @@
-# A tool that was built without its page says so before any work. Needs: MEDIAL_VK FOLDER
+# A tool that was built without its page reports that before any work. Needs: MEDIAL_VK FOLDER
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
@@ -8,9 +8,9 @@ if(NOT result EQUAL 2)
   message(SEND_ERROR "exit code ${result}, not 2: ${message}")
 endif()
 if(NOT message MATCHES "--html: this medial-vk was built without its page.*nodejs npm")
-  message(SEND_ERROR "the message does not say what is missing: ${message}")
+  message(SEND_ERROR "the message does not name the missing programs: ${message}")
 endif()
 file(GLOB written ${FOLDER}/*)
 if(written OR output)
-  message(SEND_ERROR "something was written: ${written} ${output}")
+  message(SEND_ERROR "a file was written: ${written} ${output}")
 endif()

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 
 import {box, lShape, tetrahedron} from './fixtures.mjs';
-import {ask, assertQuiet, assertSame, checked, focus, grouped, kLayers, kSmall, look, numbersIn, openPart,
+import {evaluateInPage, assertQuiet, assertSame, checked, focus, grouped, kLayers, kSmall, look, numbersIn, openPart,
   pickedValues, project, selectOption, show} from './steps.mjs';
 
 export const tests = {
@@ -100,7 +100,7 @@ export const tests = {
     const controls = await page.evaluate(`[...document.querySelectorAll('canvas, #panel :is(button, input, select)')]
       .filter((e) => e.checkVisibility() && !e.disabled).map((e) => e.id)`);
     for (const id of controls) assert.ok(seen.has(id), `Tab does not reach ${id}`);
-    assert.deepEqual(await ask(page, 'nameless'), []);
+    assert.deepEqual(await evaluateInPage(page, 'nameless'), []);
   },
 
   async filter(context) {
@@ -129,7 +129,7 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** Far from 0, where single precision would show. */
+  /** A model far from 0, where single precision would be visible. */
   async pick(context) {
     const far = [100000, -50000, 20000];
     const {points, page} = await openPart(context, {mesh: lShape(far)});
@@ -154,7 +154,7 @@ export const tests = {
   async pick_by_keyboard_and_balls(context) {
     const {points, page} = await openPart(context, {mesh: box()});
     await show(page, ['balls']);
-    await look(page);  // Only what has been drawn can be picked.
+    await look(page);  // Only drawn balls can be picked.
     await focus(page, 'view');
     await page.press('Enter');
     const values = await pickedValues(page);
@@ -201,7 +201,7 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** What the page says about itself must not move a control away from under the mouse. */
+  /** Counts and messages of the page must not move a control away from under the mouse. */
   async nothing_moves(context) {
     const {page} = await openPart(context);
     const places = `[...document.querySelectorAll('input, select, button')].map((e) =>
@@ -223,7 +223,7 @@ export const tests = {
     const {points, page} = await openPart(context, {width: 360, height: 740, phone: true, scale: 2});
     const assertFits = async (what) => {
       assert.equal(await page.evaluate('document.documentElement.scrollWidth'), 360, what);
-      assert.deepEqual(await ask(page, 'tooWide'), [], what);
+      assert.deepEqual(await evaluateInPage(page, 'tooWide'), [], what);
     };
     await assertFits('closed');
     assert.ok((await look(page)).share > 0.05);
@@ -245,7 +245,7 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** Text against what is behind it: at least 4.5 to 1 (WCAG 2, level AA), in the light and in the dark. */
+  /** Text against its background: a contrast of at least 4.5 to 1 (WCAG 2, level AA), light and dark. */
   async contrast({workshop, browser}) {
     workshop.make(lShape(), kSmall);
     const backgrounds = [];
@@ -255,7 +255,7 @@ export const tests = {
       await page.evaluate('medialVk.controls.choose(3)');
       for (const dialog of [null, 'report', 'help']) {
         if (dialog) await page.clickElement(`open-${dialog}`);
-        const [worst] = await ask(page, 'contrasts');
+        const [worst] = await evaluateInPage(page, 'contrasts');
         console.log(`${dark ? 'dark' : 'light'}, ${dialog ?? 'page'}: at least ${worst.ratio.toFixed(2)} (${worst.text})`);
         assert.ok(worst.ratio >= 4.5, JSON.stringify(worst));
         if (dialog) await page.press('Escape');
@@ -286,7 +286,7 @@ export const tests = {
       assert.ok(await page.evaluate(`document.getElementById('${id}').checkVisibility()`), id);
     }
     assert.ok((await page.text('report-body')).includes(grouped(points.length)));
-    const [worst] = await ask(page, 'contrasts');
+    const [worst] = await evaluateInPage(page, 'contrasts');
     assert.ok(worst.ratio >= 4.5, JSON.stringify(worst));
     assertQuiet(page);
   },
@@ -315,7 +315,7 @@ export const tests = {
     assertQuiet(page);
   },
 
-  /** More sheets than colours, and points of none: put in here. */
+  /** More sheets than colours, and points without a sheet, which are inserted here. */
   async sheets({workshop, browser}) {
     const points = workshop.make(lShape(), kSmall);
     const numbers = Buffer.from(Int32Array.from(points, (_, i) => i % 20 - 1).buffer).toString('base64');

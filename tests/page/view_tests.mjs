@@ -4,10 +4,10 @@ import assert from 'node:assert/strict';
 import {lShape} from './fixtures.mjs';
 import * as inPage from './in_page.mjs';
 
-const ask = (page, name) => page.evaluate(`(${inPage[name]})()`);
+const evaluateInPage = (page, name) => page.evaluate(`(${inPage[name]})()`);
 
 export const viewTests = {
-  /** With --up the model stands at first, and for every axis the select turns it as that option would. */
+  /** With --up the model is upright at first, and the control turns it for every axis as that option does. */
   async up({workshop, browser}) {
     const points = workshop.make(lShape(), ['--resolution', '30', '--up', 'z']);
     const page = await browser.open();
@@ -24,19 +24,19 @@ export const viewTests = {
       const heights = await page.evaluate(`[${order[0]}, ${order.at(-1)}].map((i) => medialVk.viewer.model.localToWorld(
         medialVk.viewer.camera.position.clone().set(...medialVk.viewer.centre(i))).y)`);
       assert.ok(heights[1] > heights[0] + 0.1, `${up}: ${heights}`);
-      marks.add((await ask(page, 'look')).mark);
+      marks.add((await evaluateInPage(page, 'look')).mark);
     }
     assert.equal(marks.size, axes.length);
     assert.deepEqual([page.complaints, page.requests], [[], []]);
   },
 
-  /** On a narrow screen the legend takes a strip at the bottom: the model is in the middle of the rest, and fills it. */
+  /** On a narrow screen the legend takes a strip at the bottom, and the model fills the remaining area, centred. */
   async in_the_middle({workshop, browser}) {
     workshop.make(lShape([3, 0, 0]), ['--resolution', '30']);
     for (const size of [{}, {width: 360, height: 740, phone: true}, {width: 360, height: 300, phone: true}]) {
       const page = await browser.open(size);
       await page.load(workshop.url('page.html'));
-      const {bounds: [left, bottom, right, top], strip} = await ask(page, 'modelBounds');
+      const {bounds: [left, bottom, right, top], strip} = await evaluateInPage(page, 'modelBounds');
       assert.equal(strip > 0, Boolean(size.phone));
       assert.ok(Math.abs(left + right) < 0.01, `${left} to ${right}`);
       assert.ok(Math.abs(top - 1 + (bottom + 1 - strip)) < 0.01, `${bottom} to ${top}, strip ${strip}`);

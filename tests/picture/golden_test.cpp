@@ -104,7 +104,7 @@ class Golden : public testing::TestWithParam<GoldenScene> {};
 
 TEST_P(Golden, OnTheCpu) { test::expect_same_look(on_cpu(GetParam()), golden(GetParam()), test::kSameSamples); }
 
-/// On the device that the tests use, with validation where the layer is installed.
+/// Draws on the device of the tests, with validation if the layer is installed.
 Picture on_device(const GoldenScene& scene, std::uint32_t samples) {
   Picture picture = {scene.options.size[0], scene.options.size[1], {}};
   picture.rgb.resize(std::size_t{3} * picture.width * picture.height);
@@ -128,7 +128,7 @@ TEST_P(Golden, OnTheDevice) {
     SCOPED_TRACE(samples);
     const Picture picture = on_device(GetParam(), samples);
     test::expect_same_look(picture, golden(GetParam()), samples == 2 ? test::kSameSamples : test::kOtherSamples);
-    EXPECT_EQ(picture.rgb, on_device(GetParam(), samples).rgb) << "another picture the second time";
+    EXPECT_EQ(picture.rgb, on_device(GetParam(), samples).rgb) << "the second picture differs";
   }
 }
 

@@ -69,9 +69,9 @@ LookDifference look_difference(const Picture& a, const Picture& b) {
     differences.push_back((lab_a[i] - lab_b[i]).norm());
     out.mean += differences.back() / static_cast<double>(lab_a.size());
   }
-  const auto place = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 100);
-  std::nth_element(differences.begin(), place, differences.end(), std::greater<>());
-  out.worst = *place;
+  const auto nth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 100);
+  std::nth_element(differences.begin(), nth, differences.end(), std::greater<>());
+  out.worst = *nth;
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The first picture of README.md is the one that its command draws today. Without the examples there is no model.
+// The first picture of README.md is the one that its command draws. Without the examples there is no model.
 #ifdef MEDIAL_VK_MAKE_MODEL
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -71,7 +71,7 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
   parameters_.memory_budget = 64ull << 20;
   const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters_);
   expect_same_bytes(roomy.extraction, tight.extraction);
-  // Less and less, until chunks overflow and are run again in parts (mode thesis chooses chunks that fit).
+  // The budget falls until chunks overflow and are run again in parts (mode thesis chooses chunks that fit).
   std::uint64_t retries = 0;
   for (std::uint64_t budget = 16ull << 20; retries == 0; budget = budget * 3 / 4) {
     ASSERT_GE(budget, 4ull << 20) << "no chunk has overflowed";
@@ -85,7 +85,7 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
 }
 
 // Chunks of few top cells, among them some with only cells that are found empty when their lists are written.
-TEST(Determinism, SmallPiecesGiveTheSame) {
+TEST(Determinism, SmallChunksGiveTheSame) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_torus(1.0, 0.4, 80, 160, 0.5);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);

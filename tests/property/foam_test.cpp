@@ -112,7 +112,7 @@ std::vector<Medial> medial_points(const Boundary& boundary, const Ball& sphere, 
     const Vector3d m = start + high * away;
     if ((m - c).norm() >= sphere.radius) continue;
     const Medial found = {m, {contact, boundary.nearest(m)}};
-    if (found.width() > 1e-6) out.push_back(found);  // else rounding found it
+    if (found.width() > 1e-6) out.push_back(found);  // a smaller width is due to rounding
   }
   return out;
 }

@@ -28,7 +28,7 @@ bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionOption
 
 using VoxelMap = std::function<test::Voxel(const test::Voxel&)>;
 
-/// Clear points of `from` without a point of `to` in their mapped voxel.
+/// The number of clear points of `from` without a point of `to` in their mapped voxel.
 std::size_t clear_points_without_partner(const Extraction& from, const Extraction& to, const VoxelMap& map,
                                          const ExtractionOptions& parameters) {
   const test::SphereByVoxel found = test::spheres_by_voxel(to);
@@ -120,11 +120,11 @@ TEST_F(Invariance, ScaledByMillions) {
 // The indices of the vertices do not matter: the device receives corners, in the order of the faces.
 TEST_F(Invariance, VerticesInAnotherOrder) {
   Mesh mixed = solid_;
-  std::vector<std::uint32_t> place(mixed.vertices.size());
-  std::iota(place.begin(), place.end(), 0u);
-  std::shuffle(place.begin(), place.end(), std::mt19937(7));
-  for (std::size_t i = 0; i < place.size(); ++i) mixed.vertices[place[i]] = solid_.vertices[i];
-  for (Triangle& t : mixed.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+  std::vector<std::uint32_t> new_index(mixed.vertices.size());
+  std::iota(new_index.begin(), new_index.end(), 0u);
+  std::shuffle(new_index.begin(), new_index.end(), std::mt19937(7));
+  for (std::size_t i = 0; i < new_index.size(); ++i) mixed.vertices[new_index[i]] = solid_.vertices[i];
+  for (Triangle& t : mixed.triangles) t = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
   expect_equal_up_to(base_, extract(mixed), 1, Vector3d::Zero(), 0.0);
 }
 

@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-// In groups, so that they run side by side: 17 mutations first in turn, a dozen solids each.
+// The seeds form groups that run in parallel. All 17 mutations come first in turn, with a dozen solids each.
 constexpr std::uint64_t kGroups = 4, kPerGroup = 51;
 
 class Mutations : public testing::TestWithParam<std::uint64_t> {};

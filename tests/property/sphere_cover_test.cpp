@@ -23,7 +23,7 @@ namespace {
 
 using namespace test;
 
-/// The largest medial balls that do not hold each other's centres come first.
+/// Medial balls, first the largest that do not hold each other's centres.
 std::vector<Ball> spread_balls(const PreparedMesh& mesh, std::size_t count) {
   ExtractionOptions parameters;
   parameters.resolution = 14;
@@ -81,7 +81,7 @@ std::vector<NamedMesh> solids() {
 TEST(SphereCover, CoversEverySolidWithAnyNumber) {
   for (const NamedMesh& each : solids()) {
     const PreparedMesh mesh = prepare(each.mesh);
-    const Solid solid = Solid::create(test::indexed(mesh)).value();
+    const Solid solid = Solid::build(test::indexed(mesh)).value();
     double before = 1e300;
     for (const std::size_t count : {1u, 4u}) {
       SCOPED_TRACE(std::string(each.name) + " with " + std::to_string(count));
@@ -111,11 +111,11 @@ TEST(SphereCover, CoversEverySolidWithAnyNumber) {
 
 TEST(SphereCover, MoreBallsAreNeverWorse) {
   const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   std::map<std::size_t, std::vector<Ball>> starts;
   double before = 1e300;
   for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 11u, 15u, 16u}) {
-    // Each requested separately, with the least number that it needs.
+    // Each cover starts from its own balls, in the least number that it needs.
     const std::size_t top = cover_top(count);
     if (starts.count(top) == 0) starts[top] = spread_balls(mesh, top);
     const SphereSet cover = std::move(cover_by_counts(solid, starts, {count}).value().front());
@@ -130,7 +130,7 @@ TEST(SphereCover, MoreBallsAreNeverWorse) {
 /// Every cover by fewer balls is smaller here, so none of those in the family is kept but the smallest ball around all.
 TEST(SphereCover, OfABallIsOneBall) {
   const PreparedMesh mesh = prepare(make_sphere(1, 320));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const Ball around = ball_around(solid);
   for (const std::size_t count : {1u, 2u, 3u, 4u, 7u}) {
     std::map<std::size_t, std::vector<Ball>> starts;
@@ -146,7 +146,7 @@ TEST(SphereCover, OfABallIsOneBall) {
 
 TEST(SphereCover, LevelsAreTheAnswersForTheirNumbers) {
   const PreparedMesh mesh = prepare(make_box({2, 1, 0.3}));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   std::map<std::size_t, std::vector<Ball>> starts;
   for (const std::size_t top : {1u, 4u, 16u}) starts[top] = spread_balls(mesh, top);
   const std::vector<SphereSet> levels = std::move(cover_by_counts(solid, starts, {3, 6}).value());
@@ -161,7 +161,7 @@ TEST(SphereCover, LevelsAreTheAnswersForTheirNumbers) {
 
 TEST(SphereCover, EveryBallAndItsSizeAreNeeded) {
   const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const SphereSet cover = cover_solid(solid, {spread_balls(mesh, 16)}).value();
   for (std::size_t i = 0; i < cover.balls.size(); ++i) {
     std::vector<Ball> less = cover.balls;
@@ -175,7 +175,7 @@ TEST(SphereCover, EveryBallAndItsSizeAreNeeded) {
 
 TEST(SphereCover, IsTheSameOnOneThread) {
   const PreparedMesh mesh = prepare(make_turned_torus(20, 10));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const SphereSet inside = {spread_balls(mesh, 3)};
   const SphereSet all = cover_solid(solid, inside).value(), one = cover_solid(solid, inside, 1).value();
   ASSERT_EQ(all.balls.size(), one.balls.size());
@@ -187,7 +187,7 @@ TEST(SphereCover, IsTheSameOnOneThread) {
 
 TEST(SphereCover, AnyBallsWillDoAndNoneWillNot) {
   const PreparedMesh mesh = prepare(make_box({2, 1, 0.3}));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const SphereSet far = {{{{50, 0, 0}, 0.1}, {{0, 0, 0}, 0}}};
   EXPECT_TRUE(prove_cover(solid, cover_solid(solid, far).value().balls).value().proved());
   EXPECT_EQ(cover_solid(solid, {}).error().code, ErrorCode::kUsage);
@@ -204,7 +204,7 @@ TEST(SphereCover, OfAnOpenMeshTheSurface) {
   Mesh open = make_turned_torus(20, 10);
   open.triangles.resize(open.triangles.size() - 10);
   const PreparedMesh mesh = prepare(open);
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const SphereSet cover = cover_solid(solid, {spread_balls(mesh, 4)}).value();
   const CoverProof proof = prove_cover(solid, cover.balls).value();
   EXPECT_TRUE(proof.surface_proved());
@@ -215,14 +215,14 @@ TEST(SphereCover, OfAnOpenMeshTheSurface) {
 TEST(Dilation, ReachesTheBoundaryAtVerticesAndOnLoneCircles) {
   // Two balls on the axis of a capsule: one circle, no vertex. It grows to the wall.
   const PreparedMesh mesh = prepare(make_capsule(1, 2, 64));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const SphereSet inside = {{{{0, 0, -0.5}, 0.99}, {{0, 0, 0.5}, 0.99}}};
   const SphereSet grown = dilate_to_boundary(solid, inside).value();
   ASSERT_EQ(grown.balls.size(), 2u);
   for (const Ball& ball : grown.balls) EXPECT_NEAR(ball.radius, std::hypot(1, 0.5), 0.01);
   // Balls of a box: each vertex of the envelope's nearest boundary point is held by those that make the vertex.
   const PreparedMesh box = prepare(make_box({2, 1, 1}));
-  const Solid block = Solid::create(test::indexed(box)).value();
+  const Solid block = Solid::build(test::indexed(box)).value();
   const SphereSet balls = {spread_balls(box, 12)};
   const SphereSet more = dilate_to_boundary(block, balls).value();
   BallUnionOptions options;

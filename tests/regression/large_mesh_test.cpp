@@ -1,4 +1,4 @@
-// Half a million triangles and five millions, from bytes to certified points.
+// Meshes of half a million and of five million triangles, from bytes to certified points.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace medial_vk {
 namespace {
 
-/// Of a torus that passes through the reader.
+/// A prepared torus that has passed through the reader.
 PreparedMesh read_torus(std::uint32_t around, std::uint32_t along) {
   Result<Mesh> read = parse_mesh(test::to_binary_ply(test::make_torus(0.7, 0.2, around, along), false), "torus.ply");
   EXPECT_TRUE(read.ok()) << read.error().message;

@@ -42,7 +42,7 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
   const PreparedMesh mesh = test::prepare(std::move(input).value());
   EXPECT_EQ(mesh.report.closed, GetParam().closed);
   if (!GetParam().closed) {
-    EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never taken without saying so";
+    EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never accepted without a message";
   }
   ExtractionOptions parameters;
   // Next to open edges little can be dismissed, and voxels are subdivided to the end: several times slower.
@@ -62,11 +62,11 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
                                    [](const UndecidedVoxel& u) { return u.kind == UndecidedKind::kOther; });
   EXPECT_LT(static_cast<double>(c.undecided), 0.01 * visited);
   EXPECT_LT(static_cast<double>(other), 0.0005 * visited);
-  // Balls that the device accepted and double precision rejected: caused by rounding, so hardly any.
+  // Balls that the device accepted and double precision rejected are rare, since only rounding causes them.
   EXPECT_LE(result.certificate.rejected, c.found / 100);
 }
 
-/// Of the solid, which has one component and no cavity.
+/// The topology of the solid, which has one component and no cavity.
 struct Topology {
   const char* name;
   std::uint64_t tunnels;
@@ -88,7 +88,7 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
       make_medial_mesh(extraction.spheres, sheets, {voxel, parameters.epsilon * voxel, 0});
   ASSERT_TRUE(medial_mesh.ok());
   EXPECT_EQ(medial_mesh.value().topology.betti, (BettiNumbers{1, GetParam().tunnels, 0}));
-  // A surface, not a bundle of layers: hardly more than two triangles and three edges to a point.
+  // The mesh is a surface and has no layers: it has little more than two triangles and three edges per point.
   EXPECT_LT(medial_mesh.value().triangles.size(), 2.1 * static_cast<double>(extraction.spheres.size()));
 }
 

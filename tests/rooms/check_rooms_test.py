@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/check-rooms finds what it is there for: made-up trees, each with one thing wrong.
+"""scripts/check-rooms finds each kind of fault, in small source trees with one fault each.
 
   check_rooms_test.py SCRIPT
 """
@@ -59,7 +59,7 @@ FILES = {
 
 class CheckRooms(unittest.TestCase):
     def check(self, expected, files):
-        """Runs the script on FILES and these: it must print lines that start and go on as expected; None: no fault."""
+        """Runs the script on FILES and these. Expects lines with these beginnings and parts, or, for None, no fault."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in {**FILES, **files}.items():
                 path = Path(folder) / name
@@ -80,7 +80,7 @@ class CheckRooms(unittest.TestCase):
         self.check(None, files={})
 
     def test_room_that_is_not_declared(self):
-        self.check([("src/judge/judge.h:2:", "which it does not say")],
+        self.check([("src/judge/judge.h:2:", "which is not declared")],
                    files={"src/judge/judge.h": '#include "cpu_reference/check.h"\n#include "base/clock.h"\n'})
 
     def test_room_below(self):
@@ -101,7 +101,7 @@ class CheckRooms(unittest.TestCase):
     def test_reference_outside_the_judge(self):
         self.check([("cmake/rooms.txt:", "is not for src/cli")],
                    files={"cmake/rooms.txt": ROOMS + "  uses cpu_reference\n"})
-        self.check([("src/cli/run.cpp:1:", "which it does not say")],
+        self.check([("src/cli/run.cpp:1:", "which is not declared")],
                    files={"src/cli/run.cpp": '#include "cpu_reference/check.h"\n'})
 
     def test_public_header_with_a_private_one(self):

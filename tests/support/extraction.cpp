@@ -93,13 +93,13 @@ SphereByVoxel spheres_by_voxel(const Extraction& extraction) {
 Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
 
 Voxel voxel_of(const VoxelGrid& grid, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d place = ((p - to_eigen(grid.origin)) / grid.voxel_size).array().floor();
-  return {static_cast<int>(place.x()), static_cast<int>(place.y()), static_cast<int>(place.z())};
+  const Eigen::Vector3d scaled = ((p - to_eigen(grid.origin)) / grid.voxel_size).array().floor();
+  return {static_cast<int>(scaled.x()), static_cast<int>(scaled.y()), static_cast<int>(scaled.z())};
 }
 
 double depth_in_voxel(const VoxelGrid& grid, const Eigen::Vector3d& p) {
-  const Eigen::Array3d place = (p - to_eigen(grid.origin)).array() / grid.voxel_size;
-  const Eigen::Array3d inside = place - place.floor();
+  const Eigen::Array3d scaled = (p - to_eigen(grid.origin)).array() / grid.voxel_size;
+  const Eigen::Array3d inside = scaled - scaled.floor();
   return inside.min(1 - inside).minCoeff();
 }
 

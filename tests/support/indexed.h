@@ -10,15 +10,15 @@
 
 namespace medial_vk::test {
 
-/// Throws std::runtime_error, a test failure, if there is an error.
+/// The value; throws std::runtime_error, a test failure, if there is an error.
 inline IndexedMesh indexed(const MeshView& mesh, unsigned threads = 0) {
-  Result<IndexedMesh> made = IndexedMesh::create(mesh, threads);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh, threads);
   if (!made.ok()) throw std::runtime_error(made.error().message);
   return std::move(made).value();
 }
 
 inline IndexedMesh indexed(const PreparedMesh& mesh, unsigned threads = 0) {
-  Result<IndexedMesh> made = IndexedMesh::create(PreparedMesh(mesh), threads);
+  Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(mesh), threads);
   if (!made.ok()) throw std::runtime_error(made.error().message);
   return std::move(made).value();
 }
@@ -26,14 +26,14 @@ inline IndexedMesh indexed(const PreparedMesh& mesh, unsigned threads = 0) {
 /// extract_medial_spheres() of a mesh that is indexed for it.
 inline Result<Extraction> extract_spheres(Context& context, const MeshView& mesh, const ExtractionOptions& options,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {}) {
-  Result<IndexedMesh> made = IndexedMesh::create(mesh, options.threads);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh, options.threads);
   if (!made.ok()) return made.error();
   return extract_medial_spheres(context, made.value(), options, progress, stop);
 }
 
 /// Scene::create() of a mesh that is indexed for it.
 inline Result<Scene> make_scene(Context& context, const MeshView& mesh) {
-  Result<IndexedMesh> made = IndexedMesh::create(mesh);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh);
   if (!made.ok()) return made.error();
   return Scene::create(context, made.value());
 }

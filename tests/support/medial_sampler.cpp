@@ -34,7 +34,7 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// In [0, 1).
+  /// A number in [0, 1).
   double unit() { return std::ldexp(static_cast<double>(next() >> 11), -53); }
 
  private:
@@ -46,7 +46,7 @@ Vector3d random_point(const Tree& tree, Random& random) {
   return tree.lower() + Vector3d(x, y, z).cwiseProduct(tree.upper() - tree.lower());
 }
 
-/// In front of the nearest face: outside of a closed mesh. Points that pass this test are tested again in the end.
+/// True in front of the nearest face, which is outside of a closed mesh. Other points are tested again in the end.
 bool surely_outside(const Tree& tree, const Vector3d& p, const Closest& nearest) {
   return nearest.feature == Feature::kFace && (p - nearest.point).dot(tree.normal(nearest.triangle)) > 0;
 }
@@ -58,7 +58,7 @@ struct MedialSampler::Contact {
   Vector3d spoke;  ///< Of length 1, from the centre.
 };
 
-/// Touches `count` triangles, whose spokes are known.
+/// A ball that touches `count` triangles, whose spokes are known.
 struct MedialSampler::Ball {
   Vector3d centre;
   double radius = 0;
@@ -255,7 +255,7 @@ class Quota {
     return count < wanted_ && ++count > 0;
   }
 
-  /// A sample counts for all angles below its own. An angle that hardly any try reaches is given up: solids have a
+  /// A sample counts for all angles below its own. An angle that very few tries reach is given up: solids have a
   /// largest object angle, and the salient part of a sphere is a point.
   bool is_full(std::uint64_t tries) const {
     std::size_t reaching = 0;

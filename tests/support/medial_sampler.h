@@ -73,7 +73,7 @@ struct SampleRequest {
   bool past_corners = false;  ///< Continue to climb where four contacts tie.
 };
 
-/// In the order of the sampler's sequence.
+/// Samples in the order of the sampler's sequence.
 std::vector<MedialSample> draw_medial_samples(const reference::Tree& tree, const SampleRequest& request);
 
 }  // namespace medial_vk::test

@@ -45,8 +45,8 @@ struct Recall {
   double share() const { return samples == 0 ? 0 : static_cast<double>(found) / samples; }
 };
 
-/// Share of `wanted` salient samples whose voxel holds a point. Samples within 5 % of a voxel from its faces are left
-/// out: there a sheet may miss the voxel within rounding and epsilon. `salient` selects the samples that count.
+/// The share of `wanted` salient samples whose voxel holds a point. Samples within 5 % of a voxel from its faces are
+/// left out: there a sheet may miss the voxel within rounding and epsilon. `salient` selects the samples that count.
 template <typename Salient>
 Recall recall_of(const reference::Tree& tree, const reference::Result& result, int wanted, const Salient& salient) {
   std::set<std::tuple<int, int, int>> found;
@@ -58,9 +58,9 @@ Recall recall_of(const reference::Tree& tree, const reference::Result& result, i
     const Eigen::Vector3d where(share(engine), share(engine), share(engine));
     const auto sample = medial_sample(tree, tree.lower() + where.cwiseProduct(tree.upper() - tree.lower()));
     if (!sample || !salient(*sample)) continue;
-    const Eigen::Vector3d place = (sample->point - result.grid_origin) / result.voxel_size;
-    const Eigen::Vector3d voxel = place.array().floor();
-    const Eigen::Vector3d inside = place - voxel;
+    const Eigen::Vector3d scaled = (sample->point - result.grid_origin) / result.voxel_size;
+    const Eigen::Vector3d voxel = scaled.array().floor();
+    const Eigen::Vector3d inside = scaled - voxel;
     if (inside.minCoeff() < 0.05 || inside.maxCoeff() > 0.95) continue;
     ++recall.samples;
     const auto key = voxel.cast<int>().eval();

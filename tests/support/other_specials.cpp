@@ -69,7 +69,7 @@ class Replacer {
     replace(*shape, out_.copy_renamed(instruction), instruction[2]);
   }
 
-  /// Of numbers or vectors of that type; null: it has another one.
+  /// The names for numbers or vectors of that type; null for other types.
   const Shape* shape_of(std::uint32_t type) const {
     const auto found = std::ranges::find(shapes_, type, &Shape::real);
     return found == shapes_.end() ? nullptr : &*found;

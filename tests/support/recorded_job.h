@@ -14,7 +14,7 @@ inline Status move(ExtractionJob& job, IndexedMesh& mesh, const MeshView& to) {
 /// ExtractionJob::create() of a mesh that is indexed for it.
 inline Result<ExtractionJob> make_job(Context& context, const MeshView& mesh, const ExtractionOptions& options,
                                       const JobOptions& job = {}) {
-  Result<IndexedMesh> made = IndexedMesh::create(mesh);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh);
   if (!made.ok()) return made.error();
   return ExtractionJob::create(context, made.value(), options, job);
 }

@@ -132,10 +132,10 @@ class Checker {
   }
 
   void voxel(std::size_t i, const Sphere& s) {
-    const Vector3d place = ((s.centre - result_.grid_origin) / result_.voxel_size).array().floor();
-    const bool in_grid = (place.array() >= 0).all() && (place.array() < result_.grid_size.cast<double>().array()).all();
-    in_grid_.test(i, s, in_grid && place == s.voxel.cast<double>() ? 0 : -1);
-    alone_.test(i, s, taken_.insert({place.x(), place.y(), place.z()}).second ? 0 : -1);
+    const Vector3d at = ((s.centre - result_.grid_origin) / result_.voxel_size).array().floor();
+    const bool in_grid = (at.array() >= 0).all() && (at.array() < result_.grid_size.cast<double>().array()).all();
+    in_grid_.test(i, s, in_grid && at == s.voxel.cast<double>() ? 0 : -1);
+    alone_.test(i, s, taken_.insert({at.x(), at.y(), at.z()}).second ? 0 : -1);
   }
 
   const Tree tree_;

@@ -18,7 +18,7 @@ constexpr double kUnit = 0x1p-53;
 constexpr int kHalvings = 44;
 constexpr int kMostPieces = 500'000;  // of one triangle
 
-std::string place(const char* what, std::size_t number, const Vector3d& at) {
+std::string description(const char* what, std::size_t number, const Vector3d& at) {
   char text[160];
   std::snprintf(text, sizeof text, "%s %zu at (%.9g, %.9g, %.9g)", what, number, at.x(), at.y(), at.z());
   return text;
@@ -37,7 +37,7 @@ class Row {
   void test(double margin, const char* what, std::size_t number, const Vector3d& at) {
     ++line_.tested;
     if (!(margin >= line_.worst)) line_.worst = margin;
-    if (!(margin >= 0) && line_.failed++ == 0) line_.first_failure = place(what, number, at);
+    if (!(margin >= 0) && line_.failed++ == 0) line_.first_failure = description(what, number, at);
   }
 
   CertificateLine line() const {

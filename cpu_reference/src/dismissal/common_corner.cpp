@@ -125,7 +125,7 @@ bool edges_can_meet(const Leaving& a, const Leaving& b, double angle) {
   return s.has_point();
 }
 
-bool is_asked(const Carrier& c) {
+bool is_tested(const Carrier& c) {
   if (c.corner_count == 1) return false;
   return c.normal_count > 0 || (c.corner_count == 2 && c.arc != nullptr);
 }
@@ -133,7 +133,7 @@ bool is_asked(const Carrier& c) {
 }  // namespace
 
 bool can_meet_at_corner(const Carrier& a, const Carrier& b, double angle) {
-  if (!is_asked(a) || !is_asked(b)) return true;
+  if (!is_tested(a) || !is_tested(b)) return true;
   for (int i = 0; i < a.corner_count; ++i) {
     for (int j = 0; j < b.corner_count; ++j) {
       if (a.vertices[i] < 0 || a.vertices[i] != b.vertices[j]) continue;

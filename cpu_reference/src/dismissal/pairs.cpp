@@ -53,8 +53,8 @@ class PairTest {
 
   /// Lemma J, if a triangle that lists one of them is not trusted.
   bool can_be_at_corner(const Carrier& a, const Carrier& b) const {
-    const bool asked = a.triangle_corners[0] >= 0 || b.triangle_corners[0] >= 0;
-    return !asked || can_meet_at_corner(a, b, angle_);
+    const bool applies = a.triangle_corners[0] >= 0 || b.triangle_corners[0] >= 0;
+    return !applies || can_meet_at_corner(a, b, angle_);
   }
 
   // Lemma F, at the share for which the mean direction is nearest to the third's.

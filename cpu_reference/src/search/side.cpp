@@ -15,28 +15,28 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostEdges = 16384;  // limit of a sum over single edges
 
-/// One number per position: vertices at the same coordinates are the same.
-std::vector<int> places(const Mesh& mesh) {
+/// By vertex: the first of the vertices at its position.
+std::vector<int> first_at_position(const Mesh& mesh) {
   const auto key = [&](int v) {
     const Vector3d& p = mesh.vertices[v];
     return std::make_tuple(p.x(), p.y(), p.z());
   };
-  std::vector<int> order(mesh.vertices.size()), place(mesh.vertices.size());
+  std::vector<int> order(mesh.vertices.size()), first(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < order.size(); ++i) {
-    place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
+    first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
   }
-  return place;
+  return first;
 }
 
 /// Edges whose triangles' directions do not cancel, with the number of uncancelled directions.
 std::map<std::pair<int, int>, int> open_edges(const Mesh& mesh) {
-  const std::vector<int> place = places(mesh);
+  const std::vector<int> first = first_at_position(mesh);
   std::map<std::pair<int, int>, int> net;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
-      const int a = place[t[k]], b = place[t[(k + 1) % 3]];
+      const int a = first[t[k]], b = first[t[(k + 1) % 3]];
       if (a < b) ++net[{a, b}];
       if (b < a) --net[{b, a}];
     }
@@ -80,7 +80,7 @@ double Sides::slope_within(const Vector3d& p, double way) const {
   return (1 + 1e-9) * sum / (4 * kPi);
 }
 
-Sides::Known Sides::ask(const Vector3d& p, double empty, double tolerance) const {
+Sides::Known Sides::evaluate(const Vector3d& p, double empty, double tolerance) const {
   const double winding = winding_number(tree_, p, tolerance), reach = empty / 2;
   Known known = {p, reach, slope_within(p, reach), winding - tolerance, winding + tolerance};
   memory_[next_++ % memory_.size()] = known;
@@ -111,7 +111,7 @@ Side Sides::of_ball(const Vector3d& centre, double radius, const Closest& neares
   };
   Side found = side(recall(centre));
   for (double tolerance : {0.1, 0.01}) {
-    if (found == Side::kMixed) found = side(ask(centre, nearest.distance, tolerance));
+    if (found == Side::kMixed) found = side(evaluate(centre, nearest.distance, tolerance));
   }
   return found;
 }
@@ -126,7 +126,7 @@ bool Sides::inside(const Vector3d& p, const Closest& nearest) const {
   Known known = recall(p);
   for (double tolerance : {0.2, 0.02, 0.002}) {
     if (known.low >= 0.5 || known.high < 0.5) return known.low >= 0.5;
-    known = ask(p, nearest.distance, tolerance);
+    known = evaluate(p, nearest.distance, tolerance);
   }
   if (known.low >= 0.5 || known.high < 0.5) return known.low >= 0.5;
   return winding_number(tree_, p) >= 0.5;

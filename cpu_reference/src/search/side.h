@@ -35,7 +35,7 @@ class Sides {
     int times;  // directions along it that do not cancel
   };
 
-  Known ask(const Eigen::Vector3d& p, double empty, double tolerance) const;
+  Known evaluate(const Eigen::Vector3d& p, double empty, double tolerance) const;
   Known recall(const Eigen::Vector3d& p) const;
   double slope_within(const Eigen::Vector3d& p, double way) const;
 

@@ -61,7 +61,8 @@ struct Analysis {
 
 /// Analyses a mesh with the medial spheres that `extractor` finds. `progress` is called with the stages "extract",
 /// "certify", "simplify", "volume", "sheets", "topology" and "medial mesh" and the finished share of each; a request to
-/// `stop`, from any thread, the callback included, soon ends the call. Does not throw. Errors: kUsage (an option out of
+/// `stop`, from any thread, the callback included, ends the call within the stages "extract", "certify" and "topology",
+/// and after the current one otherwise. Does not throw. Errors: kUsage (an option out of
 /// range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal.
 Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
                          const StageProgress& progress = {}, const std::stop_token& stop = {});

@@ -30,22 +30,22 @@ class DynamicUnion {
   DynamicUnion& operator=(DynamicUnion&&) noexcept;
   ~DynamicUnion();
 
-  /// Each ball occupies a slot in [0, places()); some slots may be empty.
-  std::uint32_t places() const;
-  bool holds(std::uint32_t place) const;
+  /// Each ball occupies a slot in [0, slots()); some slots may be empty.
+  std::uint32_t slots() const;
+  bool holds(std::uint32_t slot) const;
   std::uint32_t size() const;
-  const Ball& ball(std::uint32_t place) const;
+  const Ball& ball(std::uint32_t slot) const;
   double volume() const;
-  Exposure exposure(std::uint32_t place) const;
+  Exposure exposure(std::uint32_t slot) const;
   /// The points of the envelope where the ball's sphere meets two others, as BallUnion::vertices. Errors: kUsage (an
   /// empty slot), kOutOfMemory.
-  Result<std::vector<Point>> vertices(std::uint32_t place) const;
+  Result<std::vector<Point>> vertices(std::uint32_t slot) const;
 
   /// The three changes; add() returns the slot of the ball. Errors: kUsage (an empty slot, no free slot, a ball beyond
   /// `largest`), kOutOfMemory; after an error nothing has changed.
   Result<std::uint32_t> add(const Ball& ball);
-  Status remove(std::uint32_t place);
-  Status move(std::uint32_t place, const Ball& to);
+  Status remove(std::uint32_t slot);
+  Status move(std::uint32_t slot, const Ball& to);
   /// Reverts the last change, but none before it.
   void undo();
   /// Slots of balls whose power cells the last change has changed.
@@ -54,7 +54,7 @@ class DynamicUnion {
   /// The volume by which add() would enlarge the union. Errors: as add().
   Result<double> gain(const Ball& ball);
   /// The volume by which remove() would reduce the union. Errors: as remove().
-  Result<double> loss(std::uint32_t place);
+  Result<double> loss(std::uint32_t slot);
 
  private:
   class Impl;

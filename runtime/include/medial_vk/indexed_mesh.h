@@ -19,10 +19,10 @@ class IndexedMesh {
  public:
   /// `threads` 0: one per core. Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not
   /// finite, flags that are neither none nor one per triangle), kOutOfMemory.
-  static Result<IndexedMesh> create(PreparedMesh mesh, unsigned threads = 0);
+  static Result<IndexedMesh> build(PreparedMesh mesh, unsigned threads = 0);
   /// From a mesh without preparation, for whose flags the caller vouches: arrays are copied, and the report holds only
   /// counts and box. For meshes that are known to be clean, such as those of a renderer. The same errors.
-  static Result<IndexedMesh> create(const MeshView& mesh, unsigned threads = 0);
+  static Result<IndexedMesh> build(const MeshView& mesh, unsigned threads = 0);
 
   // A move is a copy, so that no object is ever empty.
   IndexedMesh(const IndexedMesh&) = default;
@@ -33,7 +33,7 @@ class IndexedMesh {
   /// rest of the report is unchanged.
   const PreparedMesh& prepared() const;
   MeshView view() const;
-  /// True if both share their data. Two meshes that were created separately are different, even if they are equal.
+  /// True if both share their data. Two meshes that were built separately are different, even if they are equal.
   bool is_same(const IndexedMesh& other) const { return impl_ == other.impl_; }
   /// The tree over the triangles, in the units of the mesh.
   const Bvh& bvh() const;

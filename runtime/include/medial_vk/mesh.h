@@ -24,11 +24,11 @@ struct Mesh {
 /// The findings of prepare_mesh(), printed in the summary and written to the report.
 struct MeshReport {
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;           ///< After cleaning.
-  std::uint64_t merged_vertices = 0;     ///< Vertices at exactly the position of an earlier one.
-  std::uint64_t unused_vertices = 0;     ///< Vertices of no triangle, left out.
-  std::uint64_t fallback_polygons = 0;   ///< Polygons that cross themselves, cut into a fan.
-  std::uint64_t degenerate_dropped = 0;  ///< Zero area, a repeated corner, or fewer than three corners.
+  std::uint64_t triangles = 0;            ///< After cleaning.
+  std::uint64_t merged_vertices = 0;      ///< Vertices at exactly the position of an earlier one.
+  std::uint64_t unused_vertices = 0;      ///< Vertices of no triangle, left out.
+  std::uint64_t fallback_polygons = 0;    ///< Polygons that cross themselves, cut into a fan.
+  std::uint64_t degenerates_dropped = 0;  ///< Zero area, a repeated corner, or fewer than three corners.
   /// Of those: a corner inside a side; the neighbour there is divided at that corner.
   std::uint64_t caps_repaired = 0;
   std::uint64_t duplicates_dropped = 0;   ///< Same three corners as an earlier face, in any order.

@@ -1,5 +1,5 @@
 // The form in which a caller passes a triangle mesh to the library: borrowed arrays, which are copied only when an
-// IndexedMesh is created.
+// IndexedMesh is built.
 #pragma once
 
 #include <array>

@@ -56,8 +56,8 @@ struct Sheets {
   std::vector<double> areas;
   std::vector<Sheet> sheets;  ///< By decreasing number of points; sheets of equal size by their first voxels.
 
-  std::uint64_t pieces = 0;           ///< Components before any was absorbed.
-  std::uint64_t absorbed_pieces = 0;  ///< Components too narrow, or of too few points.
+  std::uint64_t components = 0;           ///< Components before any was absorbed.
+  std::uint64_t absorbed_components = 0;  ///< Components too narrow, or of too few points.
   std::uint64_t absorbed_points = 0;
   std::uint64_t fragments = 0;  ///< Sheets of fewer than kFragmentPoints.
   std::uint64_t fragment_points = 0;

@@ -21,7 +21,7 @@ struct InsideProof {
   std::uint64_t failed = 0;
   std::uint32_t first_failure = 0;  ///< Index of a ball, if any failed.
   /// The greatest difference of radius and distance, mesh units, rounded up (towards failure); 0: no ball.
-  double worst = 0;
+  double greatest_excess = 0;
 
   bool proved() const { return failed == 0; }
 };
@@ -118,7 +118,7 @@ bool measure_against(double shape_volume, SphereMeasures& measures);
 /// Upper bounds of the distance that each ball reaches out of the solid: mean, least and greatest over the balls of a
 /// set. All are 0 if no ball does.
 struct ReachOut {
-  double mean = 0, best = 0, worst = 0;
+  double mean = 0, least = 0, greatest = 0;
 };
 
 }  // namespace medial_vk

@@ -7,6 +7,7 @@
 
 #include "analysis/measure_sheets.h"
 #include "analysis/simplify.h"
+#include "base/host_memory.h"
 #include "base/stopwatch.h"
 #include "mesh/inspect_mesh.h"
 
@@ -24,7 +25,7 @@ class AnalysisRun {
 
   Result<Analysis> run() {
     if (!options_.sheets && (measures() || options_.medial_mesh)) {
-      return Error{ErrorCode::kUsage, "volumes and the medial mesh need `sheets`"};
+      return Error{ErrorCode::kUsage, "`volumes`, `keep_volume`, `removal_orders` and `medial_mesh` require `sheets`"};
     }
     if (Status status = extract(); !status) return status.error();
     if (Status status = reached("simplify"); !status) return status.error();
@@ -109,7 +110,7 @@ Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options
   try {
     return AnalysisRun(mesh, options, extractor, progress, stop).run();
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory while analysing; try a lower `resolution`"};
+    return out_of_memory("analysing", "try a lower `resolution`");
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, error.what()};
   }

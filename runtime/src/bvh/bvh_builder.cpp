@@ -28,16 +28,16 @@ std::vector<BvhNode> BvhBuilder::build() {
   return lay_out();
 }
 
-BvhBuilder::Piece BvhBuilder::whole() const {
+BvhBuilder::Range BvhBuilder::whole() const {
   std::vector<BuildBox> blocks((order_.size() + kBlock - 1) / kBlock, kEmptyBox);
   parallel_blocks(order_.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) grow_by_centre(blocks[begin / kBlock], arrays_[0][i]);
   });
-  Piece piece;
-  piece.end = static_cast<std::uint32_t>(order_.size());
-  piece.centres = kEmptyBox;
-  for (const BuildBox& block : blocks) grow(piece.centres, block);
-  return piece;
+  Range range;
+  range.end = static_cast<std::uint32_t>(order_.size());
+  range.centres = kEmptyBox;
+  for (const BuildBox& block : blocks) grow(range.centres, block);
+  return range;
 }
 
 /// Splits the root, its children and so on, each with all threads, until there are enough subtrees for them.
@@ -45,8 +45,8 @@ void BvhBuilder::split_tops() {
   const auto largest = std::max(kLeastSubtree, static_cast<std::uint32_t>(order_.size()) / kSubtreesPerMesh);
   tops_.push_back({whole(), 0, 0, {}, 0, 0});
   for (std::uint32_t i = 0; i < tops_.size(); ++i) {
-    if (tops_[i].piece.count() <= std::max(largest, leaf_size_)) continue;
-    const Pair pair = split(tops_[i].piece, threads_);
+    if (tops_[i].range.count() <= std::max(largest, leaf_size_)) continue;
+    const Pair pair = split(tops_[i].range, threads_);
     tops_[i].left = static_cast<std::uint32_t>(tops_.size());
     tops_[i].right = tops_[i].left + 1;
     tops_.push_back({pair.left, 0, 0, {}, 0, 0});
@@ -61,21 +61,21 @@ void BvhBuilder::build_subtrees() {
     if (tops_[i].left == 0) roots.push_back(i);
   }
   std::stable_sort(roots.begin(), roots.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return tops_[a].piece.count() > tops_[b].piece.count(); });
+                   [&](std::uint32_t a, std::uint32_t b) { return tops_[a].range.count() > tops_[b].range.count(); });
   parallel_blocks(roots.size(), 1, threads_, [&](std::size_t i, std::size_t) {
     Top& top = tops_[roots[i]];
-    top.subtree.reserve(2 * std::size_t{top.piece.count()} / std::max(1u, leaf_size_ / 2) + 1);
+    top.subtree.reserve(2 * std::size_t{top.range.count()} / std::max(1u, leaf_size_ / 2) + 1);
     top.subtree.resize(1);
-    build_subtree(top.piece, 0, top.subtree);
+    build_subtree(top.range, 0, top.subtree);
   });
 }
 
-void BvhBuilder::build_subtree(const Piece& piece, std::uint32_t place, std::vector<Link>& out) {
+void BvhBuilder::build_subtree(const Range& range, std::uint32_t position, std::vector<Link>& out) {
   // A tree that is refined may be as deep as a traversal's stack allows.
-  if (piece.count() <= leaf_size_ || piece.depth >= Bvh::kMaxDepth) return make_leaf(piece, out[place]);
-  const Pair pair = split(piece, 1);
+  if (range.count() <= leaf_size_ || range.depth >= Bvh::kMaxDepth) return make_leaf(range, out[position]);
+  const Pair pair = split(range, 1);
   const auto first = static_cast<std::uint32_t>(out.size());
-  out[place] = {first, 0};
+  out[position] = {first, 0};
   out.resize(out.size() + 2);
   build_subtree(pair.left, first, out);
   build_subtree(pair.right, first + 1, out);
@@ -94,24 +94,24 @@ std::vector<BvhNode> BvhBuilder::refine(const std::vector<BvhNode>& coarse) {
 }
 
 void BvhBuilder::refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_t node, std::uint32_t depth,
-                                std::uint32_t place, std::vector<Link>& out) {
+                                std::uint32_t position, std::vector<Link>& out) {
   const BvhNode& from = coarse[node];
   if (from.count != 0) {
-    Piece piece = {from.first, from.first + from.count, depth, 0, kEmptyBox};
-    for (std::uint32_t i = piece.begin; i < piece.end; ++i) grow_by_centre(piece.centres, arrays_[0][i]);
-    return build_subtree(piece, place, out);
+    Range range = {from.first, from.first + from.count, depth, 0, kEmptyBox};
+    for (std::uint32_t i = range.begin; i < range.end; ++i) grow_by_centre(range.centres, arrays_[0][i]);
+    return build_subtree(range, position, out);
   }
   const auto first = static_cast<std::uint32_t>(out.size());
-  out[place] = {first, 0};
+  out[position] = {first, 0};
   out.resize(out.size() + 2);
   refine_subtree(coarse, from.first, depth + 1, first, out);
   refine_subtree(coarse, from.first + 1, depth + 1, first + 1, out);
 }
 
-void BvhBuilder::make_leaf(const Piece& piece, Link& leaf) {
-  leaf = {piece.begin, piece.count()};
-  for (std::uint32_t i = piece.begin; i < piece.end; ++i) order_[i] = arrays_[piece.array][i].triangle;
-  std::sort(order_.begin() + piece.begin, order_.begin() + piece.end);  // a split at the median permutes them
+void BvhBuilder::make_leaf(const Range& range, Link& leaf) {
+  leaf = {range.begin, range.count()};
+  for (std::uint32_t i = range.begin; i < range.end; ++i) order_[i] = arrays_[range.array][i].triangle;
+  std::sort(order_.begin() + range.begin, order_.begin() + range.end);  // a split at the median permutes them
 }
 
 /// Levels below a node of `count` triangles if every split halves it.
@@ -121,39 +121,39 @@ std::uint32_t BvhBuilder::levels_of_halving(std::uint32_t count) const {
   return levels;
 }
 
-BvhBuilder::Pair BvhBuilder::split(const Piece& piece, unsigned threads) {
+BvhBuilder::Pair BvhBuilder::split(const Range& range, unsigned threads) {
   // SAH may peel off a few triangles at a time; when the depth is nearly used up only halving still fits.
-  if (piece.depth + 1 + levels_of_halving(piece.count()) >= Bvh::kMaxDepth) return split_at_median(piece);
-  return threads > 1 && piece.count() >= 2 * kBlock ? split_wide(piece, threads) : split_here(piece);
+  if (range.depth + 1 + levels_of_halving(range.count()) >= Bvh::kMaxDepth) return split_at_median(range);
+  return threads > 1 && range.count() >= 2 * kBlock ? split_wide(range, threads) : split_here(range);
 }
 
-BvhBuilder::Pair BvhBuilder::split_here(const Piece& piece) {
-  const BuildBins bins = fill_bins(piece, piece.begin, piece.end);
-  const BuildPlane plane(piece.centres, bins);
-  if (!plane.exists()) return split_at_median(piece);
-  Pair pair = halves(piece, piece.begin + plane.count_left(bins));
-  move_apart(piece, plane, piece.begin, piece.end, pair);
+BvhBuilder::Pair BvhBuilder::split_here(const Range& range) {
+  const BuildBins bins = fill_bins(range, range.begin, range.end);
+  const BuildPlane plane(range.centres, bins);
+  if (!plane.exists()) return split_at_median(range);
+  Pair pair = halves(range, range.begin + plane.count_left(bins));
+  move_apart(range, plane, range.begin, range.end, pair);
   return pair;
 }
 
 /// The same by blocks. Minima and counts add up to the same in any grouping, and primitives on one side keep their
 /// order: the result depends neither on blocks nor on threads.
-BvhBuilder::Pair BvhBuilder::split_wide(const Piece& piece, unsigned threads) {
-  std::vector<BuildBins> blocks((piece.count() + kBlock - 1) / kBlock);
+BvhBuilder::Pair BvhBuilder::split_wide(const Range& range, unsigned threads) {
+  std::vector<BuildBins> blocks((range.count() + kBlock - 1) / kBlock);
   const auto for_each_block = [&](auto body) {
-    parallel_blocks(piece.count(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
-      body(begin / kBlock, piece.begin + static_cast<std::uint32_t>(begin),
-           piece.begin + static_cast<std::uint32_t>(end));
+    parallel_blocks(range.count(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+      body(begin / kBlock, range.begin + static_cast<std::uint32_t>(begin),
+           range.begin + static_cast<std::uint32_t>(end));
     });
   };
   for_each_block(
-      [&](std::size_t block, std::uint32_t begin, std::uint32_t end) { blocks[block] = fill_bins(piece, begin, end); });
+      [&](std::size_t block, std::uint32_t begin, std::uint32_t end) { blocks[block] = fill_bins(range, begin, end); });
   BuildBins bins;
   for (const BuildBins& block : blocks) bins.add(block);
-  const BuildPlane plane(piece.centres, bins);
-  if (!plane.exists()) return split_at_median(piece);
+  const BuildPlane plane(range.centres, bins);
+  if (!plane.exists()) return split_at_median(range);
 
-  Pair pair = halves(piece, piece.begin + plane.count_left(bins));
+  Pair pair = halves(range, range.begin + plane.count_left(bins));
   std::vector<Pair> parts(blocks.size(), pair);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::uint32_t left = plane.count_left(blocks[i - 1]);
@@ -161,7 +161,7 @@ BvhBuilder::Pair BvhBuilder::split_wide(const Piece& piece, unsigned threads) {
     parts[i].right.begin = parts[i - 1].right.begin + (kBlock - left);
   }
   for_each_block([&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
-    move_apart(piece, plane, begin, end, parts[block]);
+    move_apart(range, plane, begin, end, parts[block]);
   });
   for (const Pair& part : parts) {
     grow(pair.left.centres, part.left.centres);
@@ -170,15 +170,15 @@ BvhBuilder::Pair BvhBuilder::split_wide(const Piece& piece, unsigned threads) {
   return pair;
 }
 
-BvhBuilder::Pair BvhBuilder::halves(const Piece& piece, std::uint32_t middle) {
-  const std::uint32_t depth = piece.depth + 1, array = 1 - piece.array;
-  return {{piece.begin, middle, depth, array, kEmptyBox}, {middle, piece.end, depth, array, kEmptyBox}};
+BvhBuilder::Pair BvhBuilder::halves(const Range& range, std::uint32_t middle) {
+  const std::uint32_t depth = range.depth + 1, array = 1 - range.array;
+  return {{range.begin, middle, depth, array, kEmptyBox}, {middle, range.end, depth, array, kEmptyBox}};
 }
 
-BuildBins BvhBuilder::fill_bins(const Piece& piece, std::uint32_t begin, std::uint32_t end) const {
-  const std::array<Binning, 3> binning = {Binning(piece.centres, 0), Binning(piece.centres, 1),
-                                          Binning(piece.centres, 2)};
-  const std::vector<BvhPrimitive>& primitives = arrays_[piece.array];
+BuildBins BvhBuilder::fill_bins(const Range& range, std::uint32_t begin, std::uint32_t end) const {
+  const std::array<Binning, 3> binning = {Binning(range.centres, 0), Binning(range.centres, 1),
+                                          Binning(range.centres, 2)};
+  const std::vector<BvhPrimitive>& primitives = arrays_[range.array];
   BuildBins bins;
   for (std::uint32_t i = begin; i < end; ++i) {
     const BvhPrimitive& primitive = primitives[i];
@@ -192,10 +192,10 @@ BuildBins BvhBuilder::fill_bins(const Piece& piece, std::uint32_t begin, std::ui
 }
 
 /// Moves primitives [begin, end) of a range to the two parts, and grows the boxes of their centres.
-void BvhBuilder::move_apart(const Piece& piece, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end,
+void BvhBuilder::move_apart(const Range& range, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end,
                             Pair& to) {
-  const std::vector<BvhPrimitive>& from = arrays_[piece.array];
-  std::vector<BvhPrimitive>& out = arrays_[1 - piece.array];
+  const std::vector<BvhPrimitive>& from = arrays_[range.array];
+  std::vector<BvhPrimitive>& out = arrays_[1 - range.array];
   std::uint32_t left = to.left.begin, right = to.right.begin;
   BuildBox left_centres = kEmptyBox, right_centres = kEmptyBox;  // in registers
   for (std::uint32_t i = begin; i < end; ++i) {
@@ -211,20 +211,20 @@ void BvhBuilder::move_apart(const Piece& piece, const BuildPlane& plane, std::ui
   to.right.centres = right_centres;
 }
 
-BvhBuilder::Pair BvhBuilder::split_at_median(const Piece& piece) {
+BvhBuilder::Pair BvhBuilder::split_at_median(const Range& range) {
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
-    if (extent(piece.centres, k) > extent(piece.centres, axis)) axis = k;
+    if (extent(range.centres, k) > extent(range.centres, axis)) axis = k;
   }
-  std::vector<BvhPrimitive>& primitives = arrays_[piece.array];
-  Pair pair = halves(piece, piece.begin + piece.count() / 2);
-  pair.left.array = pair.right.array = piece.array;
-  std::nth_element(primitives.begin() + piece.begin, primitives.begin() + pair.left.end, primitives.begin() + piece.end,
+  std::vector<BvhPrimitive>& primitives = arrays_[range.array];
+  Pair pair = halves(range, range.begin + range.count() / 2);
+  pair.left.array = pair.right.array = range.array;
+  std::nth_element(primitives.begin() + range.begin, primitives.begin() + pair.left.end, primitives.begin() + range.end,
                    [axis](const BvhPrimitive& a, const BvhPrimitive& b) {
                      const double ca = a.twice_centre(axis), cb = b.twice_centre(axis);
                      return ca != cb ? ca < cb : a.triangle < b.triangle;
                    });
-  for (Piece* part : {&pair.left, &pair.right}) {
+  for (Range* part : {&pair.left, &pair.right}) {
     for (std::uint32_t i = part->begin; i < part->end; ++i) grow_by_centre(part->centres, primitives[i]);
   }
   return pair;
@@ -239,20 +239,20 @@ std::vector<BvhNode> BvhBuilder::lay_out() {
   }
   std::vector<BvhNode> nodes(std::size_t{tops_[0].below} + 1);
   tops_[0].first = 1;
-  std::vector<std::uint32_t> places(tops_.size(), 0);
+  std::vector<std::uint32_t> positions(tops_.size(), 0);
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     const Top& top = tops_[i];
     if (top.left == 0) continue;
-    nodes[places[i]].first = top.first;
-    places[top.left] = top.first;
-    places[top.right] = top.first + 1;
+    nodes[positions[i]].first = top.first;
+    positions[top.left] = top.first;
+    positions[top.right] = top.first + 1;
     tops_[top.left].first = top.first + 2;
     tops_[top.right].first = top.first + 2 + tops_[top.left].below;
   }
   parallel_blocks(tops_.size(), 1, threads_, [&](std::size_t i, std::size_t) {
     const Top& top = tops_[i];
     for (std::uint32_t link = 0; link < top.subtree.size(); ++link) {
-      BvhNode& node = nodes[link == 0 ? places[i] : top.first + link - 1];
+      BvhNode& node = nodes[link == 0 ? positions[i] : top.first + link - 1];
       node.count = top.subtree[link].count;
       node.first = node.count != 0 ? top.subtree[link].first : top.first + top.subtree[link].first - 1;
     }

@@ -28,7 +28,7 @@ class BvhBuilder {
 
  private:
   /// A node to be: primitives [begin, end) of one of the two arrays, and the box around their doubled centres.
-  struct Piece {
+  struct Range {
     std::uint32_t begin = 0, end = 0;
     std::uint32_t depth = 0;
     std::uint32_t array = 0;
@@ -36,7 +36,7 @@ class BvhBuilder {
     std::uint32_t count() const { return end - begin; }
   };
   struct Pair {
-    Piece left, right;
+    Range left, right;
   };
   /// A node without its box; `first` of an inner node counts from the root of its subtree.
   struct Link {
@@ -44,27 +44,27 @@ class BvhBuilder {
   };
   /// A node of the upper part of the tree: inner, or the root of a subtree that is built by one thread.
   struct Top {
-    Piece piece;
+    Range range;
     std::uint32_t left = 0, right = 0;  // in tops_; 0: a subtree
     std::vector<Link> subtree;          // its root first
     std::uint32_t below = 0;            // nodes below it,
     std::uint32_t first = 0;            // and the position of the first of them
   };
 
-  Piece whole() const;
-  static Pair halves(const Piece& piece, std::uint32_t middle);
-  Pair split(const Piece& piece, unsigned threads);
-  Pair split_here(const Piece& piece);
-  Pair split_wide(const Piece& piece, unsigned threads);
-  Pair split_at_median(const Piece& piece);
-  BuildBins fill_bins(const Piece& piece, std::uint32_t begin, std::uint32_t end) const;
-  void move_apart(const Piece& piece, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end, Pair& to);
+  Range whole() const;
+  static Pair halves(const Range& range, std::uint32_t middle);
+  Pair split(const Range& range, unsigned threads);
+  Pair split_here(const Range& range);
+  Pair split_wide(const Range& range, unsigned threads);
+  Pair split_at_median(const Range& range);
+  BuildBins fill_bins(const Range& range, std::uint32_t begin, std::uint32_t end) const;
+  void move_apart(const Range& range, const BuildPlane& plane, std::uint32_t begin, std::uint32_t end, Pair& to);
   void split_tops();
   void build_subtrees();
-  void build_subtree(const Piece& piece, std::uint32_t place, std::vector<Link>& out);
-  void refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_t node, std::uint32_t depth, std::uint32_t place,
-                      std::vector<Link>& out);
-  void make_leaf(const Piece& piece, Link& leaf);
+  void build_subtree(const Range& range, std::uint32_t position, std::vector<Link>& out);
+  void refine_subtree(const std::vector<BvhNode>& coarse, std::uint32_t node, std::uint32_t depth,
+                      std::uint32_t position, std::vector<Link>& out);
+  void make_leaf(const Range& range, Link& leaf);
   std::vector<BvhNode> lay_out();
   std::uint32_t levels_of_halving(std::uint32_t count) const;
 

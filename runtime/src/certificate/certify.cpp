@@ -112,7 +112,7 @@ class Certifier {
     double distance;
   };
 
-  End look(const Point& p) const {
+  End evaluate(const Point& p) const {
     const BvhHit nearest = bvh_.closest(p);
     const double distance = std::sqrt(nearest.squared_distance);
     return {p, (1 / std::max(distance, rounding_)) * (nearest.point - p), distance};
@@ -123,14 +123,14 @@ class Certifier {
   // where the boundary is within twice epsilon, so that the ends lie in the solid if the centre does.
   std::vector<MedialSphere> narrowed(const MedialSphere& s) const {
     const Point across = widen(s.spoke_b) - widen(s.spoke_a);
-    if (norm(across) < 1e-3 || look(s.centre).distance <= 2 * epsilon_) return {};
+    if (norm(across) < 1e-3 || evaluate(s.centre).distance <= 2 * epsilon_) return {};
     const Point step = (epsilon_ / norm(across)) * across;
-    End p = look(s.centre - step), q = look(s.centre + step);
+    End p = evaluate(s.centre - step), q = evaluate(s.centre + step);
     const double sine = std::sin(double{s.object_angle});
     for (int i = 0; i < 64; ++i) {
       const double distance = std::min(p.distance, q.distance);
       if (norm(p.point - q.point) <= 0.5 * epsilon_ * sine * sine * distance / (distance + epsilon_)) break;
-      const End middle = look(0.5 * (p.point + q.point));
+      const End middle = evaluate(0.5 * (p.point + q.point));
       (dot(p.toward, middle.toward) < dot(middle.toward, q.toward) ? q : p) = middle;
     }
     MedialSphere at_p = s, at_q = s;

@@ -2,6 +2,7 @@
 #include <new>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/stopwatch.h"
 #include "medial_vk/certify.h"
 
@@ -39,7 +40,7 @@ Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const E
   try {
     return run_stages(mesh, options, extractor, progress, stop);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory while extracting; try a lower `resolution`"};
+    return out_of_memory("extracting", "try a lower `resolution`");
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, error.what()};
   }

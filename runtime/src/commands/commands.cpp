@@ -11,8 +11,8 @@ namespace {
 Error submission_error(const Context::Impl& context, const char* call, VkResult result) {
   if (result != VK_ERROR_DEVICE_LOST) return vulkan_error(call, result);
   return {ErrorCode::kInternal, "the device \"" + context.description.name + "\" was lost while it computed (" + call +
-                                    "): its driver crashed, or stopped a dispatch that took too long; try another "
-                                    "device or a smaller memory budget"};
+                                    "): its driver crashed, or stopped a dispatch that took too long; choose "
+                                    "another `device` or lower `memory_budget`"};
 }
 
 }  // namespace

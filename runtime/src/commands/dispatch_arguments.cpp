@@ -35,7 +35,7 @@ Status DispatchArguments::create(Arena& arena, const Buffer& counters, const Sto
   stop_ = &stop;
   is_stage_ = is_stage;
   Result<Buffer> table =
-      arena.create_buffer(kRows * sizeof(gpu::DispatchConstants), MemoryKind::kDevice, "what sizes dispatches");
+      arena.create_buffer(kRows * sizeof(gpu::DispatchConstants), MemoryKind::kDevice, "sizes of dispatches");
   if (!table.ok()) return table.error();
   table_ = table.value();
   Result<Buffer> arguments =

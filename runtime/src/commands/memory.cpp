@@ -265,7 +265,7 @@ Arena::Block* Arena::find_room(std::uint32_t type, VkDeviceSize size, VkDeviceSi
 
 VkResult Arena::add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedicated_to) {
   const VkMemoryType& properties = context_->memory.memoryTypes[type];
-  // Asking for more than the heap is an invalid call, not one that fails.
+  // A request for more than the heap is an invalid call, not one that fails.
   if (size > context_->memory.memoryHeaps[properties.heapIndex].size) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   VkMemoryDedicatedAllocateInfo dedicated{};
   dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;

@@ -9,7 +9,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr VkDeviceSize kPiece = 4ull << 20;  // a transfer of a tenth of a millisecond or more
+constexpr VkDeviceSize kBlockBytes = 4ull << 20;  // a transfer of a tenth of a millisecond or more
 
 }  // namespace
 
@@ -18,30 +18,30 @@ Uploads::Uploads(Context::Impl& context)
       arena_(context),
       sent_(context),
       received_(context),
-      pieces_{Piece(context, Commands::queue_for_transfers(context)),
-              Piece(context, Commands::queue_for_transfers(context))} {}
+      blocks_{Block(context, Commands::queue_for_transfers(context)),
+              Block(context, Commands::queue_for_transfers(context))} {}
 
 Uploads::~Uploads() {
-  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_}) commands->drain();
+  for (Commands* commands : {&blocks_[0].commands, &blocks_[1].commands, &received_}) commands->drain();
 }
 
-Status Uploads::begin(Piece& piece) {
-  if (Status emptied = piece.commands.wait(); !emptied.ok()) return emptied;
-  if (piece.memory.mapped == nullptr) {
-    Result<Buffer> made = arena_.create_buffer(kPiece, MemoryKind::kUpload, "staging");
+Status Uploads::begin(Block& block) {
+  if (Status emptied = block.commands.wait(); !emptied.ok()) return emptied;
+  if (block.memory.mapped == nullptr) {
+    Result<Buffer> made = arena_.create_buffer(kBlockBytes, MemoryKind::kUpload, "staging");
     if (!made.ok()) return made.error();
-    piece.memory = made.value();
+    block.memory = made.value();
   }
-  piece.used = 0;
-  if (Status begun = piece.commands.begin(); !begun.ok()) return begun;
-  piece.records = true;
+  block.used = 0;
+  if (Status begun = block.commands.begin(); !begun.ok()) return begun;
+  block.records = true;
   return {};
 }
 
-Status Uploads::send(Piece& piece, const Semaphore* signal) {
-  piece.records = false;
-  piece.commands.recorder().barrier();  // for the commands of later submissions to this queue
-  return piece.commands.submit(nullptr, signal);
+Status Uploads::send(Block& block, const Semaphore* signal) {
+  block.records = false;
+  block.commands.recorder().barrier();  // for the commands of later submissions to this queue
+  return block.commands.submit(nullptr, signal);
 }
 
 Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
@@ -54,18 +54,18 @@ Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
     return {};
   }
   for (std::size_t done = 0; done < bytes.size();) {
-    Piece& piece = pieces_[current_];
-    if (!piece.records) {
-      if (Status begun = begin(piece); !begun.ok()) return begun;
+    Block& block = blocks_[current_];
+    if (!block.records) {
+      if (Status begun = begin(block); !begun.ok()) return begun;
     }
-    const std::size_t count = std::min<std::size_t>(bytes.size() - done, piece.memory.size - piece.used);
-    std::memcpy(static_cast<std::byte*>(piece.memory.mapped) + piece.used, bytes.data() + done, count);
-    piece.commands.recorder().copy(piece.memory, piece.used, buffer, done, count);
-    piece.used += count;
+    const std::size_t count = std::min<std::size_t>(bytes.size() - done, block.memory.size - block.used);
+    std::memcpy(static_cast<std::byte*>(block.memory.mapped) + block.used, bytes.data() + done, count);
+    block.commands.recorder().copy(block.memory, block.used, buffer, done, count);
+    block.used += count;
     done += count;
     is_sending_ = true;
-    if (piece.used == piece.memory.size) {
-      if (Status sent = send(piece, nullptr); !sent.ok()) return sent;
+    if (block.used == block.memory.size) {
+      if (Status sent = send(block, nullptr); !sent.ok()) return sent;
       current_ = 1 - current_;
     }
   }
@@ -75,7 +75,7 @@ Status Uploads::add(const Buffer& buffer, std::span<const std::byte> bytes) {
 Status Uploads::flush() {
   if (!is_sending_) return {};
   is_sending_ = false;
-  Piece& last = pieces_[current_];
+  Block& last = blocks_[current_];
   const bool has_own_queue = context_->transfer_queue != VK_NULL_HANDLE;
   if (!has_own_queue) return last.records ? send(last, nullptr) : Status();
   if (!last.records) {  // the previous one was full and is pending: the signal follows it
@@ -92,7 +92,7 @@ Status Uploads::flush() {
 
 Status Uploads::finish() {
   if (Status sent = flush(); !sent.ok()) return sent;
-  for (Commands* commands : {&pieces_[0].commands, &pieces_[1].commands, &received_})
+  for (Commands* commands : {&blocks_[0].commands, &blocks_[1].commands, &received_})
     if (Status done = commands->wait(); !done.ok()) return done;
   return {};
 }

@@ -32,21 +32,21 @@ class Uploads {
   Status finish();
 
  private:
-  struct Piece {
-    Piece(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
+  struct Block {
+    Block(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
     Buffer memory;
     VkDeviceSize used = 0;
     bool records = false;
     Commands commands;
   };
-  Status begin(Piece& piece);
-  Status send(Piece& piece, const Semaphore* signal);
+  Status begin(Block& block);
+  Status send(Block& block, const Semaphore* signal);
 
   Context::Impl* context_;
   Arena arena_;
   Semaphore sent_;
   Commands received_;  // on the queue of the kernels
-  std::array<Piece, 2> pieces_;
+  std::array<Block, 2> blocks_;
   std::size_t current_ = 0;
   bool is_sending_ = false;
 };

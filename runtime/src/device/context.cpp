@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "device/context_impl.h"
 #include "device/device_selection.h"
 #include "device/instance.h"
@@ -144,7 +145,7 @@ Result<Context> Context::create(const ContextOptions& options) try {
   if (Status status = impl->initialize(options); !status.ok()) return status.error();
   return Context(std::move(impl));
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while opening a Vulkan device"};
+  return out_of_memory("opening a Vulkan device");
 }
 
 Result<std::vector<DeviceDescription>> Context::list_devices() try {
@@ -161,7 +162,7 @@ Result<std::vector<DeviceDescription>> Context::list_devices() try {
   for (PhysicalDevice& device : devices.value()) descriptions.push_back(std::move(device.description));
   return descriptions;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while listing Vulkan devices"};
+  return out_of_memory("listing Vulkan devices");
 }
 
 const DeviceDescription& Context::device() const { return impl_->description; }

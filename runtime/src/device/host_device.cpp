@@ -1,5 +1,6 @@
 #include <volk.h>
 
+#include "base/host_memory.h"
 #include "medial_vk/host_device.h"
 
 #include <array>
@@ -60,7 +61,7 @@ Status check_device(const HostDevice& host) try {
   if (!device.ok()) return device.error();
   return {};
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while looking at a Vulkan device"};
+  return out_of_memory("testing a Vulkan device");
 }
 
 Status Context::Impl::adopt(const HostDevice& host) {
@@ -93,7 +94,7 @@ Result<Context> Context::adopt(const HostDevice& host) try {
   if (Status status = impl->adopt(host); !status.ok()) return status.error();
   return Context(std::move(impl));
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while taking over a Vulkan device"};
+  return out_of_memory("adopting a Vulkan device");
 }
 
 }  // namespace medial_vk

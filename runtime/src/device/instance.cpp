@@ -104,8 +104,8 @@ Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
                                  const VkAllocationCallbacks* allocation_callbacks) {
   if (const Status loaded = load_vulkan(); !loaded.ok()) return loaded.error();
   if (validation && !has_validation_layer()) {
-    return Error{ErrorCode::kNoDevice, std::string("validation was asked for, but the layer ") + kValidationLayer +
-                                           " is not installed; install vulkan-validationlayers"};
+    return Error{ErrorCode::kNoDevice, std::string("`validation` requires the layer ") + kValidationLayer +
+                                           "; install vulkan-validationlayers"};
   }
 
   VkApplicationInfo application{};

@@ -82,7 +82,7 @@ Status DeviceMesh::update(const IndexedMesh& moved) {
 
 Status DeviceMesh::update(const IndexedMesh& moved, const Uploader& uploader) {
   if (moved.bvh().order() != order || moved.view().vertices.size() != source_.view().vertices.size()) {
-    return Error{ErrorCode::kUsage, "the mesh is another one than that on the device, not that one moved"};
+    return Error{ErrorCode::kUsage, "the mesh is not a moved copy of the one on the device"};
   }
   source_ = moved;
   intact = false;
@@ -199,7 +199,7 @@ Status DeviceMesh::upload_links(const Uploader& uploader) {
   has_untrusted = has_untrusted || std::ranges::any_of(links.links, [](const gpu::TriangleLinks& l) {
                     return (l.flags & (gpu::kLinkWhole | gpu::kLinkBothSides)) != 0u;
                   });
-  Status status = fill_texels(uploader, std::as_bytes(std::span(links.links)), "what triangles share with neighbours",
+  Status status = fill_texels(uploader, std::as_bytes(std::span(links.links)), "links of triangles to neighbours",
                               VK_FORMAT_R32G32B32A32_UINT, triangle_links, link_texels);
   if (!status.ok()) return status;
   return fill_texels(uploader, std::as_bytes(std::span(links.corners)), "spokes to vertices", kFloats, corner_cones,

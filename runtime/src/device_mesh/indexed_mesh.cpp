@@ -45,7 +45,7 @@ Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, st
 
 IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-Result<IndexedMesh> IndexedMesh::create(PreparedMesh mesh, unsigned threads) {
+Result<IndexedMesh> IndexedMesh::build(PreparedMesh mesh, unsigned threads) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
     if (Status status = check_flags(mesh.flags.size(), mesh.mesh.triangles.size()); !status.ok()) return status.error();
     Result<Bvh> bvh = Bvh::build(mesh.view(), DeviceMesh::kLeafSize, threads);
@@ -56,7 +56,7 @@ Result<IndexedMesh> IndexedMesh::create(PreparedMesh mesh, unsigned threads) {
   });
 }
 
-Result<IndexedMesh> IndexedMesh::create(const MeshView& mesh, unsigned threads) {
+Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, unsigned threads) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
     PreparedMesh copy;
     copy.mesh.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());

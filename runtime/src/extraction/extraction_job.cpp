@@ -145,7 +145,7 @@ Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh&
                                             const JobOptions& job) {
   if (Status status = check_options(options); !status.ok()) return status.error();
   if (options.mode != Mode::kCertified || job.frames == 0)
-    return Error{ErrorCode::kUsage, "a recorded job is of mode certified, and of one frame at least"};
+    return Error{ErrorCode::kUsage, "a recorded job requires `mode` certified, and `frames` of at least 1"};
   return catch_out_of_memory("preparing a job", [&]() -> Result<ExtractionJob> {
     Result<StopWord> stop = StopWord::create(Internals::of(context));
     if (!stop.ok()) return stop.error();

@@ -58,7 +58,7 @@ class ClipPolytope::Cut {
       if (goes(b)) {
         left_at = crossing;
       } else if (crossing != left_at) {
-        cap_pieces_.emplace_back(crossing, left_at);
+        cap_edges_.emplace_back(crossing, left_at);
       }
       if (out.corners.empty() || out.corners.back() != crossing) out.corners.push_back(crossing);
     }
@@ -68,17 +68,17 @@ class ClipPolytope::Cut {
   /// The new faces: one in exact arithmetic. As many segments start at a vertex as end there, so every walk is closed.
   std::vector<Face> caps() {
     std::vector<Face> out;
-    while (!cap_pieces_.empty()) {
+    while (!cap_edges_.empty()) {
       Face cap = {{}, name_};
-      const std::uint32_t start = cap_pieces_.front().first;
+      const std::uint32_t start = cap_edges_.front().first;
       std::uint32_t at = start;
       do {
-        const auto piece = std::find_if(cap_pieces_.begin(), cap_pieces_.end(),
-                                        [&](const auto& candidate) { return candidate.first == at; });
-        if (piece == cap_pieces_.end()) break;
+        const auto edge = std::find_if(cap_edges_.begin(), cap_edges_.end(),
+                                       [&](const auto& candidate) { return candidate.first == at; });
+        if (edge == cap_edges_.end()) break;
         cap.corners.push_back(at);
-        at = piece->second;
-        cap_pieces_.erase(piece);
+        at = edge->second;
+        cap_edges_.erase(edge);
       } while (at != start);
       out.push_back(std::move(cap));
     }
@@ -105,7 +105,7 @@ class ClipPolytope::Cut {
   std::int32_t name_;
   std::vector<double> heights_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> cap_pieces_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> cap_edges_;
 };
 
 void ClipPolytope::clip(const HalfSpace& half_space, std::int32_t name, double margin) {

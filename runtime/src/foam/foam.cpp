@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/point_math.h"
 #include "foam/clip_polytope.h"
 #include "foam/foam_region.h"
@@ -202,10 +203,11 @@ Foam::~Foam() = default;
 
 Result<Foam> Foam::build(std::span<const FoamSample> samples, const Ball& sphere, double query_error) try {
   const auto usage = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
-  if (samples.empty()) return usage("foam: no sample");
+  if (samples.empty()) return usage("foam: `samples` must not be empty");
   if (!is_finite(sphere.centre) || !std::isfinite(sphere.radius) || sphere.radius <= 0)
-    return usage("foam: the sphere's radius is not positive, or a number is not finite");
-  if (!std::isfinite(query_error) || query_error < 0) return usage("foam: the query error is negative or not finite");
+    return usage("foam: the radius of `sphere` must be positive and all of its numbers finite");
+  if (!std::isfinite(query_error) || query_error < 0)
+    return usage("foam: `query_error` must be finite and not negative");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::string name = "foam: sample " + std::to_string(i);
     if (!is_finite(samples[i].query) || !is_finite(samples[i].nearest))
@@ -215,7 +217,7 @@ Result<Foam> Foam::build(std::span<const FoamSample> samples, const Ball& sphere
   }
   return Foam(std::make_unique<const Impl>(samples, sphere, query_error));
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while building a foam"};
+  return out_of_memory("building a foam");
 }
 
 const Ball& Foam::sphere() const { return impl_->sphere(); }

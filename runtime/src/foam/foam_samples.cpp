@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/point_math.h"
 #include "base/spiral.h"
 #include "medial_vk/foam.h"
@@ -12,11 +13,11 @@ namespace medial_vk {
 
 namespace {
 
-Result<std::vector<Point>> ask(const NearestPointsFunction& nearest, const std::vector<Point>& queries) {
+Result<std::vector<Point>> evaluate(const NearestPointsFunction& nearest, const std::vector<Point>& queries) {
   auto answers = nearest(queries);
   if (answers.ok() && answers.value().size() != queries.size()) {
-    return Error{ErrorCode::kUsage, "foam: " + std::to_string(queries.size()) + " nearest points were asked for, " +
-                                        std::to_string(answers.value().size()) + " came"};
+    return Error{ErrorCode::kUsage, "foam: `nearest` returned " + std::to_string(answers.value().size()) +
+                                        " points for " + std::to_string(queries.size()) + " queries"};
   }
   return answers;
 }
@@ -43,7 +44,7 @@ Status test_segments(SphereSamples& out, const std::vector<Segment>& segments, d
   std::vector<Point> queries;
   queries.reserve(segments.size());
   for (const Segment& s : segments) queries.push_back(s.far_end);
-  const auto answers = ask(nearest, queries);
+  const auto answers = evaluate(nearest, queries);
   if (!answers.ok()) return answers.error();
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const Point& far_end = segments[k].far_end;
@@ -80,12 +81,12 @@ Ball sphere_around_voxel(const Point& centre, double side) { return {centre, std
 
 Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
                                     const NearestPointsFunction& nearest) try {
-  if (!(sphere.radius > 0)) return Error{ErrorCode::kUsage, "foam: the sphere's radius is not positive"};
+  if (!(sphere.radius > 0)) return Error{ErrorCode::kUsage, "foam: the radius of `sphere` must be positive"};
   std::vector<Point> queries;
   for (const Point& direction : spiral_points(sampling.count))
     queries.push_back(sphere.centre + sphere.radius * direction);
   if (sampling.deep_samples) queries.push_back(sphere.centre);
-  const auto answers = ask(nearest, queries);
+  const auto answers = evaluate(nearest, queries);
   if (!answers.ok()) return answers.error();
 
   SphereSamples out;
@@ -110,7 +111,7 @@ Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sa
   if (!tested.ok()) return tested.error();
   return out;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while sampling a sphere"};
+  return out_of_memory("sampling a sphere");
 }
 
 Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
@@ -119,7 +120,7 @@ Status refine_samples(SphereSamples& samples, const Foam& foam, double query_err
   for (const FoamBall& f : foam.full_balls()) {
     if (f.kind != FoamBallKind::kHullVertex) queries.push_back(f.ball.centre);
   }
-  const auto answers = ask(nearest, queries);
+  const auto answers = evaluate(nearest, queries);
   if (!answers.ok()) return answers.error();
   std::vector<Segment> segments;
   std::vector<FoamSample> towards;
@@ -131,7 +132,7 @@ Status refine_samples(SphereSamples& samples, const Foam& foam, double query_err
   samples.samples.insert(samples.samples.end(), towards.begin(), towards.end());
   return test_segments(samples, segments, query_error, nearest);
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "out of memory while refining the samples of a sphere"};
+  return out_of_memory("refining the samples of a sphere");
 }
 
 }  // namespace medial_vk

@@ -20,7 +20,7 @@ class Builder {
  public:
   Builder(const VoxelGraph& graph, const MedialMeshOptions& options)
       : graph_(graph), options_(options), hosts_(graph.size(), kNone) {
-    for (std::uint32_t place = 0; place < graph.size(); ++place) find_leader(place);
+    for (std::uint32_t position = 0; position < graph.size(); ++position) find_leader(position);
   }
 
   Result<MedialMesh> run() {
@@ -33,9 +33,9 @@ class Builder {
       mesh.triangles.push_back({graph_.index(a), graph_.index(b), graph_.index(c)});
     }
     for (const auto& [a, b] : surface.edges) mesh.edges.push_back({graph_.index(a), graph_.index(b)});
-    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
-      if (hosts_[place] == kNone) continue;
-      mesh.edges.push_back({graph_.index(place), graph_.index(hosts_[place])});
+    for (std::uint32_t position = 0; position < graph_.size(); ++position) {
+      if (hosts_[position] == kNone) continue;
+      mesh.edges.push_back({graph_.index(position), graph_.index(hosts_[position])});
       ++mesh.topology.hosted_points;
     }
     return mesh;
@@ -49,12 +49,12 @@ class Builder {
 
   /// Points close together at the wall between two voxels are copies of one point of the medial surface, in an
   /// arbitrary order along the normal. The first of them that has no representative itself represents them.
-  void find_leader(std::uint32_t place) {
+  void find_leader(std::uint32_t position) {
     const double reach = 2 * options_.epsilon;
-    for (const std::uint32_t other : graph_.neighbours(place)) {
-      if (other > place) return;
-      if (hosts_[other] != kNone || squared_distance(place, other) > reach * reach) continue;
-      hosts_[place] = other;
+    for (const std::uint32_t other : graph_.neighbours(position)) {
+      if (other > position) return;
+      if (hosts_[other] != kNone || squared_distance(position, other) > reach * reach) continue;
+      hosts_[position] = other;
       return;
     }
   }
@@ -63,10 +63,10 @@ class Builder {
   std::vector<Ball> grown_balls() const {
     std::vector<Ball> balls;
     balls.reserve(graph_.size());
-    for (std::uint32_t place = 0; place < graph_.size(); ++place) {
-      const MedialSphere& sphere = graph_.sphere(place);
+    for (std::uint32_t position = 0; position < graph_.size(); ++position) {
+      const MedialSphere& sphere = graph_.sphere(position);
       // A ball without a radius is no part of the complex.
-      const double radius = hosts_[place] == kNone ? std::hypot(sphere.radius, options_.growth) : 0;
+      const double radius = hosts_[position] == kNone ? std::hypot(sphere.radius, options_.growth) : 0;
       balls.push_back({sphere.centre, radius});
     }
     return balls;
@@ -79,19 +79,19 @@ class Builder {
 
   /// A ball without a share of the union: the ball in whose power cell its centre lies is its host.
   void host_hidden(const std::vector<std::uint32_t>& vertices) {
-    for (std::uint32_t place = 0, n = 0; place < graph_.size(); ++place) {
-      while (n < vertices.size() && vertices[n] < place) ++n;
-      const bool is_vertex = n < vertices.size() && vertices[n] == place;
-      if (!is_vertex && hosts_[place] == kNone) hosts_[place] = vertex_of_least_power(place, vertices);
+    for (std::uint32_t position = 0, n = 0; position < graph_.size(); ++position) {
+      while (n < vertices.size() && vertices[n] < position) ++n;
+      const bool is_vertex = n < vertices.size() && vertices[n] == position;
+      if (!is_vertex && hosts_[position] == kNone) hosts_[position] = vertex_of_least_power(position, vertices);
     }
   }
 
-  std::uint32_t vertex_of_least_power(std::uint32_t place, const std::vector<std::uint32_t>& vertices) const {
+  std::uint32_t vertex_of_least_power(std::uint32_t position, const std::vector<std::uint32_t>& vertices) const {
     std::uint32_t host = kNone;
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t vertex : vertices) {
       const double radius = graph_.sphere(vertex).radius;
-      const double power = squared_distance(place, vertex) - radius * radius;
+      const double power = squared_distance(position, vertex) - radius * radius;
       if (power >= least) continue;
       least = power;
       host = vertex;

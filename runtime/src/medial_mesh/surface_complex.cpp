@@ -7,13 +7,13 @@ namespace medial_vk {
 namespace {
 
 std::vector<std::array<std::uint32_t, 3>> sides_of(const DualComplex& complex) {
-  const auto place = [&](std::uint32_t a, std::uint32_t b) {
+  const auto index_of = [&](std::uint32_t a, std::uint32_t b) {
     const auto found = std::lower_bound(complex.edges.begin(), complex.edges.end(), std::array{a, b});
     return static_cast<std::uint32_t>(found - complex.edges.begin());
   };
   std::vector<std::array<std::uint32_t, 3>> sides;
   sides.reserve(complex.triangles.size());
-  for (const auto& [a, b, c] : complex.triangles) sides.push_back({place(a, b), place(a, c), place(b, c)});
+  for (const auto& [a, b, c] : complex.triangles) sides.push_back({index_of(a, b), index_of(a, c), index_of(b, c)});
   return sides;
 }
 

@@ -120,7 +120,7 @@ void drop_degenerate(PreparedMesh& prepared) {
       }
     }
     if (dropped > 0) keep_triangles(prepared, keep);
-    prepared.report.degenerate_dropped += dropped;
+    prepared.report.degenerates_dropped += dropped;
   };
   drop(has_repeated_corner);
   // Each repair removes one cap; the parts of a neighbour that was a cap too are shorter caps, hence the rounds.
@@ -130,7 +130,7 @@ void drop_degenerate(PreparedMesh& prepared) {
     if (repaired == 0) break;
     prepared.report.caps_repaired += repaired;
   }
-  prepared.report.degenerate_dropped += prepared.report.caps_repaired;
+  prepared.report.degenerates_dropped += prepared.report.caps_repaired;
   drop([&](const Triangle& t) { return is_flat(vertices, t); });
 }
 
@@ -268,7 +268,7 @@ void clean_mesh(PreparedMesh& prepared) {
   prepared.report.merged_vertices = vertices_before - mesh.vertices.size();
   prepared.input_of_triangle.resize(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) prepared.input_of_triangle[i] = i;
-  prepared.report.degenerate_dropped = mesh.short_polygons;
+  prepared.report.degenerates_dropped = mesh.short_polygons;
   prepared.report.fallback_polygons = mesh.fallback_polygons;
   drop_degenerate(prepared);
   drop_duplicates(prepared);

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "medial_vk/prepare.h"
 
 namespace medial_vk {
@@ -32,7 +33,7 @@ void carry_over(const MeshReport& before, MeshReport& after) {
   after.merged_vertices += before.merged_vertices;
   after.unused_vertices += before.unused_vertices;
   after.fallback_polygons += before.fallback_polygons;
-  after.degenerate_dropped += before.degenerate_dropped;
+  after.degenerates_dropped += before.degenerates_dropped;
   after.caps_repaired += before.caps_repaired;
   after.duplicates_dropped += before.duplicates_dropped;
   after.inner_walls_dropped += before.inner_walls_dropped;
@@ -78,12 +79,12 @@ Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint
   MeshReport& report = perturbed.value().report;
   carry_over(before, report);
   report.assumptions.push_back(fmt::format(
-      "Every vertex was moved by up to {} of the longest side (`perturb`, seed {}); the points are those of "
+      "Every vertex was moved by up to {} of the longest side (`amplitude`, seed {}); the points are those of "
       "the moved mesh.",
       amplitude, seed));
   return perturbed;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "not enough memory to move the vertices of the mesh"};
+  return out_of_memory("moving the vertices of the mesh");
 }
 
 }  // namespace medial_vk

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
 #include "mesh/clean_mesh.h"
@@ -42,8 +43,7 @@ Status check_input(const Mesh& mesh) {
       }
       for (const double x : mesh.vertices[v]) {
         if (!(std::fabs(x) <= kLargest)) {
-          return invalid(
-              fmt::format("vertex {} has the coordinate {:g}; up to {:g} can be worked with", v, x, kLargest));
+          return invalid(fmt::format("vertex {} has the coordinate {:g}; up to {:g} can be handled", v, x, kLargest));
         }
       }
     }
@@ -57,14 +57,14 @@ Status check_extent(const MeshReport& report) {
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, report.upper[k] - report.lower[k]);
   if (!(longest >= 1e-50 && longest <= 1e50)) {
-    return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be worked with", longest));
+    return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be handled", longest));
   }
   double farthest = 0;
   for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
   if (farthest <= kFarthest * longest) return {};
   return invalid(
       fmt::format("the mesh is {:g} units long and lies {:g} from the origin, where its points can hardly be "
-                  "told apart (double precision); move it closer",
+                  "distinguished (double precision); move it closer",
                   longest, farthest));
 }
 
@@ -166,7 +166,7 @@ Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads) {
   try {
     return prepare(std::move(mesh), threads);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to prepare the mesh"};
+    return out_of_memory("preparing the mesh");
   }
 }
 

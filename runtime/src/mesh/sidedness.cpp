@@ -29,12 +29,13 @@ class SideFinder {
         intersections_(intersections),
         threads_(threads) {
     sides_.beside.assign(mesh.triangles.size(), kUnknown);
-    place_of_.resize(mesh.triangles.size());
-    for (std::uint32_t place = 0; place < tree.order.size(); ++place) place_of_[tree.order[place]] = place;
+    position_of_.resize(mesh.triangles.size());
+    for (std::uint32_t position = 0; position < tree.order.size(); ++position)
+      position_of_[tree.order[position]] = position;
     area_.resize(mesh.triangles.size());
-    for (std::size_t place = 0; place < area_.size(); ++place) {
-      const auto& c = tree.corners[place];
-      area_[tree.order[place]] = length(cross(c[1] - c[0], c[2] - c[0])) / 2;
+    for (std::size_t position = 0; position < area_.size(); ++position) {
+      const auto& c = tree.corners[position];
+      area_[tree.order[position]] = length(cross(c[1] - c[0], c[2] - c[0])) / 2;
     }
   }
 
@@ -64,14 +65,14 @@ class SideFinder {
       std::uint32_t& best = largest[parts_.patch_of[t]];
       if (best == kNoTriangle || area_[t] > area_[best]) best = t;
     }
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> positions;
     for (const std::uint32_t t : largest) {
-      if (t != kNoTriangle) places.push_back(place_of_[t]);
+      if (t != kNoTriangle) positions.push_back(position_of_[t]);
     }
-    std::sort(places.begin(), places.end());
-    const std::vector<float> found = evaluate_closed(places);
+    std::sort(positions.begin(), positions.end());
+    const std::vector<float> found = evaluate_closed(positions);
     std::vector<float> value(parts_.patches, kUnknown);
-    for (std::size_t i = 0; i < places.size(); ++i) value[parts_.patch_of[tree_.order[places[i]]]] = found[i];
+    for (std::size_t i = 0; i < positions.size(); ++i) value[parts_.patch_of[tree_.order[positions[i]]]] = found[i];
     std::vector<bool> counted(parts_.components, false);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (!is_simple[parts_.component_of[t]]) continue;
@@ -86,18 +87,18 @@ class SideFinder {
 
   /// Where patches are large and close to each other, a value from the tree evaluates every triangle. So most values
   /// are those of their neighbours in the tree, plus the crossings between.
-  std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& places) const {
-    std::vector<std::optional<int>> step(places.size());
-    parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
+  std::vector<float> evaluate_closed(const std::vector<std::uint32_t>& positions) const {
+    std::vector<std::optional<int>> step(positions.size());
+    parallel_for(positions.size(), 16, threads_, [&](std::size_t i) {
       std::uint64_t cost = 0;
-      if (i > 0) step[i] = winding_step(tree_, places[i - 1], places[i], cost);
+      if (i > 0) step[i] = winding_step(tree_, positions[i - 1], positions[i], cost);
     });
-    std::vector<float> value(places.size());
+    std::vector<float> value(positions.size());
     const WindingTree winding(tree_);
-    parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
-      if (!step[i]) value[i] = half_integer(winding.beside(places[i]));
+    parallel_for(positions.size(), 16, threads_, [&](std::size_t i) {
+      if (!step[i]) value[i] = half_integer(winding.beside(positions[i]));
     });
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
       if (step[i]) value[i] = value[i - 1] + static_cast<float>(*step[i]);
     }
     return value;
@@ -113,18 +114,19 @@ class SideFinder {
     const WindingTree winding(tree_);
     std::vector<bool> wanted(mesh_.triangles.size(), false);
     for (const std::uint32_t t : triangles) wanted[t] = true;
-    const std::size_t places = tree_.order.size();
+    const std::size_t positions = tree_.order.size();
     // The number of blocks is limited, as the last value of each may exceed its allowance by all triangles.
     constexpr std::size_t kMostBlocks = 1024;
-    const std::size_t block = std::max<std::size_t>(256, (places + kMostBlocks - 1) / kMostBlocks);
-    const std::size_t blocks = (places + block - 1) / block;
+    const std::size_t block = std::max<std::size_t>(256, (positions + kMostBlocks - 1) / kMostBlocks);
+    const std::size_t blocks = (positions + block - 1) / block;
     // Evaluations of triangles, some seconds in total and more for larger meshes. Ordinary meshes take 70 to 500 per
     // value.
     constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
     const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
     std::atomic<bool> complete = true;
     parallel_for(blocks, 1, threads_, [&](std::size_t i) {
-      if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, places), allowance)) complete = false;
+      if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, positions), allowance))
+        complete = false;
     });
     sides_.known = sides_.known && complete;
   }
@@ -135,11 +137,11 @@ class SideFinder {
     std::uint64_t cost = 0;
     constexpr std::size_t kPasses = 16;
     for (std::size_t pass = 0; pass < kPasses; ++pass) {
-      for (std::size_t place = first + pass; place < last; place += kPasses) {
-        const std::uint32_t t = tree_.order[place];
+      for (std::size_t position = first + pass; position < last; position += kPasses) {
+        const std::uint32_t t = tree_.order[position];
         if (!wanted[t]) continue;
         if (cost > allowance) return false;
-        const double w = winding.beside(static_cast<std::uint32_t>(place), cost);
+        const double w = winding.beside(static_cast<std::uint32_t>(position), cost);
         // A crossed triangle has no single value.
         sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
       }
@@ -183,10 +185,10 @@ class SideFinder {
     std::vector<double> found(samples, 0);
     parallel_for(samples, 4, threads_, [&](std::size_t i) {
       const std::uint32_t at = component[i * step];
-      const auto& c = tree_.corners[place_of_[at]];
+      const auto& c = tree_.corners[position_of_[at]];
       const Point centroid = c[0] + (1.0 / 3) * ((c[1] - c[0]) + (c[2] - c[0]));
       for (const std::uint32_t t : component) {
-        if (t != at) found[i] += triangle_winding(tree_.corners[place_of_[t]], centroid);
+        if (t != at) found[i] += triangle_winding(tree_.corners[position_of_[t]], centroid);
       }
       found[i] *= area_[at];
     });
@@ -197,7 +199,7 @@ class SideFinder {
 
   void turn(std::uint32_t t) {
     turn_triangle(mesh_, topology_, t);
-    std::swap(tree_.corners[place_of_[t]][1], tree_.corners[place_of_[t]][2]);
+    std::swap(tree_.corners[position_of_[t]][1], tree_.corners[position_of_[t]][2]);
     ++sides_.turned_faces;
   }
 
@@ -208,7 +210,7 @@ class SideFinder {
   const bool closed_;
   const SelfIntersections& intersections_;
   const unsigned threads_;
-  std::vector<std::uint32_t> place_of_;
+  std::vector<std::uint32_t> position_of_;
   std::vector<double> area_;
   Sidedness sides_;
 };

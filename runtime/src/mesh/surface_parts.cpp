@@ -10,15 +10,15 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 /// Numbers the sets of triangles that are connected over the edges for which `passes`, in the order of their first
 /// triangle.
 template <class Passes>
-std::uint32_t number_pieces(const Mesh& mesh, const MeshTopology& topology, Passes passes,
-                            std::vector<std::uint32_t>& piece_of) {
-  piece_of.assign(mesh.triangles.size(), kNone);
+std::uint32_t number_parts(const Mesh& mesh, const MeshTopology& topology, Passes passes,
+                           std::vector<std::uint32_t>& part_of) {
+  part_of.assign(mesh.triangles.size(), kNone);
   std::vector<std::uint32_t> stack;
   std::vector<bool> crossed(topology.edge_count(), false);  // once: thousands of triangles may share one
-  std::uint32_t pieces = 0;
-  for (std::uint32_t start = 0; start < piece_of.size(); ++start) {
-    if (piece_of[start] != kNone) continue;
-    piece_of[start] = pieces;
+  std::uint32_t count = 0;
+  for (std::uint32_t start = 0; start < part_of.size(); ++start) {
+    if (part_of[start] != kNone) continue;
+    part_of[start] = count;
     stack.assign(1, start);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
@@ -28,22 +28,22 @@ std::uint32_t number_pieces(const Mesh& mesh, const MeshTopology& topology, Pass
         if (crossed[edge] || !passes(edge)) continue;
         crossed[edge] = true;
         for (const std::uint32_t other : topology.triangles_of(edge)) {
-          if (piece_of[other] != kNone) continue;
-          piece_of[other] = pieces;
+          if (part_of[other] != kNone) continue;
+          part_of[other] = count;
           stack.push_back(other);
         }
       }
     }
-    ++pieces;
+    ++count;
   }
-  return pieces;
+  return count;
 }
 
 }  // namespace
 
 SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology) {
   SurfaceParts parts;
-  parts.components = number_pieces(
+  parts.components = number_parts(
       mesh, topology, [](std::uint32_t) { return true; }, parts.component_of);
   const auto is_plain = [&](std::uint32_t edge) { return topology.triangles_of(edge).size() <= 2; };
   bool all_plain = true;
@@ -52,7 +52,7 @@ SurfaceParts find_parts(const Mesh& mesh, const MeshTopology& topology) {
     parts.patches = parts.components;
     parts.patch_of = parts.component_of;
   } else {
-    parts.patches = number_pieces(mesh, topology, is_plain, parts.patch_of);
+    parts.patches = number_parts(mesh, topology, is_plain, parts.patch_of);
   }
   return parts;
 }

@@ -49,8 +49,8 @@ WindingTree::WindingTree(const TriangleTree& tree) : tree_(tree), nodes_(tree.no
     Point mean = {0, 0, 0};  // relative to the box, weighted by area
     const Point& origin = node.box.lower;
     if (e.is_leaf) {
-      for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
-        const auto& t = tree.corners[place];
+      for (std::uint32_t position = node.first; position < node.first + node.count; ++position) {
+        const auto& t = tree.corners[position];
         const Point n = 0.5 * cross(t[1] - t[0], t[2] - t[0]);
         const double area = length(n);
         weight[i] += area;
@@ -72,8 +72,8 @@ WindingTree::WindingTree(const TriangleTree& tree) : tree_(tree), nodes_(tree.no
       }
     };
     if (e.is_leaf) {
-      for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
-        const auto& t = tree.corners[place];
+      for (std::uint32_t position = node.first; position < node.first + node.count; ++position) {
+        const auto& t = tree.corners[position];
         add_moment(0.5 * cross(t[1] - t[0], t[2] - t[0]), centroid(t));
       }
     } else {
@@ -112,8 +112,8 @@ double WindingTree::sum(const Point& p, std::uint32_t without, std::uint64_t& co
       far += (dot(e.area, r) + trace - 3 * along / squared) / (squared * std::sqrt(squared));
     } else if (e.is_leaf) {
       cost += e.count;
-      for (std::uint32_t place = e.first; place < e.first + e.count; ++place) {
-        if (place != without) near += triangle_winding(tree_.corners[place], p);
+      for (std::uint32_t position = e.first; position < e.first + e.count; ++position) {
+        if (position != without) near += triangle_winding(tree_.corners[position], p);
       }
     } else {
       stack[size++] = e.right;
@@ -123,8 +123,8 @@ double WindingTree::sum(const Point& p, std::uint32_t without, std::uint64_t& co
   return far / (4 * std::numbers::pi) + near;
 }
 
-double WindingTree::beside(std::uint32_t place, std::uint64_t& cost) const {
-  return sum(centroid(tree_.corners[place]), place, cost);
+double WindingTree::beside(std::uint32_t position, std::uint64_t& cost) const {
+  return sum(centroid(tree_.corners[position]), position, cost);
 }
 
 }  // namespace medial_vk

@@ -28,22 +28,22 @@ class WindingTree {
   /// checked by a unit test). This suffices to round to the integer of a closed mesh.
   double at(const Point& p) const {
     std::uint64_t cost = 0;
-    return sum(p, kNoPlace, cost);
+    return sum(p, kNoPosition, cost);
   }
 
   /// At the centroid of the triangle at a position of the tree, without that triangle. The triangle itself adds 1/2
   /// just behind it and -1/2 just in front, so this number gives the values on both sides without a step off the
   /// surface.
-  double beside(std::uint32_t place) const {
+  double beside(std::uint32_t position) const {
     std::uint64_t cost = 0;
-    return beside(place, cost);
+    return beside(position, cost);
   }
   /// The same; adds the number of triangles evaluated one by one to `cost`: hundreds usually, all in a tangle of large
   /// triangles, where no group is far from any point.
-  double beside(std::uint32_t place, std::uint64_t& cost) const;
+  double beside(std::uint32_t position, std::uint64_t& cost) const;
 
  private:
-  static constexpr std::uint32_t kNoPlace = 0xffffffffu;
+  static constexpr std::uint32_t kNoPosition = 0xffffffffu;
 
   /// sum over triangles of area vector n, centroid at c: f(p) = n.(c - p) / (4 pi |c - p|^3), expanded around `centre`.
   struct Expansion {

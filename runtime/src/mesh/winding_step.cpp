@@ -10,7 +10,7 @@ namespace medial_vk {
 namespace {
 
 constexpr double kRounding = 0x1p-53;
-constexpr std::uint32_t kNoPlace = 0xffffffffu;
+constexpr std::uint32_t kNoPosition = 0xffffffffu;
 
 /// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have produced it. The
 /// arguments are differences of doubles and carry u each: see sign_of_volume in triangle_pairs.cpp.
@@ -36,7 +36,7 @@ int side_of_plane(const std::array<Point, 3>& t, const Point& p, double shift) {
 /// A straight leg of a path, and the triangles on which it begins or ends.
 struct Leg {
   Point p, q;
-  std::uint32_t first = kNoPlace, last = kNoPlace;
+  std::uint32_t first = kNoPosition, last = kNoPosition;
 };
 
 /// True if the leg may meet the box. The quotients have relative errors of 2u, and their comparison one of 4u.
@@ -88,10 +88,10 @@ std::optional<int> count_crossings(const TriangleTree& tree, const Leg& leg, dou
       stack[size++] = node.left;
       continue;
     }
-    for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
+    for (std::uint32_t position = node.first; position < node.first + node.count; ++position) {
       ++cost;
-      if (place == leg.first || place == leg.last || !may_meet(leg, tree.boxes[place])) continue;
-      const std::optional<int> found = crossing(leg, tree.corners[place], shift);
+      if (position == leg.first || position == leg.last || !may_meet(leg, tree.boxes[position])) continue;
+      const std::optional<int> found = crossing(leg, tree.corners[position], shift);
       if (!found) return std::nullopt;
       sum += *found;
     }
@@ -130,9 +130,9 @@ std::optional<int> step_along(const TriangleTree& tree, std::uint32_t from, std:
     const std::optional<int> between = count_crossings(tree, {p, q, from, to}, shift, cost);
     return between ? std::optional(*between + at_ends) : std::nullopt;
   }
-  const std::optional<int> there = count_crossings(tree, {p, middle, from, kNoPlace}, shift, cost);
+  const std::optional<int> there = count_crossings(tree, {p, middle, from, kNoPosition}, shift, cost);
   if (!there) return std::nullopt;
-  const std::optional<int> on = count_crossings(tree, {middle, q, kNoPlace, to}, shift, cost);
+  const std::optional<int> on = count_crossings(tree, {middle, q, kNoPosition, to}, shift, cost);
   return on ? std::optional(*there + *on + at_ends) : std::nullopt;
 }
 

@@ -18,76 +18,76 @@ std::string edges(std::uint64_t n, const std::string& kind) {
 }  // namespace
 
 void write_assumptions(MeshReport& r) {
-  const auto say = [&](std::string sentence) { r.assumptions.push_back(std::move(sentence)); };
+  const auto add = [&](std::string sentence) { r.assumptions.push_back(std::move(sentence)); };
   if (r.merged_vertices > 0) {
-    say(fmt::format("{} at exactly the same place as another: taken as one.",
+    add(fmt::format("{} at exactly the same place as another: taken as one.",
                     count_of(r.merged_vertices, "vertex", "vertices")));
   }
-  if (r.degenerate_dropped > r.caps_repaired) {
-    say(fmt::format("{} without area: left out.", faces(r.degenerate_dropped - r.caps_repaired)));
+  if (r.degenerates_dropped > r.caps_repaired) {
+    add(fmt::format("{} without area: left out.", faces(r.degenerates_dropped - r.caps_repaired)));
   }
   if (r.caps_repaired > 0) {
-    say(fmt::format("{} without area, one corner inside the opposite side: the neighbour there was cut in two instead.",
+    add(fmt::format("{} without area, one corner inside the opposite side: the neighbour there was cut in two instead.",
                     faces(r.caps_repaired)));
   }
   if (r.duplicates_dropped > r.inner_walls_dropped) {
-    say(fmt::format("{} with the same corners as an earlier one: left out.",
+    add(fmt::format("{} with the same corners as an earlier one: left out.",
                     faces(r.duplicates_dropped - r.inner_walls_dropped)));
   }
   if (r.inner_walls_dropped > 0) {
-    say(fmt::format("{} between two solids that touch: left out, the solids are one.", faces(r.inner_walls_dropped)));
+    add(fmt::format("{} between two solids that touch: left out, the solids are one.", faces(r.inner_walls_dropped)));
   }
   if (r.fallback_polygons > 0) {
-    say(fmt::format(
+    add(fmt::format(
         "{} with sides that cross, or too tangled to be cut in time: made a fan of triangles from the first corner.",
         count_of(r.fallback_polygons, "polygon", "polygons")));
   }
   if (r.open_edges > 0) {
-    say(fmt::format("{}: inside is where the winding number is at least 1/2.", edges(r.open_edges, "open")));
+    add(fmt::format("{}: inside is where the winding number is at least 1/2.", edges(r.open_edges, "open")));
   }
   if (r.non_manifold_edges > 0) {
-    say(fmt::format("{} of three or more triangles: normals beside them are not relied on.",
+    add(fmt::format("{} of three or more triangles: normals beside them are not relied on.",
                     edges(r.non_manifold_edges, "non-manifold")));
   }
   if (r.non_manifold_vertices > 0) {
-    say(fmt::format("{} where the surface touches itself: normals around them are not relied on.",
+    add(fmt::format("{} where the surface touches itself: normals around them are not relied on.",
                     count_of(r.non_manifold_vertices, "vertex", "vertices")));
   }
   if (r.inconsistent_edges > 0) {
-    say(
+    add(
         fmt::format("{} where the two triangles disagree on the outside and turning could not help: inside is where "
                     "the winding number is at least 1/2.",
                     count_of(r.inconsistent_edges, "edge", "edges")));
   }
   if (r.inside_out) {
-    say(fmt::format("The mesh was inside out: all {} were turned over.", faces(r.triangles)));
+    add(fmt::format("The mesh was inside out: all {} were turned over.", faces(r.triangles)));
   }
   if (r.reoriented_components > 0) {
-    say(fmt::format("{} inside out: turned over as a whole.",
+    add(fmt::format("{} inside out: turned over as a whole.",
                     count_of(r.reoriented_components, "component that was", "components that were")));
   }
   if (r.minority_faces > 0) {
-    say(fmt::format("{} turned over to agree with {} neighbours.", count_of(r.minority_faces, "face was", "faces were"),
+    add(fmt::format("{} turned over to agree with {} neighbours.", count_of(r.minority_faces, "face was", "faces were"),
                     r.minority_faces == 1 ? "its" : "their"));
   }
   if (r.components > 1) {
-    say(fmt::format("{} components: a point is inside if their winding numbers add up to at least 1/2.", r.components));
+    add(fmt::format("{} components: a point is inside if their winding numbers add up to at least 1/2.", r.components));
   }
   if (r.intersecting_faces > 0) {
-    say(fmt::format("{} that cross or touch others: normals there are not relied on.", faces(r.intersecting_faces)));
+    add(fmt::format("{} that cross or touch others: normals there are not relied on.", faces(r.intersecting_faces)));
   }
   if (!r.intersections_known) {
-    say("Too many triangles lie close together to look for all crossings: no normal is relied on.");
+    add("Too many triangles lie close together to look for all crossings: no normal is relied on.");
   }
   if (!r.sides_known) {
-    say("Too many triangles lie close together to look at both sides of each: normals of those left out are not "
+    add("Too many triangles lie close together to look at both sides of each: normals of those left out are not "
         "relied on.");
   }
   if (r.faces_within > 0) {
-    say(fmt::format("{} with the inside on both sides: still counted as surface.", faces(r.faces_within)));
+    add(fmt::format("{} with the inside on both sides: still counted as surface.", faces(r.faces_within)));
   }
   if (r.faces_without > 0) {
-    say(fmt::format("{} with the outside on both sides: still counted as surface.", faces(r.faces_without)));
+    add(fmt::format("{} with the outside on both sides: still counted as surface.", faces(r.faces_without)));
   }
 }
 

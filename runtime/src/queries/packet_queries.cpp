@@ -12,37 +12,37 @@
 namespace medial_vk {
 namespace {
 
-/// Distributes `places` to the lanes of `room` by recursive halving of both.
-void fill_lanes(std::span<const Point> group, std::span<std::uint32_t> places, std::span<std::uint32_t> room,
+/// Distributes `positions` to the lanes of `room` by recursive halving of both.
+void fill_lanes(std::span<const Point> group, std::span<std::uint32_t> positions, std::span<std::uint32_t> room,
                 std::uint32_t per_lane) {
   if (room.size() <= per_lane) {
-    std::copy(places.begin(), places.end(), room.begin());
+    std::copy(positions.begin(), positions.end(), room.begin());
     return;
   }
   const std::size_t low_lanes = room.size() / per_lane / 2, lanes = room.size() / per_lane;
-  const std::size_t low = places.size() * low_lanes / lanes;
-  if (!group.empty() && !places.empty()) {
-    Point lower = group[places[0]], upper = lower;
-    for (const std::uint32_t p : places) {
+  const std::size_t low = positions.size() * low_lanes / lanes;
+  if (!group.empty() && !positions.empty()) {
+    Point lower = group[positions[0]], upper = lower;
+    for (const std::uint32_t p : positions) {
       lower = least(lower, group[p]);
       upper = greatest(upper, group[p]);
     }
     const Point sides = upper - lower;
     const auto axis = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
-    std::sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
+    std::sort(positions.begin(), positions.end(), [&](std::uint32_t a, std::uint32_t b) {
       return group[a][axis] != group[b][axis] ? group[a][axis] < group[b][axis] : a < b;
     });
   }
-  fill_lanes(group, places.first(low), room.first(low_lanes * per_lane), per_lane);
-  fill_lanes(group, places.subspan(low), room.subspan(low_lanes * per_lane), per_lane);
+  fill_lanes(group, positions.first(low), room.first(low_lanes * per_lane), per_lane);
+  fill_lanes(group, positions.subspan(low), room.subspan(low_lanes * per_lane), per_lane);
 }
 
 std::vector<std::uint32_t> fill_slots(const PacketShape& shape, std::span<const Point> group,
                                       std::uint32_t group_size) {
-  std::vector<std::uint32_t> places(group_size);
-  std::iota(places.begin(), places.end(), 0u);
+  std::vector<std::uint32_t> positions(group_size);
+  std::iota(positions.begin(), positions.end(), 0u);
   std::vector<std::uint32_t> slots(std::size_t{shape.packets(group_size)} * shape.slots(), kNoPoint);
-  fill_lanes(group, places, slots, shape.per_lane);
+  fill_lanes(group, positions, slots, shape.per_lane);
   return slots;
 }
 

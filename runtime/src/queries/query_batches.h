@@ -27,7 +27,7 @@ struct QuerySet {
   /// Queries [first, first + out.size()). Error: one of them is invalid.
   std::function<Status(std::size_t first, std::span<Texel> out)> write;
   /// Records the kernels for `count` queries, padding included, with a barrier behind the last.
-  std::function<void(Recorder& r, std::uint32_t count, const Buffer& asked, std::span<const Buffer, 2> items)> record;
+  std::function<void(Recorder& r, std::uint32_t count, const Buffer& queries, std::span<const Buffer, 2> items)> record;
   /// Answers of [first, first + count). Error: one is missing.
   std::function<Status(std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items)> read;
 };
@@ -49,10 +49,10 @@ class QueryBatches {
 
  private:
   /// The resources of a batch.
-  struct Place {
-    explicit Place(Context::Impl& context);
+  struct Batch {
+    explicit Batch(Context::Impl& context);
     Arena on_device, for_upload, for_download;  // separate, as blocks of an arena grow: none takes more than it needs
-    Buffer asked;
+    Buffer queries;
     std::array<Buffer, 2> items;
     Buffer upload, download;  // none where the host uses the others
     bool is_shared = false;
@@ -60,26 +60,26 @@ class QueryBatches {
     Semaphore uploaded, computed;
     // Run one after the other; without a separate queue the middle one has all commands, and the others are unused.
     Commands upload_commands, compute, download_commands;
-    enum class State { kFree, kAsked, kDownloading } state = State::kFree;
+    enum class State { kFree, kSubmitted, kDownloading } state = State::kFree;
     std::size_t first = 0, count = 0;
     std::uint32_t padded = 0;
   };
   Status check(const QuerySet& queries) const;
-  Result<Place*> place(std::size_t number);
-  Status create_buffers(Place& place) const;
+  Result<Batch*> batch(std::size_t number);
+  Status create_buffers(Batch& batch) const;
   void start_over() noexcept;
   Status run_all(const QuerySet& queries);
-  Status ask(const QuerySet& queries, Place& place) const;
-  Status write(const QuerySet& queries, const Place& place) const;
-  void record_download(const QuerySet& queries, const Place& place, Recorder& r) const;
-  Status submit_download(const QuerySet& queries, Place& place) const;
-  Status complete(const QuerySet& queries, Place& place) const;
-  std::size_t at_once() const { return shares_memory_ ? 1 : places_.size(); }
+  Status submit(const QuerySet& queries, Batch& batch) const;
+  Status write(const QuerySet& queries, const Batch& batch) const;
+  void record_download(const QuerySet& queries, const Batch& batch, Recorder& r) const;
+  Status submit_download(const QuerySet& queries, Batch& batch) const;
+  Status complete(const QuerySet& queries, Batch& batch) const;
+  std::size_t at_once() const { return shares_memory_ ? 1 : batches_.size(); }
 
   Context::Impl* context_;
   std::uint32_t capacity_;
   bool shares_memory_;
-  std::array<std::unique_ptr<Place>, 2> places_;
+  std::array<std::unique_ptr<Batch>, 2> batches_;
 };
 
 }  // namespace medial_vk

@@ -52,9 +52,9 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Status Scene::Impl::answer(const QuerySet& asked) {
+Status Scene::Impl::answer(const QuerySet& request) {
   if (batches == nullptr) batches = std::make_unique<QueryBatches>(*context, kBatch, shares_memory);
-  return batches->run(asked);
+  return batches->run(request);
 }
 
 Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball> balls) {
@@ -87,7 +87,7 @@ Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball>
 
 Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) {
   if (Status ready = make_queries(); !ready.ok()) return ready.error();
-  if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "the tolerance of a winding number must be positive"};
+  if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "`tolerance` must be positive"};
   std::vector<double> out(points.size());
   QuerySet set;
   set.count = points.size();
@@ -126,7 +126,7 @@ std::vector<Texel> directions_of(std::span<const Point> points) {
 Result<std::vector<FluxSample>> Scene::Impl::fluxes(std::span<const Ball> spheres, std::uint32_t samples) {
   if (Status ready = make_queries(); !ready.ok()) return ready.error();
   if (samples == 0 || samples > kMostFluxSamples) {
-    return Error{ErrorCode::kUsage, "samples per sphere must be 1 to " + std::to_string(kMostFluxSamples)};
+    return Error{ErrorCode::kUsage, "`samples` must be 1 to " + std::to_string(kMostFluxSamples)};
   }
   if (spheres.empty()) return std::vector<FluxSample>();
   const std::vector<Point> spiral = spiral_points(samples);

@@ -66,13 +66,13 @@ class Scene::Impl {
 
     std::size_t index(std::size_t i) const { return order.empty() ? i : std::size_t{order[i]}; }
   };
-  Status closest(const ClosestQueries& asked, std::span<ClosestPoint> out);
-  Status read_closest(const ClosestQueries& asked, std::size_t first, std::size_t count,
+  Status closest(const ClosestQueries& request, std::span<ClosestPoint> out);
+  Status read_closest(const ClosestQueries& request, std::size_t first, std::size_t count,
                       std::span<const std::byte* const, 2> items, std::span<ClosestPoint> out) const;
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance);
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
-  Status answer(const QuerySet& asked);
+  Status answer(const QuerySet& request);
 
   Context::Impl* context;
   /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies clear it before

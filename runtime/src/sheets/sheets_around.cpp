@@ -53,7 +53,7 @@ bool SheetsAround::divide(double amount, const Point& at, double reach, Given& t
 
 std::vector<double> SheetsAround::by_sheet(const Given& given) const {
   Given all = given;
-  if (!nodes_.empty()) hand_down(0, 0, all);
+  if (!nodes_.empty()) distribute(0, 0, all);
   return std::move(all.sheets);
 }
 
@@ -108,8 +108,8 @@ bool SheetsAround::others_near(std::uint32_t index, const Point& at, double reac
 void SheetsAround::find_parts(std::uint32_t index, const Point& at, double reach, std::vector<Part>& parts) const {
   const Node& node = nodes_[index];
   if (!(distance_to_box(at, node.least, node.greatest) < reach)) return;
-  const auto enter = [&](const Point& place, double weight, std::int32_t sheet) {
-    const double nearness = 1 - length(place - at) / reach;
+  const auto enter = [&](const Point& point, double weight, std::int32_t sheet) {
+    const double nearness = 1 - length(point - at) / reach;
     if (nearness > 0) parts.push_back({weight, nearness, index, sheet});
   };
   if (length(node.greatest - node.least) <= reach / (node.sheet >= 0 ? 4 : 8)) {
@@ -125,14 +125,14 @@ void SheetsAround::find_parts(std::uint32_t index, const Point& at, double reach
 }
 
 /// Distributes the amounts of nodes and of their ancestors to the sheets of their points.
-void SheetsAround::hand_down(std::uint32_t index, double per_weight, Given& given) const {
+void SheetsAround::distribute(std::uint32_t index, double per_weight, Given& given) const {
   const Node& node = nodes_[index];
   per_weight += given.nodes[index];
   if (node.sheet >= 0) {
     given.sheets[static_cast<std::size_t>(node.sheet)] += node.weight * per_weight;
   } else if (node.right != 0) {
-    hand_down(index + 1, per_weight, given);
-    hand_down(node.right, per_weight, given);
+    distribute(index + 1, per_weight, given);
+    distribute(node.right, per_weight, given);
   } else {
     for (std::uint32_t i = node.first; i < node.last; ++i) {
       given.sheets[static_cast<std::size_t>(sheet_of_[order_[i]])] += weight_of_[order_[i]] * per_weight;

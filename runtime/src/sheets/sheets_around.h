@@ -59,7 +59,7 @@ class SheetsAround {
   void describe(Node& node) const;
   bool others_near(std::uint32_t index, const Point& at, double reach, std::int32_t sheet) const;
   void find_parts(std::uint32_t index, const Point& at, double reach, std::vector<Part>& parts) const;
-  void hand_down(std::uint32_t index, double per_weight, Given& given) const;
+  void distribute(std::uint32_t index, double per_weight, Given& given) const;
 
   std::span<const Ball> balls_;
   std::span<const std::int32_t> sheet_of_;

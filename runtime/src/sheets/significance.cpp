@@ -150,8 +150,8 @@ void give(const SheetBalls& sheets, std::uint32_t index, double amount, double w
   const Ball& ball = sheets.balls[index];
   const std::int32_t own = sheets.sheet_of[index];
   const double reach = std::max(kSeamReach * ball.radius, 2 * sheets.voxel_size);
-  const bool asks_around = !(weight > 0) || around.others_near(ball.centre, reach, own);
-  if (asks_around && around.divide(amount, ball.centre, reach, to)) return;
+  const bool is_divided = !(weight > 0) || around.others_near(ball.centre, reach, own);
+  if (is_divided && around.divide(amount, ball.centre, reach, to)) return;
   to.sheets[static_cast<std::size_t>(own)] += amount;
 }
 
@@ -161,15 +161,15 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   constexpr std::size_t kParts = 16;
   const std::size_t count = of_ball.size();
   std::vector<std::uint32_t> order(count);
-  for (std::uint32_t place = 0; place < count; ++place) order[place] = sheets.graph->index(place);
+  for (std::uint32_t position = 0; position < count; ++position) order[position] = sheets.graph->index(position);
   std::vector<double> weights(sheets.weights.begin(), sheets.weights.end());
   if (weights.empty()) weights.assign(count, 1);
   const SheetsAround around(sheets.balls, sheets.sheet_of, weights, sheets.sheets, order);
   std::vector<SheetsAround::Given> given(kParts);
   parallel_for(kParts, 1, threads, [&](std::size_t part) {
     given[part] = around.nothing();
-    for (std::size_t place = part * count / kParts; place < (part + 1) * count / kParts; ++place) {
-      give(sheets, order[place], of_ball[order[place]], weights[order[place]], around, given[part]);
+    for (std::size_t position = part * count / kParts; position < (part + 1) * count / kParts; ++position) {
+      give(sheets, order[position], of_ball[order[position]], weights[order[position]], around, given[part]);
     }
   });
   for (std::size_t part = 1; part < kParts; ++part) given[0].add(given[part]);
@@ -189,7 +189,7 @@ std::vector<double> seam_weights(const Sheets& sheets) {
 Result<Significance> measure_significance(const SheetBalls& sheets, unsigned threads) {
   for (const std::int32_t sheet : sheets.sheet_of) {
     if (sheet < 0 || static_cast<std::size_t>(sheet) >= sheets.sheets) {
-      return Error{ErrorCode::kInternal, "a ball is in sheet " + std::to_string(sheet) + ", which there is not"};
+      return Error{ErrorCode::kInternal, "a ball is in sheet " + std::to_string(sheet) + ", which does not exist"};
     }
   }
   if (!sheets.weights.empty() && sheets.weights.size() != sheets.balls.size()) {

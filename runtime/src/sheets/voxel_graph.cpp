@@ -29,13 +29,13 @@ class NeighbourWalk {
   }
 
   /// Positions must be passed in ascending order.
-  void append_neighbours(std::size_t place, std::vector<std::uint32_t>& out) {
+  void append_neighbours(std::size_t position, std::vector<std::uint32_t>& out) {
     for (std::size_t row = 0; row < 9; ++row) {
-      const std::uint64_t middle = keys_[place] + offset(row);
+      const std::uint64_t middle = keys_[position] + offset(row);
       std::size_t& cursor = cursors_[row];
       while (cursor < keys_.size() && keys_[cursor] < middle - 1) ++cursor;
       for (std::size_t i = cursor; i < keys_.size() && keys_[i] <= middle + 1; ++i) {
-        if (i != place) out.push_back(static_cast<std::uint32_t>(i));
+        if (i != position) out.push_back(static_cast<std::uint32_t>(i));
       }
     }
   }
@@ -66,17 +66,17 @@ VoxelGraph::VoxelGraph(std::span<const MedialSphere> spheres, unsigned threads)
   std::vector<Block> blocks((keys.size() + kBlock - 1) / kBlock);
   parallel_for(blocks.size(), 1, threads, [&](std::size_t b) {
     NeighbourWalk walk(keys, b * kBlock);
-    for (std::size_t place = b * kBlock; place < std::min(keys.size(), (b + 1) * kBlock); ++place) {
+    for (std::size_t position = b * kBlock; position < std::min(keys.size(), (b + 1) * kBlock); ++position) {
       const std::size_t size = blocks[b].neighbours.size();
-      walk.append_neighbours(place, blocks[b].neighbours);
+      walk.append_neighbours(position, blocks[b].neighbours);
       blocks[b].counts.push_back(static_cast<std::uint32_t>(blocks[b].neighbours.size() - size));
     }
   });
-  std::size_t place = 0;
+  std::size_t position = 0;
   for (const Block& block : blocks) {
     for (const std::uint32_t count : block.counts) {
-      starts_[place + 1] = starts_[place] + count;
-      ++place;
+      starts_[position + 1] = starts_[position] + count;
+      ++position;
     }
     neighbours_.insert(neighbours_.end(), block.neighbours.begin(), block.neighbours.end());
   }

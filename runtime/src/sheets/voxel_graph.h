@@ -10,19 +10,19 @@
 namespace medial_vk {
 
 /// Points are identified by their position in voxel order (z slowest, then y, then x), for any order of the input.
-/// Parameters named `place` are such positions.
+/// Parameters named `position` are such positions.
 class VoxelGraph {
  public:
   /// Precondition: at most one sphere per voxel; coordinates of voxels below 2^20.
   explicit VoxelGraph(std::span<const MedialSphere> spheres, unsigned threads = 0);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
-  const MedialSphere& sphere(std::uint32_t place) const { return spheres_[order_[place]]; }
+  const MedialSphere& sphere(std::uint32_t position) const { return spheres_[order_[position]]; }
   /// The index of the point in the input.
-  std::uint32_t index(std::uint32_t place) const { return order_[place]; }
+  std::uint32_t index(std::uint32_t position) const { return order_[position]; }
   /// Positions of the points in the 26 voxels around, ascending.
-  std::span<const std::uint32_t> neighbours(std::uint32_t place) const {
-    return {neighbours_.data() + starts_[place], starts_[place + 1] - starts_[place]};
+  std::span<const std::uint32_t> neighbours(std::uint32_t position) const {
+    return {neighbours_.data() + starts_[position], starts_[position + 1] - starts_[position]};
   }
   /// True if the voxels of the two touch.
   bool touch(std::uint32_t a, std::uint32_t b) const;

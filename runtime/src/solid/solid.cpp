@@ -29,7 +29,7 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
       winding_(std::make_unique<WindingTree>(*triangles_)) {}
 
-Result<Solid> Solid::create(const IndexedMesh& mesh) {
+Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
   Result<Bvh> bvh = mesh.bvh().refined(kLeafSize);
   if (!bvh) return bvh.error();

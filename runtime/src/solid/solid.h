@@ -18,7 +18,7 @@ double distance_rounding(const Bvh& bvh);
 class Solid {
  public:
   /// Shares the mesh, and refines its tree: small leaves suit scattered queries. Errors: kOutOfMemory.
-  static Result<Solid> create(const IndexedMesh& mesh);
+  static Result<Solid> build(const IndexedMesh& mesh);
 
   const IndexedMesh& indexed() const { return mesh_; }
   const PreparedMesh& mesh() const { return mesh_.prepared(); }

@@ -18,7 +18,7 @@ bool walk_is_over() { return cell_is_empty || cell_failed || spent > push.iterat
 
 // Of balls with the same centre the larger one keeps the whole cell, and of equal ones the first. Numbers are equal if
 // all their parts are equal, and compare as their parts do.
-void ask_concentric(uint j) {
+void test_concentric(uint j) {
   SplitBall mine = balls[own], other = balls[j];
   bool same = other.high.xyz == mine.high.xyz && other.middle.xyz == mine.middle.xyz && other.low.xyz == mine.low.xyz;
   vec3 of_mine = vec3(mine.high.w, mine.middle.w, mine.low.w), of_other = vec3(other.high.w, other.middle.w, other.low.w);
@@ -30,14 +30,14 @@ void ask_concentric(uint j) {
   beyond = 3e38;
 }
 
-void ask_ball(uint j) {
+void test_ball(uint j) {
   ++spent;
   vec4 high = balls[j].high, middle = balls[j].middle;
   precise vec4 difference = (high - own_high) + (middle - own_middle);  // w: of the radii
   float square = dot(difference.xyz, difference.xyz), both = high.w + own_radius;
   if (square > both * both * 1.000001) return;
   if (square < 1e-24) {
-    ask_concentric(j);
+    test_concentric(j);
     return;
   }
   float closeness = inversesqrt(square), size = square * closeness;
@@ -79,19 +79,19 @@ bool may_cut(uint k) {
   return least <= 128.0 * kRounding * scale * scale - low.w;
 }
 
-void ask_hints() {
+void test_hints() {
   for (uint k = 1u; k <= kBallHints && !walk_is_over(); ++k) {
-    if (own + k < push.ball_count) ask_ball(own + k);
-    if (own >= k && !walk_is_over()) ask_ball(own - k);
+    if (own + k < push.ball_count) test_ball(own + k);
+    if (own >= k && !walk_is_over()) test_ball(own - k);
   }
 }
 
-void ask_leaf(uint k) {
+void test_leaf(uint k) {
   uint first = (k - push.first_leaf) * kBallsPerLeaf;
   uint end = min(first + kBallsPerLeaf, push.ball_count);
   for (uint j = first; j < end && !walk_is_over(); ++j) {
-    bool asked = j + kBallHints >= own && j <= own + kBallHints;  // a hint, or the ball itself
-    if (!asked) ask_ball(j);
+    bool tested = j + kBallHints >= own && j <= own + kBallHints;  // a hint, or the ball itself
+    if (!tested) test_ball(j);
   }
 }
 
@@ -104,7 +104,7 @@ void walk_balls() {
   while (up > 1u && !walk_is_over()) {
     ++spent;
     bool enter = may_cut(m - 1u), leaf = m > push.first_leaf;
-    if (enter && leaf) ask_leaf(m - 1u);
+    if (enter && leaf) test_leaf(m - 1u);
     if (enter && !leaf) {
       m = 2u * m;
     } else {

@@ -35,11 +35,11 @@ void add_corner(uint cut, uint kept, uint slot, uint name_of_plane) {
   }
   float share = clamp(corner[kept].w / (corner[kept].w - corner[cut].w), 0.0, 1.0);
   precise vec3 along = corner[cut].xyz - corner[kept].xyz;
-  precise vec3 place = corner[kept].xyz + share * along;
+  precise vec3 position = corner[kept].xyz + share * along;
   uint generation = max(corner_planes[cut] >> 24, corner_planes[kept] >> 24) + 1u;
   generations = max(generations, generation);
   uint name = corner_count++;
-  corner[name] = vec4(place, 0.0);
+  corner[name] = vec4(position, 0.0);
   corner_planes[name] = with_byte(with_byte(corner_planes[cut], slot, name_of_plane), 3u, generation);
   corner_links[name] = with_byte(0u, slot, kept);
   corner_links[kept] = with_name(corner_links[kept], cut, name);

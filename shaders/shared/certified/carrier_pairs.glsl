@@ -52,9 +52,9 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   if (span_a.w == kUnknownSpan || span_b.w == kUnknownSpan) return true;
   vec4 a = first.nearest, b = second.nearest, ab = b - a;
   vec3 apart = at_a.foot.xyz - at_b.foot.xyz;
-  vec3 pull = unit_or_zero(apart);
-  pull = project(span_a, pull) - project(span_b, pull) + 2.0 * sine * a.xyz;
-  float share = clamp(-dot(pull, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
+  vec3 gradient = unit_or_zero(apart);
+  gradient = project(span_a, gradient) - project(span_b, gradient) + 2.0 * sine * a.xyz;
+  float share = clamp(-dot(gradient, ab.xyz) / max(2.0 * sine * dot(ab.xyz, ab.xyz), 1e-6), -2.0, 3.0);
   // Outside [0, 1] one distance has a negative weight: the upper bound of Lemma F applies to it.
   float excess = max(max(-share, share - 1.0), 0.0);
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
@@ -104,7 +104,7 @@ bool share_triangle(uint first, uint second) {
 struct Facing {
   vec3 normal, other;
   float least;
-  bool asked;
+  bool is_tested;
   bool is_arc;
   vec3 along;     // unit, of the edge
   vec2 half_arc;  // cosine and sine of half the arc
@@ -115,7 +115,7 @@ Facing facing_of(uint name, float least_sine) {
   Facing f = Facing(vec3(0.0), vec3(0.0), least_sine - 2.0 * kCosineSlack, false, false, vec3(0.0), vec2(0.0), 0.0);
   uint t = name / 8u, kind = name % 8u;
   if (is_two_sided(name)) {
-    f.asked = kind < kFirstCorner || kind == kFront;
+    f.is_tested = kind < kFirstCorner || kind == kFront;
     f.is_arc = kind >= kFirstEdge && kind < kFirstCorner;
     TriangleTexels texels = load_triangle(t);
     f.normal = kind == kFront ? -texels.normal.xyz : texels.normal.xyz;
@@ -136,7 +136,7 @@ Facing facing_of(uint name, float least_sine) {
   normals_of(name, f.normal, f.other);
   float cos_phi = sqrt(max(0.0, 0.5 + 0.5 * dot(f.normal, f.other)));  // of the cap around both normals
   f.least = (least_sine - kCosineSlack) * cos_phi - kCosineSlack;
-  f.asked = cos_phi >= kLeastCosPhi;
+  f.is_tested = cos_phi >= kLeastCosPhi;
   return f;
 }
 
@@ -164,7 +164,7 @@ void rotate(inout vec3 p[3]) {
 // Lemma E: true if both may face each other along some chord.
 bool can_face(uint first, uint second, float sine) {
   Facing a = facing_of(first, sine), b = facing_of(second, sine);
-  if (!a.asked && !b.asked) return true;
+  if (!a.is_tested && !b.is_tested) return true;
   vec3 p[3], q[3], mean = vec3(0.0);
   corners_of(first, p);
   corners_of(second, q);
@@ -191,8 +191,8 @@ bool can_face(uint first, uint second, float sine) {
     if (++k % 3u == 0u) rotate(p);
     if (k == 9u) break;
   }
-  bool a_faces = !a.asked || (behind_a && (!bounded || most_a >= a.least));
-  bool b_faces = !b.asked || (behind_b && (!bounded || most_b >= b.least));
+  bool a_faces = !a.is_tested || (behind_a && (!bounded || most_a >= a.least));
+  bool b_faces = !b.is_tested || (behind_b && (!bounded || most_b >= b.least));
   return a_faces && b_faces;
 }
 

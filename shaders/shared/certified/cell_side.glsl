@@ -43,14 +43,14 @@ uint side_of_cell(vec3 centre, float clearance) {
   float radius = step.circumradius + step.epsilon;
   if (clearance <= step.circumradius) return kSideUnknown;
   if (kIsOpen && step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
-  bool asks_ball = clearance > radius;
-  Closure closure = closure_at(centre, asks_ball ? radius : step.circumradius);
+  bool tests_ball = clearance > radius;
+  Closure closure = closure_at(centre, tests_ball ? radius : step.circumradius);
   Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
   if (!w.complete) return kSideUnknown;
   vec3 g = abs(closure.gradient);
   float in_cell = change_within(step.circumradius, step.half_side * (g.x + g.y + g.z), closure);
   float in_ball = change_within(radius, radius * length(g), closure);
-  bool outside = w.number + w.bound + in_cell < 0.5, inside = asks_ball && w.number - w.bound - in_ball >= 0.5;
+  bool outside = w.number + w.bound + in_cell < 0.5, inside = tests_ball && w.number - w.bound - in_ball >= 0.5;
   return outside ? kSideOutside : inside ? kSideInside : kSideUnknown;
 }
 

@@ -23,7 +23,7 @@ struct Closure {
 
 // The integral of r x dl / |r|^3 along an edge, where r goes from p to l: in closed form, without cancellation if the
 // edge is seen under a large angle.
-vec3 pull_of_edge(vec3 a, vec3 b) {
+vec3 gradient_of_edge(vec3 a, vec3 b) {
   vec3 across = cross(a, b - a);
   float la = length(a), lb = length(b), along = dot(a, b);
   float inverse = along > 0.0 ? 1.0 / max(la * lb + along, 1e-30)
@@ -63,7 +63,7 @@ Closure closure_at(vec3 p, float radius) {
     float gap = away - radius - step.slack, size = sqrt(squared), inverse = 1.0 / max(gap, 1e-10);
     sum.slope += e.from.w * min(size, 3.1415927 * (away + step.slack)) * inverse * inverse;
     sum.bend += e.from.w * min(size, 2.0 * (away + step.slack)) * inverse * inverse * inverse;
-    sum.gradient += e.from.w * pull_of_edge(e.from.xyz - p, e.to.xyz - p);
+    sum.gradient += e.from.w * gradient_of_edge(e.from.xyz - p, e.to.xyz - p);
   }
   sum.error += 1.2e-7 * float(count);  // of the additions: terms are at most 1/2
   sum.slope /= kFourPi;

@@ -15,7 +15,7 @@ const float kAxisSlack = 1e-6;
 // True if the side of the boundary must be determined for a kept cell: its ball does not meet the boundary, and no
 // ancestor knew its side. The side `inside` must also hold of everything within epsilon. On an open mesh a cell may be
 // outside although that is not known.
-bool must_ask_side(uint flags, float nearest_distance) {
+bool must_decide_side(uint flags, float nearest_distance) {
   float reach = step.circumradius + (step.open_edges == 0u ? step.epsilon : 0.0) + step.slack;
   return (flags & kCellInside) == 0u && nearest_distance > reach;
 }

@@ -70,12 +70,12 @@ void queue_block(Carrier nearest_row, float theta, Box box) {
   Carrier mine = load_row(next_row, slot);
   Carrier row = load_row(next_other_row, other_slot);
   uint mask = unbeaten_partners(turning_partners(mine, row, theta), mine, row, nearest_row, box);
-  uvec2 place = count_lanes(uint(bitCount(mask)));
-  for (uint at = queue_tail + place.x; mask != 0u; mask &= mask - 1u) {
+  uvec2 counted = count_lanes(uint(bitCount(mask)));
+  for (uint at = queue_tail + counted.x; mask != 0u; mask &= mask - 1u) {
     uint other = kLanes * next_other_row + (lane + uint(findLSB(mask))) % kLanes;
     queue[at++ % kQueueSize] = slot << 16 | carrier_order[other];
   }
-  queue_tail += place.y;
+  queue_tail += counted.y;
   bool is_last = next_other_row == next_row;
   next_row += is_last ? 1u : 0u;
   next_other_row = is_last ? 0u : next_other_row + 1u;

@@ -1,7 +1,7 @@
 // Decides whether a narrowed line ends at a salient medial point. The directions at its ends must differ by twice the
 // object angle (or the radius must suffice), and the ball at the accepted end, grown by epsilon away from its contact,
 // must meet the boundary elsewhere (Lemma 2.3). If it is not known whether the end lies in the solid, its side is
-// queried before the voxel elects its point. Include after declaring `counters`, `lines`, `asked` and `winners`.
+// queried before the voxel elects its point. Include after declaring `counters`, `lines`, `requests` and `winners`.
 #ifndef MEDIAL_VK_VERIFY_LINE_GLSL
 #define MEDIAL_VK_VERIFY_LINE_GLSL
 #include "certified/in_voxel.glsl"
@@ -34,7 +34,7 @@ void verify_line(uint index, Cell cell, vec2 grown) {
   if (inside)
     elect(index, lines[index].voxel, turn);
   else
-    asked[atomicAdd(counters[kAsked], 1u)] = index;
+    requests[atomicAdd(counters[kRequests], 1u)] = index;
 }
 
 #endif

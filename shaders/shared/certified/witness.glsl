@@ -46,7 +46,7 @@ bool touches_cube(Witness w, float d, vec4 along) {
 // Lemma L: a point of the solid with a spoke to a trusted triangle lies nearly straight behind it. It is applied if the
 // whole ball of the list lies in the solid.
 struct Prism {
-  bool is_asked;
+  bool is_tested;
   float spokes;  // bound of the length of the spokes of a point of the ball, with a margin
 };
 
@@ -56,13 +56,13 @@ bool clears_boundary(float clearance) {
 }
 
 // `distance`: that distance, or an upper bound.
-Prism prism_at(float distance, bool is_asked) { return Prism(is_asked, distance + 2.0 * step.list_radius); }
+Prism prism_at(float distance, bool is_tested) { return Prism(is_tested, distance + 2.0 * step.list_radius); }
 
 // Greatest distance beside a triangle of the points that have spokes to it.
 float room_beside(Prism prism, vec4 normal) {
   float room = 8.0 * step.slack + prism.spokes * (normal.w - 1.0);
   bool is_trusted = normal.w > 0.5;
-  return prism.is_asked && is_trusted ? room : 1e15;
+  return prism.is_tested && is_trusted ? room : 1e15;
 }
 
 // `v`: from the centre to the nearest point of the triangle.

@@ -101,8 +101,8 @@ uvec2 count_lanes(uint mine) {
 #endif
 
 // The first of the eight lanes with a true flag, or kLanes.
-uint first_lane_with(bool asks) {
-  uint lanes = or_of_lanes(asks ? 1u << (gl_LocalInvocationID.x & 7u) : 0u);
+uint first_lane_with(bool flag) {
+  uint lanes = or_of_lanes(flag ? 1u << (gl_LocalInvocationID.x & 7u) : 0u);
   return lanes == 0u ? kLanes : uint(findLSB(lanes));
 }
 #endif

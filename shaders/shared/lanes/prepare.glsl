@@ -18,13 +18,13 @@ void check_rounds(DispatchConstants d) {
 // groups than one row holds, or of powers of two.)
 uint rows_of(uint groups, uint threads, bool is_limited) {
   uint least = max((groups + kGroupsInRow - 1u) / kGroupsInRow, 1u), rows = max(least, threads);
-  bool divides = groups % (rows * kGroupsInRun) == 0u, deals = groups >= 2u * threads * kGroupsInRun;
-  return deals && (divides || !is_limited) ? rows : least;
+  bool divides = groups % (rows * kGroupsInRun) == 0u, distributes = groups >= 2u * threads * kGroupsInRun;
+  return distributes && (divides || !is_limited) ? rows : least;
 }
 
 uint columns_of(uint groups, uint rows) {
-  uint deal = rows * kGroupsInRun;
-  return rows == 1u ? groups : (groups + deal - 1u) / deal * kGroupsInRun;
+  uint stride = rows * kGroupsInRun;
+  return rows == 1u ? groups : (groups + stride - 1u) / stride * kGroupsInRun;
 }
 
 void write_arguments(DispatchConstants d) {

@@ -20,8 +20,8 @@ const uint kFirstMask = kLeaf - 1u;
 const uint kSkipped = 0xfffffffeu;   // no node here, more on the stack
 const uint kFinished = 0xffffffffu;  // nothing left
 
-uint tree_place(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }
-bool is_leaf(uint place) { return place >= kLeaf && place < kSkipped; }
+uint tree_position(vec4 lower, vec4 upper) { return uint(lower.w) | uint(upper.w) << 24; }
+bool is_leaf(uint position) { return position >= kLeaf && position < kSkipped; }
 
 float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
   vec3 outside = max(max(lower - p, p - upper), vec3(0.0));

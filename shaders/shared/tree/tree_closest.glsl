@@ -21,33 +21,33 @@ layout(constant_id = 1) const bool kSmallestIndex = false;
 
 // Nearest triangle closer than sqrt(bound); if `any`, the first one that is found.
 TreeHit walk_tree(vec3 p, float bound, bool any) {
-  uint places[kStackSize];
+  uint positions[kStackSize];
   float distances[kStackSize];
-  uint size = 0u, place = 0u, rounds = 0u;
+  uint size = 0u, position = 0u, rounds = 0u;
   TreeHit hit = TreeHit(bound, 0xffffffffu, false);
   uint best_index = 0u;  // a point at exactly the bound is no hit
   for (;;) {
     uint descents = 0u;
     for (;;) {
-      bool inner = place < kLeaf;
-      uint node = 4u * (inner ? place : 0u);
+      bool inner = position < kLeaf;
+      uint node = 4u * (inner ? position : 0u);
       vec4 lower_0 = tree_texel(node), upper_0 = tree_texel(node + 1u);
       vec4 lower_1 = tree_texel(node + 2u), upper_1 = tree_texel(node + 3u);
       float d_0 = squared_distance_to_box(p, lower_0.xyz, upper_0.xyz);
       float d_1 = squared_distance_to_box(p, lower_1.xyz, upper_1.xyz);
-      uint place_0 = tree_place(lower_0, upper_0), place_1 = tree_place(lower_1, upper_1);
+      uint position_0 = tree_position(lower_0, upper_0), position_1 = tree_position(lower_1, upper_1);
       bool swapped = d_1 < d_0;
       float near = min(d_0, d_1), far = max(d_0, d_1);
-      places[min(size, kStackSize - 1u)] = swapped ? place_0 : place_1;
+      positions[min(size, kStackSize - 1u)] = swapped ? position_0 : position_1;
       distances[min(size, kStackSize - 1u)] = far;
       size += uint(inner && far <= hit.squared_distance);
-      uint next = near <= hit.squared_distance ? (swapped ? place_1 : place_0) : kSkipped;
-      place = inner ? next : place;
+      uint next = near <= hit.squared_distance ? (swapped ? position_1 : position_0) : kSkipped;
+      position = inner ? next : position;
       tested_nodes += inner ? 2u : 0u;
-      if (place >= kLeaf || ++descents == kDescents) break;
+      if (position >= kLeaf || ++descents == kDescents) break;
     }
-    bool leaf = is_leaf(place), down = place < kLeaf;
-    uint first = leaf ? place & kFirstMask : 0u, count = leaf ? place >> 24 : 0u;
+    bool leaf = is_leaf(position), down = position < kLeaf;
+    uint first = leaf ? position & kFirstMask : 0u, count = leaf ? position >> 24 : 0u;
     uint i = 0u;
     for (;;) {
       TriangleTexels texels = load_triangle(first + i);
@@ -67,13 +67,13 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
       bool pop = !down && size > 0u;
       size -= uint(pop);
       uint top = min(size, kStackSize - 1u);
-      uint popped = distances[top] <= hit.squared_distance ? places[top] : kSkipped;
-      place = down ? place : (pop && !stop ? popped : kFinished);
-      if (place != kSkipped || ++pops == kPops) break;
+      uint popped = distances[top] <= hit.squared_distance ? positions[top] : kSkipped;
+      position = down ? position : (pop && !stop ? popped : kFinished);
+      if (position != kSkipped || ++pops == kPops) break;
     }
-    if (place == kFinished || ++rounds == kRounds) break;
+    if (position == kFinished || ++rounds == kRounds) break;
   }
-  hit.complete = place == kFinished;
+  hit.complete = position == kFinished;
   return hit;
 }
 

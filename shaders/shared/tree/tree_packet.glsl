@@ -54,8 +54,8 @@ bool box_is_near(vec3 lower, vec3 upper) {
 }
 
 // Takes the next position from the stack that is relevant to any point.
-uint pop_place() {
-  uint place = kFinished;
+uint pop_position() {
+  uint position = kFinished;
   for (;;) {
     bool finished;
     uvec2 entry;
@@ -68,12 +68,12 @@ uint pop_place() {
     }
     vec4 lower = tree_texel(2u * entry.x), upper = tree_texel(2u * entry.x + 1u);
     bool near = box_is_near(lower.xyz, upper.xyz);
-    place = finished ? kFinished : tree_place(lower, upper);
+    position = finished ? kFinished : tree_position(lower, upper);
     tested_nodes += finished ? 0u : 1u;
     ++iterations;
     if (finished || team_any(near)) break;
   }
-  return place;
+  return position;
 }
 
 // Children of a node that the packet's ball meets are pushed onto the stack, the nearest last.
@@ -106,8 +106,8 @@ void test_triangle(TriangleFrame frame, uint position) {
   }
 }
 
-void test_leaf(uint place) {
-  uint first = place & kFirstMask, count = place >> 24, lane = team_lane();
+void test_leaf(uint position) {
+  uint first = position & kFirstMask, count = position >> 24, lane = team_lane();
   for (uint start = 0u;;) {
     uint last = min(count - start, kArity) - 1u;
     TriangleFrame own = load_frame(first + start + min(lane % kArity, last));
@@ -136,23 +136,23 @@ void test_leaf(uint place) {
 bool walk_packet() {
   stack_size = 0u;
   iterations = 100u;  // for the loops that are not counted
-  uint place = 0u;
+  uint position = 0u;
   for (;;) {
     for (;;) {
-      push_children(place);
-      place = pop_place();
-      if (place >= kLeaf || iterations >= kMostIterations) break;
+      push_children(position);
+      position = pop_position();
+      if (position >= kLeaf || iterations >= kMostIterations) break;
     }
-    if (place == kFinished || iterations >= kMostIterations) break;
+    if (position == kFinished || iterations >= kMostIterations) break;
     for (;;) {
-      test_leaf(place);
-      place = pop_place();
-      if (!is_leaf(place) || iterations >= kMostIterations) break;
+      test_leaf(position);
+      position = pop_position();
+      if (!is_leaf(position) || iterations >= kMostIterations) break;
     }
     ++iterations;
-    if (place == kFinished || iterations >= kMostIterations) break;
+    if (position == kFinished || iterations >= kMostIterations) break;
   }
-  return place == kFinished;
+  return position == kFinished;
 }
 
 // The smallest box around the points, as a ball. Lanes without points use those of others.

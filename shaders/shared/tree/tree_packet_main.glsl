@@ -25,27 +25,27 @@ void main() {
   uint group = group_index() / packets;
   if (group >= group_count()) return;
   uint first_slot = group_index() % packets * packet_slots + kPerLane * team_lane();
-  uint asked[kPerLane];  // query + 1, 0: none
+  uint query_of[kPerLane];  // query + 1, 0: none
   FOR_EACH_POINT {
-    uint place = slots[first_slot + k];
-    uint query = group * group_size + min(place, group_size - 1u);
+    uint index = slots[first_slot + k];
+    uint query = group * group_size + min(index, group_size - 1u);
     vec4 q = queries[query];
     points[k] = q.xyz;
-    best[k] = place < group_size ? q.w : -1.0;
-    asked[k] = best[k] >= 0.0 ? query + 1u : 0u;
+    best[k] = index < group_size ? q.w : -1.0;
+    query_of[k] = best[k] >= 0.0 ? query + 1u : 0u;
     found[k] = 0u;
   }
   enclose_packet();
   update_bound();
   bool complete = team_is_whole() && walk_packet();
   // One lane reports for all about nodes and balls around packets, and each lane about its own points.
-  uint points_asked = 0u;
-  FOR_EACH_POINT points_asked += uint(asked[k] != 0u);
-  tested_triangles = points_asked * triangles_for_points + (team_lane() == 0u ? triangles_for_packet : 0u);
+  uint queried_points = 0u;
+  FOR_EACH_POINT queried_points += uint(query_of[k] != 0u);
+  tested_triangles = queried_points * triangles_for_points + (team_lane() == 0u ? triangles_for_packet : 0u);
   tested_nodes = team_lane() == 0u ? tested_nodes : 0u;
   count_tests();
   FOR_EACH_POINT {
-    if (asked[k] != 0u && complete) write_hit(asked[k] - 1u, points[k], found_position(found[k]));
-    if (asked[k] != 0u && !complete) leave_unresolved(asked[k] - 1u);
+    if (query_of[k] != 0u && complete) write_hit(query_of[k] - 1u, points[k], found_position(found[k]));
+    if (query_of[k] != 0u && !complete) leave_unresolved(query_of[k] - 1u);
   }
 }

@@ -63,32 +63,32 @@ uint use_or_open(vec3 p, uint moments, uint node, uint side, bool inner, float t
   winding.number += used ? e.value : 0.0;
   winding.bound += used ? e.bound : 0.0;
   vec4 lower = tree_texel(4u * node + 2u * side), upper = tree_texel(4u * node + 2u * side + 1u);
-  return used ? kSkipped : tree_place(lower, upper);
+  return used ? kSkipped : tree_position(lower, upper);
 }
 
 Winding winding_number(vec3 p, float tolerance) {
-  uint places[kStackSize];
-  uint size = 0u, place = 0u, rounds = 0u;
+  uint positions[kStackSize];
+  uint size = 0u, position = 0u, rounds = 0u;
   uint moments = 4u * tree_node_count();
   Winding winding = Winding(0.0, 0.0, false);
   float free = 0.5 * tolerance;
   for (;;) {
     uint descents = 0u;
     for (;;) {
-      bool inner = place < kLeaf;
-      uint node = inner ? place : 0u;
+      bool inner = position < kLeaf;
+      uint node = inner ? position : 0u;
       uint next_0 = use_or_open(p, moments, node, 0u, inner, tolerance, free, winding);
       uint next_1 = use_or_open(p, moments, node, 1u, inner, tolerance, free, winding);
       bool both = next_0 != kSkipped && next_1 != kSkipped;
-      places[min(size, kStackSize - 1u)] = next_1;
+      positions[min(size, kStackSize - 1u)] = next_1;
       size += uint(inner && both);
       uint next = both ? next_0 : min(next_0, next_1);  // kSkipped is the largest
-      place = inner ? next : place;
+      position = inner ? next : position;
       tested_nodes += inner ? 2u : 0u;
-      if (place >= kLeaf || ++descents == kDescents) break;
+      if (position >= kLeaf || ++descents == kDescents) break;
     }
-    bool leaf = is_leaf(place), down = place < kLeaf;
-    uint first = leaf ? place & kFirstMask : 0u, count = leaf ? place >> 24 : 0u;
+    bool leaf = is_leaf(position), down = position < kLeaf;
+    uint first = leaf ? position & kFirstMask : 0u, count = leaf ? position >> 24 : 0u;
     uint i = 0u;
     for (;;) {
       float part = winding_of_triangle(p, load_triangle(first + i));
@@ -98,10 +98,10 @@ Winding winding_number(vec3 p, float tolerance) {
     tested_triangles += count;
     bool pop = !down && size > 0u;
     size -= uint(pop);
-    place = down ? place : (pop ? places[min(size, kStackSize - 1u)] : kFinished);
-    if (place == kFinished || ++rounds == kWindingRounds) break;
+    position = down ? position : (pop ? positions[min(size, kStackSize - 1u)] : kFinished);
+    if (position == kFinished || ++rounds == kWindingRounds) break;
   }
-  winding.complete = place == kFinished;
+  winding.complete = position == kFinished;
   return winding;
 }
 

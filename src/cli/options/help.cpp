@@ -62,8 +62,8 @@ What is looked for (lengths are fractions, so units do not matter):
                         the directions to the two touching points, is at least
                         A radians, between 0 and pi/2 (default 0.6)
       --radius R        also keep balls of radius above R times the longest
-                        side, 0 to 1 (default 0: off); mode certified asks
-                        of them an object angle of 0.15 or more
+                        side, 0 to 1 (default 0: off), in mode certified
+                        only with an object angle of 0.15 or more
       --epsilon E       how far a point may be from the medial surface, as a
                         fraction of the voxel side, 0.001 to 0.5 (default 0.01)
       --mode MODE       certified: voxels are dismissed by proof (default)
@@ -81,14 +81,14 @@ How points are grouped into sheets:
       --sheet-crease A  so are neighbours whose spokes turn by no more than A
                         degrees, as between facets of a round shape, 0 to 180
                         (default 10; 0: only the angle decides, as published)
-      --sheet-border A  so are pieces if spokes turn by no more than A degrees
-                        along their border, in the mean, 0 to 180 (default 77;
-                        none counts as below A - 30 or above A + 4, and what
-                        a short border lacks as A + 4)
-      --sheet-width W   pieces narrower than W times the diameter of their
+      --sheet-border A  so are components if spokes turn by no more than A
+                        degrees along their border, in the mean, 0 to 180
+                        (default 77; none counts as below A - 30 or above
+                        A + 4, and what a short border lacks as A + 4)
+      --sheet-width W   components narrower than W times the diameter of their
                         balls, 0 to 1, go to those around them (default 0.17;
                         0: none)
-      --absorb-fragments N  so do pieces of fewer than N points (default 0)
+      --absorb-fragments N  so do components of fewer than N points (default 0)
       --keep-volume V   keep only the most significant sheets, with at least V
                         of the volume of the union of balls, between 0 and 1
       --keep-topology   remove none of them without which the union had another

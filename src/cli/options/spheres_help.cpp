@@ -39,7 +39,7 @@ What they promise:
                         of the solid is left out, for safety; balanced: no
                         promise, the least volume between spheres and solid
       --method HOW      best: chosen and moved for the least volume uncovered, or
-                        whatever the contract asks for (default); source: one
+                        as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N
                         (Stolpner 2011, 7.3.2)
       --resolution N    voxels along the longest side for the spheres to choose
@@ -71,8 +71,8 @@ Output:
                         area (of a mesh)
       --report FILE     everything about the run as JSON; "-": standard output
 
-      --check           ask the independent CPU reference, too, whether the
-                        promise is kept; exit code 7 if not
+      --check           also test the promise by the independent CPU reference;
+                        exit code 7 if it is not kept
 
 Where it runs:
       --backend B       vulkan (default), or cpu, which needs no Vulkan

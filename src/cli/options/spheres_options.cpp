@@ -98,24 +98,25 @@ Status check_input(SpheresOptions& options, const Given& given) {
 Status check_goals(const SpheresOptions& options) {
   const SphereOptions& request = options.request;
   if (options.is_robot && request.count > 0) {
-    return usage_error("--count is for one mesh; of a robot say --count-per-link N or --total N");
+    return usage_error("--count is for one mesh; of a robot use --count-per-link N or --total N");
   }
   if (options.count_per_link > 0 && options.total > 0) {
     return usage_error("--count-per-link and --total cannot be used together");
   }
   if (request.contract == SphereContract::kCover && request.max_gap > 0) {
-    return usage_error("--max-gap: spheres that cover leave no gap; say --error E, or how many");
+    return usage_error("--max-gap: spheres that cover leave no gap; use --error E, or a number of spheres");
   }
   const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
   if (by_source && (request.error > 0 || request.max_gap > 0)) {
-    return usage_error("--error and --max-gap: with --method source for --contract inside only; say how many");
+    return usage_error(
+        "--error and --max-gap: with --method source for --contract inside only; use a number of spheres");
   }
   const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
   const bool any = request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
                    request.max_gap > 0 || by_resolution;
   if (any) return {};
-  return usage_error(options.is_robot ? "say how many spheres: --count-per-link N, --total N, --error E or --max-gap G"
-                                      : "say how many spheres: --count N, --error E or --max-gap G");
+  return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
+                                      : "no goal is given: use --count N, --error E or --max-gap G");
 }
 
 Status complete_output(SpheresOptions& options, const Given& given) {

@@ -35,7 +35,9 @@ Result<PreparedMesh> load_mesh(const Options& options, const DeviceOpening& open
   Stopwatch stopwatch;
   prepared = perturb_mesh(std::move(prepared).value(), options.perturb, options.seed, options.threads);
   if (prepared) {
-    for (std::string& assumption : prepared.value().report.assumptions) assumption = in_words_of_options(assumption);
+    for (std::string& assumption : prepared.value().report.assumptions) {
+      assumption = in_words_of_options(std::move(assumption), Command::kExtract);
+    }
   }
   times.push_back({"perturb", stopwatch.lap()});
   return prepared;

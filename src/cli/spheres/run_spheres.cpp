@@ -126,10 +126,18 @@ class SpheresRun {
     Status status = options_.is_robot ? fit_robot(extractor, on_progress, stop.get_token())
                                       : fit_one_mesh(extractor, on_progress, stop.get_token());
     progress_.clear();
-    if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(status.error());
+    if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : in_words(status.error());
     if (Status checked = check(); !checked) return checked;
     record_.times.push_back({"spheres", stopwatch.lap()});
     return {};
+  }
+
+  /// An error of the fit in words of options. For a defect it adds that no file has changed.
+  Error in_words(Error error) const {
+    if (error.code == ErrorCode::kInternal) error.message += "; nothing was written";
+    error.message =
+        in_words_of_options(std::move(error.message), options_.is_robot ? Command::kRobotSpheres : Command::kSpheres);
+    return with_hint(std::move(error));
   }
 
   Status fit_robot(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
@@ -144,7 +152,7 @@ class SpheresRun {
   Status fit_one_mesh(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
     Stopwatch stopwatch;
     const SphereOptions& wanted = options_.request;
-    const Result<IndexedMesh> mesh = IndexedMesh::create(record_.parts.front().mesh, wanted.threads);
+    const Result<IndexedMesh> mesh = IndexedMesh::build(record_.parts.front().mesh, wanted.threads);
     if (!mesh) return mesh.error();
     Result<SphereFit> fit = fit_spheres(
         mesh.value(), wanted, extractor, [&](const char*, double done) { on_progress(done); }, stop);

@@ -2,33 +2,86 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdio>
-#include <string_view>
 #include <utility>
 
 #include "output/whole_files/atomic_file.h"
 
 namespace medial_vk::cli {
+namespace {
+
+constexpr ParameterWords same(std::string_view parameter, std::string_view words) {
+  return {parameter, words, words, words};
+}
+/// Of calls that the tool does not make, or not with values that can be at fault.
+constexpr ParameterWords library_only(std::string_view parameter) { return same(parameter, {}); }
+
+constexpr std::string_view kRobotCount = "--count-per-link or --total";
+constexpr ParameterWords kParameterWords[] = {
+    {"amplitude", "--perturb", {}, {}},
+    library_only("capacity"),
+    {"contract", {}, "--contract", "--contract"},
+    {"count", {}, "--count", kRobotCount},
+    same("deep_angle", "the deep angle"),
+    same("device", "--device"),
+    {"epsilon", "--epsilon", "epsilon", "epsilon"},
+    {"error", {}, "--error", "--error"},
+    {"extra_levels", "--extra-levels", "the number of extra levels", "the number of extra levels"},
+    library_only("frames"),
+    library_only("group_size"),
+    {"keep_volume", "--keep-volume", {}, {}},
+    library_only("largest"),
+    {"max_gap", {}, "--max-gap", "--max-gap"},
+    {"medial_mesh", "--medial-mesh", {}, {}},
+    {"memory_budget", "--memory", "the memory budget", "the memory budget"},
+    {"method", {}, "--method", "--method"},
+    {"mode", "--mode", {}, {}},
+    library_only("nearest"),
+    same("object_angle", "--object-angle"),
+    library_only("out"),
+    library_only("query_error"),
+    {"radius", "--radius", "the radius threshold", "the radius threshold"},
+    library_only("removal_orders"),
+    same("resolution", "--resolution"),
+    library_only("samples"),
+    library_only("sheets"),
+    library_only("sphere"),
+    library_only("tolerance"),
+    library_only("validation"),
+    library_only("volumes"),
+};
+
+std::string_view words_of(const ParameterWords& parameter, Command command) {
+  switch (command) {
+    case Command::kExtract:
+      break;
+    case Command::kSpheres:
+      return parameter.spheres;
+    case Command::kRobotSpheres:
+      return parameter.robot_spheres;
+  }
+  return parameter.extract;
+}
+
+}  // namespace
 
 Error stopped() { return {ErrorCode::kInterrupted, "interrupted; nothing was written"}; }
 
-std::string in_words_of_options(std::string message) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOptions = {{
-      {"`memory_budget`", "--memory"},
-      {"`resolution`", "--resolution"},
-      {"`perturb`", "--perturb"},
-  }};
-  for (const auto& [parameter, option] : kOptions) {
-    for (std::size_t at = message.find(parameter); at != std::string::npos; at = message.find(parameter, at)) {
-      message.replace(at, parameter.size(), option);
+std::span<const ParameterWords> parameter_words() { return kParameterWords; }
+
+std::string in_words_of_options(std::string message, Command command) {
+  for (const ParameterWords& parameter : kParameterWords) {
+    const std::string_view words = words_of(parameter, command);
+    if (words.empty()) continue;
+    const std::string quoted = fmt::format("`{}`", parameter.parameter);
+    for (std::size_t at = message.find(quoted); at != std::string::npos; at = message.find(quoted, at)) {
+      message.replace(at, quoted.size(), words);
     }
   }
   return message;
 }
 
 Error with_hint(Error error, const std::string& wanted) {
-  error.message = in_words_of_options(std::move(error.message));
   if (error.code != ErrorCode::kNoDevice) return error;
   error.message += wanted.empty()
                        ? "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device (Debian: apt install "
@@ -66,9 +119,10 @@ int exit_code(ErrorCode code) {
   return 1;
 }
 
-int report_error(const Error& error, const char* command) {
-  print_message(fmt::format("medial-vk: {}\n", in_words_of_options(error.message)));
-  if (error.code == ErrorCode::kUsage) print_message(fmt::format("Try {} --help.\n", command));
+int report_error(const Error& error, Command command) {
+  print_message(fmt::format("medial-vk: {}\n", in_words_of_options(error.message, command)));
+  const char* const name = command == Command::kExtract ? "medial-vk" : "medial-vk spheres";
+  if (error.code == ErrorCode::kUsage) print_message(fmt::format("Try {} --help.\n", name));
   return exit_code(error.code);
 }
 

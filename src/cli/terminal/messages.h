@@ -1,7 +1,9 @@
 // Messages of all commands, and their output.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "medial_vk/result.h"
 
@@ -10,8 +12,25 @@ namespace medial_vk::cli {
 /// The error of an interrupted run: kInterrupted.
 Error stopped();
 
-/// Messages of the library name its parameters in backticks; the result names the options of the tool instead.
-std::string in_words_of_options(std::string message);
+/// The commands of the tool, as far as their options differ.
+enum class Command {
+  kExtract,       ///< medial-vk
+  kSpheres,       ///< medial-vk spheres, of a mesh
+  kRobotSpheres,  ///< medial-vk spheres, of a robot
+};
+
+/// A parameter of the library by its name there, and what messages of each command call it: an option of the command,
+/// or words if there is no such option. Empty: no message of that command can contain the parameter.
+struct ParameterWords {
+  std::string_view parameter;
+  std::string_view extract, spheres, robot_spheres;
+};
+
+/// Every parameter that messages of the library name.
+std::span<const ParameterWords> parameter_words();
+
+/// Messages of the library name its parameters in backticks; the result names the options of the command instead.
+std::string in_words_of_options(std::string message, Command command);
 
 /// The exit code of an error.
 int exit_code(ErrorCode code);
@@ -24,7 +43,8 @@ Status print_result(const std::string& text);
 /// Writes to standard error.
 void print_message(const std::string& text);
 
-/// Prints "medial-vk: message", with a hint at the help of `command` for a usage error. Returns the exit code.
-int report_error(const Error& error, const char* command);
+/// Prints "medial-vk: message" in words of options, with a hint at the help of the command for a usage error. Returns
+/// the exit code.
+int report_error(const Error& error, Command command);
 
 }  // namespace medial_vk::cli

@@ -50,7 +50,7 @@ Json part_json(const FitsRecord& record, std::size_t index) {
           {"volume_error", or_null(uncovered_share(fit, record.request.contract))},
           {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},
           {"check", check ? Json(check->passed() ? "passed" : "failed") : Json(nullptr)},
-          {"reach_out", {{"mean", reach.mean}, {"best", reach.best}, {"worst", reach.worst}}},
+          {"reach_out", {{"mean", reach.mean}, {"best", reach.least}, {"worst", reach.greatest}}},
           {"seconds", fit.seconds}};
 }
 

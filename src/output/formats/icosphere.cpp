@@ -43,10 +43,10 @@ Icosphere make_icosahedron() {
 
 /// The vertex in the middle of an edge, created at the first request.
 std::uint32_t middle_of(Icosphere& sphere, std::map<Edge, std::uint32_t>& middles, std::uint32_t a, std::uint32_t b) {
-  const auto [place, is_new] =
+  const auto [entry, is_new] =
       middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(sphere.vertices.size()));
   if (is_new) add_on_sphere(sphere, vector_of(sphere.vertices[a]) + vector_of(sphere.vertices[b]));
-  return place->second;
+  return entry->second;
 }
 
 void cut_in_four(Icosphere& sphere) {

@@ -30,7 +30,10 @@ Json certificate_json(const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
   const CoverProof& cover = measures.cover;
   return {{"inside",
-           {{"proved", inside.proved()}, {"balls", inside.tested}, {"failed", inside.failed}, {"worst", inside.worst}}},
+           {{"proved", inside.proved()},
+            {"balls", inside.tested},
+            {"failed", inside.failed},
+            {"worst", inside.greatest_excess}}},
           {"cover",
            {{"proved", cover.proved()},
             {"closed", cover.closed},

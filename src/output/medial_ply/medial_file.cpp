@@ -72,9 +72,8 @@ Result<MedialFormat> medial_format_of(const std::string& path) {
   for (const auto& [name, format] : known) {
     if (extension == name) return format;
   }
-  return Error{
-      ErrorCode::kUsage,
-      fmt::format("cannot tell a format from the extension of '{}': use .ply, .csv, .npz, .json or .glb", path)};
+  return Error{ErrorCode::kUsage,
+               fmt::format("the extension of '{}' is that of no format: use .ply, .csv, .npz, .json or .glb", path)};
 }
 
 std::string ply_comments(const MedialHeader& header) {

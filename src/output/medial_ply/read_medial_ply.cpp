@@ -166,7 +166,7 @@ Result<MedialFile> decode_ply(std::string_view bytes, const std::string& name) {
   Layout layout;
   if (!read_header(cursor, file.header, layout)) return invalid(name, "the header is not that of a medial PLY");
   // The count is not trusted with memory: a point takes at least 26 bytes of text ("0 " thirteen times).
-  if (layout.points > bytes.size() / 26) return invalid(name, "fewer points than the header says");
+  if (layout.points > bytes.size() / 26) return invalid(name, "fewer points than in the header");
   file.spheres.resize(static_cast<std::size_t>(layout.points));
   for (std::size_t i = 0; i < file.spheres.size(); ++i) {
     if (!read_sphere(cursor, layout.ascii, file.spheres[i])) return invalid(name, fmt::format("point {} is broken", i));

@@ -74,7 +74,7 @@ std::string foam_level(const PartSpheres& part, std::size_t level, int indent) {
   const ReachOut& reach = part.reach[level];
   std::string text =
       fmt::format("{{\n{0:{1}}\"mean\": {2},\n{0:{1}}\"best\": {3},\n{0:{1}}\"worst\": {4},\n{0:{1}}\"spheres\": ", "",
-                  indent + 4, float_text(reach.mean), float_text(reach.best), float_text(reach.worst));
+                  indent + 4, float_text(reach.mean), float_text(reach.least), float_text(reach.greatest));
   text += sphere_list(balls, "origin", indent + 4);
   return text + fmt::format("\n{:{}}}}", "", indent);
 }
@@ -95,7 +95,8 @@ std::string foam_list(const SphereFile& file) {
 
 ReachOut joined(const ReachOut& a, std::size_t count_a, const ReachOut& b, std::size_t count_b) {
   const double x = static_cast<double>(count_a), y = static_cast<double>(count_b);
-  return {(x * a.mean + y * b.mean) / std::max(x + y, 1.0), std::min(a.best, b.best), std::max(a.worst, b.worst)};
+  return {(x * a.mean + y * b.mean) / std::max(x + y, 1.0), std::min(a.least, b.least),
+          std::max(a.greatest, b.greatest)};
 }
 
 /// foam addresses a set by part, branching and depth. A set of N balls is the children of a root with N of them: "N",

@@ -16,7 +16,7 @@ Result<SphereFormat> sphere_format_of(const std::string& path) {
   if (extension == ".urdf") return SphereFormat::kUrdf;
   return Error{
       ErrorCode::kUsage,
-      fmt::format("'{}' ends in none of .csv, .json, .urdf, .xrdf, .yml and .yaml; say which with --format", path)};
+      fmt::format("'{}' ends in none of .csv, .json, .urdf, .xrdf, .yml and .yaml; choose one with --format", path)};
 }
 
 const char* name_of(SphereFormat format) {

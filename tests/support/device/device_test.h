@@ -14,7 +14,7 @@ namespace medial_vk::test {
 /// The context that all tests of a program share. It ends with the last test, before the driver is unloaded.
 class SharedContext : public testing::Environment {
  public:
-  /// With validation where the layer is installed.
+  /// Opens a context, with validation if the layer is installed.
   static Result<Context> open() {
     ContextOptions options = {.device = "", .validation = true, .cache_folder = "/dev/null"};
     Result<Context> made = Context::create(options);
@@ -22,7 +22,7 @@ class SharedContext : public testing::Environment {
     options.validation = false;
     return Context::create(options);
   }
-  /// Null without a device.
+  /// The context; null without a device.
   Context* get() {
     if (context_ == nullptr) {
       Result<Context> made = open();

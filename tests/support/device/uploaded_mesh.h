@@ -9,7 +9,7 @@ namespace medial_vk::test {
 
 /// DeviceMesh::create() of a mesh that is indexed for it, with all uploads done.
 inline Result<DeviceMesh> upload_mesh(Context::Impl& context, const MeshView& mesh, bool with_links = false) {
-  Result<IndexedMesh> made = IndexedMesh::create(mesh);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh);
   if (!made.ok()) return made.error();
   Result<DeviceMesh> device = DeviceMesh::create(context, made.value(), with_links);
   if (!device.ok()) return device.error();

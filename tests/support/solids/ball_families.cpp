@@ -85,7 +85,7 @@ std::vector<Ball> of_all_sizes(std::size_t count, unsigned seed) {
   std::vector<Ball> balls(count);
   for (auto& [c, r] : balls) {
     r = std::pow(10, random.between(-12, 0));
-    // On each other's scale, so that balls of all sizes overlap.
+    // Distances scale with radii, so that balls of all sizes overlap.
     c = random.in_cube(2 * std::pow(r, 0.9));
   }
   return balls;

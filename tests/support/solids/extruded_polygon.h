@@ -12,7 +12,7 @@ class ExtrudedPolygon {
   ExtrudedPolygon(std::vector<Eigen::Vector2d> base, double height) : base_(std::move(base)), height_(height) {}
 
   bool contains(const Eigen::Vector3d& p) const;
-  /// Of a point inside.
+  /// The nearest boundary point of a point inside.
   Eigen::Vector3d nearest(const Eigen::Vector3d& p) const;
 
   struct MedialPoint {

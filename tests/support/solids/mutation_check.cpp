@@ -17,11 +17,12 @@ constexpr double kAngleMargin = 0.05;  // near the threshold the two may differ 
 // are within its rounding (theory.md, "Rounding": 8 times 2e-6).
 constexpr double kLeastRadius = 1.6e-5;
 
-// All voxels that one side leaves open or fills: a voxel that is neither is proved empty.
+// All voxels that one side fills or leaves undecided. All others are proved empty.
 class Answers {
  public:
   void add(const Voxel& v) { voxels_.insert(v); }
-  /// Around a point: it is within epsilon of the medial surface, which may pass on the other side of a face.
+  /// True if this voxel or one beside it is in the set. A point is within epsilon of the medial surface, which may pass
+  /// on the other side of a face.
   bool any_around(const Voxel& v) const {
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)

@@ -18,7 +18,7 @@ struct MutationOutcome {
 };
 
 /// Makes the mutation of a seed, extracts it on the device and by the reference, and compares:
-///   * it is refused as an invalid mesh, with a message, or both extractions finish;
+///   * the mesh is refused as invalid, with a message, or both extractions finish;
 ///   * every ball passes every condition of the certificate, evaluated by the reference;
 ///   * if the mesh is closed, neither finds a clearly salient point, of a radius that float can distinguish from 0, in
 ///     the middle of voxels that the other has proved empty. (On open meshes the two decide sides differently:

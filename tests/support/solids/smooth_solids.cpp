@@ -100,7 +100,7 @@ class Pear : public SmoothSolid {
   double phase(double z) const { return kPi * (z / length_ + 0.5); }
   double radius(double z) const { return (low_ + high_) / 2 + (low_ - high_) / 2 * std::cos(phase(z)); }
   double slope(double z) const { return -(low_ - high_) / 2 * kPi / length_ * std::sin(phase(z)); }
-  /// Of the ball at z, in the x-z plane: its angle with the axis has the cosine -r'.
+  /// The spoke of the ball at z, in the x-z plane. Its angle with the axis has the cosine -r'.
   Vector3d spoke(double z) const { return {std::sqrt(1 - slope(z) * slope(z)), 0, -slope(z)}; }
 
   /// Cylinder and caps of a capsule to the envelope and its caps, ring by ring.
@@ -202,7 +202,7 @@ class Ellipsoid : public SmoothSolid {
   bool is_prolate_;
 };
 
-/// By vertex, the length of its shortest edge.
+/// For each vertex the length of its shortest edge.
 std::vector<double> shortest_edges(const Mesh& mesh) {
   std::vector<double> shortest(mesh.vertices.size(), std::numeric_limits<double>::max());
   for (const Triangle& t : mesh.triangles) {
@@ -319,13 +319,13 @@ double longest_side(const Mesh& mesh) {
 
 double deviation(const SmoothSolid& solid, const Mesh& mesh) {
   double largest = 0;
-  const auto look_at = [&](const Vector3d& p) { largest = std::max(largest, (p - solid.nearest(p).point).norm()); };
+  const auto measure_at = [&](const Vector3d& p) { largest = std::max(largest, (p - solid.nearest(p).point).norm()); };
   for (const Triangle& t : mesh.triangles) {
     const Vector3d a = as_vector(mesh.vertices[t[0]]), b = as_vector(mesh.vertices[t[1]]),
                    c = as_vector(mesh.vertices[t[2]]);
-    for (const Vector3d& p : {a, b, c}) look_at(p);
-    for (const Vector3d& p : {Vector3d(a + b), Vector3d(b + c), Vector3d(c + a)}) look_at(p / 2);
-    look_at((a + b + c) / 3);
+    for (const Vector3d& p : {a, b, c}) measure_at(p);
+    for (const Vector3d& p : {Vector3d(a + b), Vector3d(b + c), Vector3d(c + a)}) measure_at(p / 2);
+    measure_at((a + b + c) / 3);
   }
   return largest;
 }

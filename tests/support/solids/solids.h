@@ -32,7 +32,7 @@ Mesh make_plate_with_two_holes(double a, double thickness);
 /// A torus of radii 1 and 0.4 in a generic position.
 Mesh make_turned_torus(std::uint32_t around = 60, std::uint32_t along = 30);
 
-/// In the form that the runtime takes, without a trusted normal.
+/// The mesh in the form that the runtime takes, without a trusted normal.
 MeshView view_of(const Mesh& mesh, bool closed = true);
 
 /// Bent about x, stretched and moved away: another box, another unit, and every part in another position.
@@ -46,7 +46,7 @@ void scale(Mesh& mesh, double factor);
 void append(Mesh& mesh, const Mesh& other);
 /// Turns every triangle over: the solid becomes a cavity.
 void turn_over(Mesh& mesh);
-/// By the divergence theorem, in input units cubed.
+/// The volume by the divergence theorem, in input units cubed.
 double signed_volume(const Mesh& mesh);
 
 }  // namespace medial_vk::test

@@ -244,9 +244,9 @@ TEST(BallUnion, SharesAgainstSamples) {
   const int samples = 2'000'000;
   std::vector<int> hits(balls.size());
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> place(low, low + side);
+  std::uniform_real_distribution<double> coordinate(low, low + side);
   for (int n = 0; n < samples; ++n) {
-    const Point x = {place(random), place(random), place(random)};
+    const Point x = {coordinate(random), coordinate(random), coordinate(random)};
     double least = 0;
     std::size_t owner = balls.size();
     for (std::size_t i = 0; i < balls.size(); ++i) {

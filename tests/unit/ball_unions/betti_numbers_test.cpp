@@ -14,7 +14,7 @@
 namespace medial_vk {
 namespace {
 
-/// With all faces.
+/// The complex of these simplices and all their faces.
 DualComplex complete(DualComplex complex) {
   std::vector<EnvelopeVertex> none;
   make_complete(complex, none);
@@ -97,7 +97,7 @@ std::size_t rank_of_boundary(const std::vector<std::array<std::uint32_t, N>>& si
   std::size_t rank = 0;
   for (const auto& simplex : simplices) {
     std::vector<bool> column(faces.size());
-    for (std::size_t k = 0; k < N; ++k) column[place_of(faces, face(simplex, k))] = true;
+    for (std::size_t k = 0; k < N; ++k) column[index_in(faces, face(simplex, k))] = true;
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (!column[f]) continue;
       if (pivots[f].empty()) {

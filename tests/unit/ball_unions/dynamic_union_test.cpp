@@ -13,12 +13,12 @@
 namespace medial_vk {
 namespace {
 
-// Both sum at most 40 volumes of at most 0.4, each with some hundred roundings.
+// Both results are sums of at most 40 volumes of at most 0.4, each with some hundred roundings.
 constexpr double kTolerance = 1e-11;
 
 double volume_at_once(const DynamicUnion& balls) {
   std::vector<Ball> all;
-  for (std::uint32_t i = 0; i < balls.places(); ++i) {
+  for (std::uint32_t i = 0; i < balls.slots(); ++i) {
     if (balls.holds(i)) all.push_back(balls.ball(i));
   }
   return measure_ball_union(all).value().volume;
@@ -40,13 +40,13 @@ class Sequence {
       ASSERT_TRUE(balls_.add(ball).ok());
       EXPECT_NEAR(balls_.volume(), expected, kTolerance);
     } else if (kind == 1) {
-      const std::uint32_t place = random_place();
-      expected -= balls_.loss(place).value();
-      ASSERT_TRUE(balls_.remove(place).ok());
+      const std::uint32_t slot = random_slot();
+      expected -= balls_.loss(slot).value();
+      ASSERT_TRUE(balls_.remove(slot).ok());
       EXPECT_NEAR(balls_.volume(), expected, kTolerance);
     } else {
-      const std::uint32_t place = random_place();
-      ASSERT_TRUE(balls_.move(place, kind == 2 ? nudged(balls_.ball(place)) : random_ball()).ok());
+      const std::uint32_t slot = random_slot();
+      ASSERT_TRUE(balls_.move(slot, kind == 2 ? nudged(balls_.ball(slot)) : random_ball()).ok());
     }
     EXPECT_NEAR(balls_.volume(), volume_at_once(balls_), kTolerance);
     if (random_() % 3 != 0) return;
@@ -69,10 +69,10 @@ class Sequence {
     for (double& x : ball.centre) x += 0.05 * (uniform() - 0.5);
     return ball;
   }
-  std::uint32_t random_place() {
+  std::uint32_t random_slot() {
     for (;;) {
-      const auto place = static_cast<std::uint32_t>(random_() % balls_.places());
-      if (balls_.holds(place)) return place;
+      const auto slot = static_cast<std::uint32_t>(random_() % balls_.slots());
+      if (balls_.holds(slot)) return slot;
     }
   }
 
@@ -143,13 +143,13 @@ TEST(DynamicUnion, NamesWhatItCannotTake) {
   DynamicUnion balls = std::move(DynamicUnion::build(1, 1)).value();
   EXPECT_EQ(DynamicUnion::build(1, 0).error().code, ErrorCode::kUsage);
   EXPECT_EQ(DynamicUnion::build(1, INFINITY).error().code, ErrorCode::kUsage);
-  EXPECT_EQ(balls.remove(0).error().message, "no ball at place 0");
-  EXPECT_EQ(balls.move(7, {{0, 0, 0}, 1}).error().message, "no ball at place 7");
+  EXPECT_EQ(balls.remove(0).error().message, "no ball in slot 0");
+  EXPECT_EQ(balls.move(7, {{0, 0, 0}, 1}).error().message, "no ball in slot 7");
   EXPECT_EQ(balls.loss(0).error().code, ErrorCode::kUsage);
   EXPECT_EQ(balls.add({{0, 2, 0}, 0.5}).error().code, ErrorCode::kUsage);
   EXPECT_EQ(balls.gain({{0, NAN, 0}, 0.5}).error().code, ErrorCode::kUsage);
   ASSERT_TRUE(balls.add({{0, 0, 0}, 0.5}).ok());
-  EXPECT_EQ(balls.add({{0, 0, 0}, 0.5}).error().message, "the union is full: it was made for at most 1");
+  EXPECT_EQ(balls.add({{0, 0, 0}, 0.5}).error().message, "the union is full: its `capacity` is 1");
   EXPECT_EQ(balls.size(), 1u);
 }
 

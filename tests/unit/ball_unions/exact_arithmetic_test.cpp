@@ -21,7 +21,7 @@ ExactNumber exact(Expansion e) {
   return sum;
 }
 
-/// Without zeros, from the smallest up, and no two components have a bit in common.
+/// Expects components without zeros, in ascending order, of which no two have a bit in common.
 void expect_well_formed(Expansion e) {
   for (std::size_t k = 0; k < e.size(); ++k) {
     ASSERT_NE(e[k], 0);

@@ -47,14 +47,14 @@ std::vector<Ball> difficult(unsigned seed) {
   std::mt19937_64 engine(seed);
   const auto below = [&](unsigned count) { return static_cast<unsigned>(engine() % count); };
   const auto fraction = [&] { return std::ldexp(static_cast<double>(engine() >> 11), -53); };
-  const unsigned count = 1 + below(200), places = 1 + below(6), dimensions = 1 + below(3), kind = below(4);
+  const unsigned count = 1 + below(200), positions = 1 + below(6), dimensions = 1 + below(3), kind = below(4);
   const double noise = below(3) != 0 ? std::pow(10.0, -1 - static_cast<int>(below(17))) : 0;
   const double size = std::pow(10.0, static_cast<int>(below(9)) - 4);
   const Point shift = {below(2) != 0 ? 1000 * fraction() : 0, below(2) != 0 ? fraction() : 0, 0};
   std::vector<Ball> balls;
   for (unsigned n = 0; n < count; ++n) {
     Point c = {0, 0, 0};
-    for (std::size_t k = 0; k < dimensions; ++k) c[k] = below(places) + noise * (fraction() - 0.5);
+    for (std::size_t k = 0; k < dimensions; ++k) c[k] = below(positions) + noise * (fraction() - 0.5);
     double radius = kind == 0   ? 1
                     : kind == 1 ? 0.5 * below(4)
                     : kind == 2 ? 2 * fraction()
@@ -112,7 +112,7 @@ bool all_near(const std::vector<EnvelopeVertex>& vertices, const std::vector<Env
 }
 
 RegularTriangulation triangulate(const std::vector<Ball>& balls) {
-  return RegularTriangulation::create(balls, BallTree(balls, 2).order(), 2).value();
+  return RegularTriangulation::build(balls, BallTree(balls, 2).order(), 2).value();
 }
 
 class RegularTriangulationOf : public testing::TestWithParam<Family> {
@@ -205,7 +205,7 @@ TEST_P(RegularTriangulationOf, FindsTheStarOfEveryBall) {
       const auto& balls = tetrahedra[star[n]].balls;
       const auto k = std::find(balls.begin(), balls.end(), i) - balls.begin();
       ASSERT_LT(k, 4);
-      ASSERT_EQ(triangulation_.place_around(star[n], static_cast<std::size_t>(k)), n);
+      ASSERT_EQ(triangulation_.position_around(star[n], static_cast<std::size_t>(k)), n);
     }
   }
   EXPECT_EQ(listed, 4 * tetrahedra.size());
@@ -254,8 +254,8 @@ std::vector<Ball> two_rods(std::size_t count) {
 
 TEST(RegularTriangulation, IsGivenUpWhereItIsTooLargeAndVolumesStayRight) {
   const auto many = two_rods(1000), few = two_rods(50);
-  EXPECT_FALSE(RegularTriangulation::create(many, BallTree(many, 1).order(), 1).has_value());
-  EXPECT_TRUE(RegularTriangulation::create(few, BallTree(few, 1).order(), 1).has_value());
+  EXPECT_FALSE(RegularTriangulation::build(many, BallTree(many, 1).order(), 1).has_value());
+  EXPECT_TRUE(RegularTriangulation::build(few, BallTree(few, 1).order(), 1).has_value());
   for (const auto& balls : {many, few}) {
     // Balls of radius r at steps of 4 r / 3 along a line: cut at 2 r / 3 from their centres.
     const std::size_t n = balls.size() / 2;

@@ -45,7 +45,7 @@ void expect_same(const ShrinkingUnion& shrinking, const std::vector<Ball>& balls
   EXPECT_EQ(shrinking.betti().value(), betti_numbers(fresh.value().complex).value());
 }
 
-TEST(ShrinkingUnion, SaysWhatANewMeasurementSays) {
+TEST(ShrinkingUnion, AgreesWithANewMeasurement) {
   // Large ones among small ones: some are hidden until others go.
   auto balls = random_balls(200, 3, 0.02, 0.12);
   const auto large = random_balls(10, 4, 0.2, 0.3);

@@ -120,7 +120,7 @@ TEST_P(CertifyTest, DropsWhatFailsAndKeepsTheOrder) {
 }
 
 // On the sheet that leaves an edge of the slab at 45 degrees the object angle is pi/4.
-TEST_P(CertifyTest, AsksForAngleOrRadius) {
+TEST_P(CertifyTest, RequiresAngleOrRadius) {
   const double depth = 0.3 - 0.1 * epsilon();
   MedialSphere s = sphere_at(0.3, 1.97, depth);
   s.spoke_b = {-1, 0, 0};

@@ -115,12 +115,12 @@ TEST(ExactSide, AgreesWithLongIntegersOnWalls) {
 /// If plain double is certain, so are the others, with the same result.
 TEST(ExactSide, AgreesWithDouble) {
   std::mt19937_64 engine(3);
-  std::uniform_real_distribution<double> place(-1, 1), radius(0, 1);
+  std::uniform_real_distribution<double> coordinate(-1, 1), radius(0, 1);
   const std::vector<Wall> no_walls;
   int sure = 0;
   for (int n = 0; n < 5000; ++n) {
     std::vector<Ball> balls(5);
-    for (auto& [c, r] : balls) c = {place(engine), place(engine), place(engine)}, r = radius(engine);
+    for (auto& [c, r] : balls) c = {coordinate(engine), coordinate(engine), coordinate(engine)}, r = radius(engine);
     std::array<Bisector, 4> b;
     for (std::uint32_t k = 0; k < 4; ++k) b[k] = bisector(balls, 0, k + 1);
     const auto det = [](const Point& u, const Point& v, const Point& w) {

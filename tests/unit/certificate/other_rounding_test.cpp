@@ -75,7 +75,7 @@ bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewri
   EXPECT_LE(other.certificate.rejected, plain.spheres.size() / 100);
   EXPECT_EQ(count_lost(plain, other.extraction, parameters), 0u);
   EXPECT_EQ(count_lost(other.extraction, plain, parameters), 0u);
-  // Except for a few at thresholds, no more voxels stay undecided.
+  // The number of undecided voxels does not grow, except for a few at thresholds.
   EXPECT_LE(other.extraction.undecided.size(), plain.undecided.size() + plain.spheres.size() / 100);
   return same_bytes(plain, other.extraction);
 }

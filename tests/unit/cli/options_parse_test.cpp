@@ -77,7 +77,7 @@ TEST(Options, AParserForgetsEarlierLines) {
   }
 }
 
-TEST(Options, ThePictureLooksAsAskedFor) {
+TEST(Options, ThePictureLooksAsRequested) {
   const auto look = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"a.obj", "--picture", "a.png"});
     return parsed(more).look;
@@ -133,7 +133,7 @@ TEST(Options, PicturesThatCannotBeAreUsageErrors) {
   EXPECT_THAT(message_of({"a.obj", "--show", "both"}), HasSubstr("use it with --picture FILE.png"));
 }
 
-TEST(Options, SheetsAreGroupedAsAskedFor) {
+TEST(Options, SheetsAreGroupedAsRequested) {
   EXPECT_TRUE(parsed({"a.obj"}).sheets == SheetOptions());
   const SheetOptions sheets = parsed({"a.obj", "--sheet-angle", "10", "--sheet-crease", "0", "--sheet-border", "60",
                                       "--sheet-width", "0.1", "--absorb-fragments", "20"})
@@ -150,7 +150,7 @@ TEST(Options, SheetsAreGroupedAsAskedFor) {
   EXPECT_THAT(message_of({"a.obj", "--absorb-fragments", "many"}), HasSubstr("--absorb-fragments"));
 }
 
-TEST(Options, VolumesAreMeasuredAsAskedFor) {
+TEST(Options, VolumesAreMeasuredAsRequested) {
   const Options options =
       parsed({"a.obj", "--keep-volume", "0.9", "--keep-topology", "--sheet-curve", "c.SVG", "--ball-volumes", "b.csv"});
   EXPECT_EQ(options.keep_volume, 0.9);

@@ -51,7 +51,7 @@ class Terminal {
 
 TEST(ProgressOnATerminal, OneLineThatIsReplacedAndRemoved) {
   const Terminal terminal;
-  if (!terminal.is_open()) GTEST_SKIP() << "no pseudo terminal to be had";
+  if (!terminal.is_open()) GTEST_SKIP() << "no pseudo terminal is available";
   {
     Progress progress(true);
     progress.update("extract", 0.25);
@@ -75,7 +75,7 @@ TEST(ProgressOnATerminal, OneLineThatIsReplacedAndRemoved) {
 
 TEST(ProgressOnATerminal, NothingIfItIsNotWanted) {
   const Terminal terminal;
-  if (!terminal.is_open()) GTEST_SKIP() << "no pseudo terminal to be had";
+  if (!terminal.is_open()) GTEST_SKIP() << "no pseudo terminal is available";
   Progress progress(false);
   progress.update("extract", 0.5);
   progress.clear();

@@ -51,7 +51,7 @@ TEST(SpheresOptions, TheExtensionOrTheFormatDecides) {
   EXPECT_EQ(format("b.xrdf"), SphereFormat::kXrdf);
   EXPECT_EQ(format("b.urdf"), SphereFormat::kUrdf);
   EXPECT_EQ(parsed({"a.obj", "--count", "9", "-o", "b.json", "--format", "foam"}).format, SphereFormat::kFoam);
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "b.ply"}), HasSubstr("say which with --format"));
+  EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "b.ply"}), HasSubstr("choose one with --format"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "--format", "ply"}), HasSubstr("'ply' is unknown"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "--levels", "-o", "b.yml"}), HasSubstr("one set of spheres only"));
 }
@@ -59,7 +59,7 @@ TEST(SpheresOptions, TheExtensionOrTheFormatDecides) {
 TEST(SpheresOptions, AGoalIsNeeded) {
   EXPECT_THAT(message_of({"a.obj"}), HasSubstr("--count N"));
   EXPECT_THAT(message_of({"a.urdf"}), HasSubstr("--count-per-link N"));
-  EXPECT_THAT(message_of({"a.obj", "--resolution", "40"}), HasSubstr("say how many"));
+  EXPECT_THAT(message_of({"a.obj", "--resolution", "40"}), HasSubstr("no goal is given: use --count N"));
   EXPECT_EQ(parsed({"a.obj", "--resolution", "40", "--method", "source"}).request.resolution, 40u);
   EXPECT_THAT(message_of({"a.urdf", "--count", "9"}), HasSubstr("--count-per-link N or --total N"));
   EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--count-per-link", "3"}), HasSubstr("cannot be used together"));

@@ -34,7 +34,7 @@ TEST(Angles, ArcsineIsRight) {
     const auto x = static_cast<float>(i * (1.0 / kSteps));
     ASSERT_NEAR(gpu_angles::arcsine(x), std::asin(double{x}), kError) << x;
   }
-  // Where the arcsine is steepest.
+  // The arcsine is steepest here.
   for (float x = 1; x > 0.999f; x = std::nextafter(x, 0.0f))
     ASSERT_NEAR(gpu_angles::arcsine(x), std::asin(double{x}), kError) << x;
 }

@@ -108,7 +108,7 @@ TEST_F(ContextTest, OpensByIndexAndByName) {
   ASSERT_TRUE(third.ok()) << third.error().message;
 }
 
-TEST_F(ContextTest, OpensByEnvironmentUnlessToldOtherwise) {
+TEST_F(ContextTest, OpensByEnvironmentUnlessADeviceIsNamed) {
   const test::ScopedEnvironment variable("MEDIAL_VK_DEVICE", "no such device");
   const Result<Context> refused = Context::create(options());
   ASSERT_FALSE(refused.ok());

@@ -38,8 +38,8 @@ std::vector<EmbeddedShader> frozen_shaders() {
 }
 
 // The requests of an extraction from a mesh with trusted normals only, in the names of the frozen variants.
-std::set<std::string> names_asked(Context::Impl& context, const PreparedMesh& mesh,
-                                  const ExtractionOptions& parameters) {
+std::set<std::string> names_requested(Context::Impl& context, const PreparedMesh& mesh,
+                                      const ExtractionOptions& parameters) {
   Result<DeviceMesh> device = test::upload_mesh(context, mesh.view());
   EXPECT_TRUE(device.ok() && device.value().add_links().ok());
   Result<StopWord> stop = StopWord::create(context);
@@ -66,14 +66,14 @@ class FrozenShadersTest : public testing::Test {
   ExtractionOptions parameters_;
 };
 
-TEST_F(FrozenShadersTest, AreAskedFor) {
+TEST_F(FrozenShadersTest, AreRequested) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Context context = test::make_context();
   if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "this device takes the general kernels";
-  const std::set<std::string> asked = names_asked(Internals::of(context), mesh_, parameters_);
+  const std::set<std::string> requested = names_requested(Internals::of(context), mesh_, parameters_);
   ASSERT_THAT(frozen_shaders(), testing::Not(testing::IsEmpty()));
   for (const EmbeddedShader& frozen : frozen_shaders())
-    EXPECT_TRUE(asked.contains(std::string(frozen.name))) << frozen.name << " is never used";
+    EXPECT_TRUE(requested.contains(std::string(frozen.name))) << frozen.name << " is never used";
 }
 
 TEST_F(FrozenShadersTest, ComputeTheSame) {

@@ -265,7 +265,7 @@ TEST_F(RecorderTest, ValidationHearsAMissingBarrier) {
   testing::internal::CaptureStderr();
   run([&](Recorder& recorder) {
     recorder.fill(buffer, 0, buffer.size, 1);
-    recorder.copy(buffer, 0, back, 0, buffer.size);  // reads what may not be written yet
+    recorder.copy(buffer, 0, back, 0, buffer.size);  // may read bytes before they are written
     return recorder.status();
   });
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("Vulkan validation error"));

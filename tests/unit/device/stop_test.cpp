@@ -80,17 +80,17 @@ TEST_P(Stop, TakesEffectSoon) {
   std::vector<Clock::duration> waits;
   for (int i = 0; i < 9; ++i) {
     std::stop_source source;
-    Clock::time_point asked;
+    Clock::time_point requested;
     std::jthread other([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(100 + 60 * i));
-      asked = Clock::now();
+      requested = Clock::now();
       source.request_stop();
     });
     const Result<Extraction> result = extract({}, source.get_token());
     const Clock::time_point ended = Clock::now();
     other.join();
     expect_interrupted(result);
-    waits.push_back(ended - asked);
+    waits.push_back(ended - requested);
   }
   std::ranges::sort(waits);
   const std::chrono::duration<double, std::milli> median = waits[waits.size() / 2], worst = waits.back();

@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(VulkanError, MemoryIsToldFromOtherFailures) {
+TEST(VulkanError, MemoryIsDistinguishedFromOtherFailures) {
   for (const VkResult result : {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY}) {
     EXPECT_EQ(vulkan_error("vkAllocateMemory", result).code, ErrorCode::kOutOfMemory);
   }

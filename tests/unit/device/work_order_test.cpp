@@ -73,7 +73,7 @@ void expect_sorted(const std::vector<std::uint32_t>& work, std::uint32_t first_i
       const double before = work[items[i - 1]], now = work[items[i]];
       // There are eight classes for a power of two, and one for all from 57,344 on: 7/4 of 2^15.
       if (before < 57344) {
-        EXPECT_LT(now, before == 0 ? 1 : before * 9 / 8) << "place " << first + i;
+        EXPECT_LT(now, before == 0 ? 1 : before * 9 / 8) << "position " << first + i;
       }
     }
   }
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> works(std::size_t count, double largest) {
   return result;
 }
 
-TEST(WorkOrder, NeighboursAskAboutAsMuch) {
+TEST(WorkOrder, NeighboursHaveSimilarWork) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   for (const std::size_t count : {1, 7, 64, 1000, 1024, 1025, 5000}) expect_sorted(works(count, 3000));
 }
@@ -104,7 +104,7 @@ TEST(WorkOrder, OfABlockIsCountedFromItsFirstItem) {
   expect_sorted(works(1500, 300), 4096);
 }
 
-TEST(WorkOrder, IsOneOfThemWhereAllAskTheSame) {
+TEST(WorkOrder, IsOneOfThemWhereAllWorkIsEqual) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   expect_sorted(std::vector<std::uint32_t>(2500, 17));
   expect_sorted(std::vector<std::uint32_t>(2500, 0));

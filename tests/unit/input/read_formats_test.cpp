@@ -33,7 +33,7 @@ void expect_same_corners(const Mesh& a, const Mesh& b) {
   }
 }
 
-/// Through memory: g++ 12 at -O3 omits the rounding of the last elements of a loop over x = float(x).
+/// Rounds through memory, since g++ 12 at -O3 omits the rounding of the last elements of a loop over x = float(x).
 double round_to_float(double x) {
   const volatile float rounded = static_cast<float>(x);
   return static_cast<double>(rounded);
@@ -112,7 +112,7 @@ struct CommaPunctuation : std::numpunct<char> {
 };
 
 TEST(ReadFormats, DecimalCommaLocaleChangesNothing) {
-  // Of C if one is installed, of C++ in any case.
+  // Sets the locale of C, if one is installed, and that of C++ in any case.
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8", "pl_PL.UTF-8"}) {
     if (std::setlocale(LC_ALL, name) != nullptr) break;
   }

@@ -55,7 +55,7 @@ std::vector<Point> random_points(int count, unsigned seed, double reach) {
   return points;
 }
 
-/// Depth of the tree; checks boxes and leaf ranges on the way.
+/// Returns the depth of the tree and checks boxes and leaf ranges.
 std::uint32_t check_subtree(const Bvh& bvh, std::uint32_t index, std::vector<std::uint8_t>& seen) {
   const BvhNode& node = bvh.nodes()[index];
   if (node.count == 0) {

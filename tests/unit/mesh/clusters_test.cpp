@@ -20,7 +20,7 @@ UnitTransform unit_box_of(const Bvh& bvh) {
 
 Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-// Of float numbers that represent double ones in the unit box.
+// The rounding of numbers in the unit box to float.
 constexpr double kRounding = 1e-7;
 
 void expect_holds(const gpu::Cluster& c, const std::array<Point, 3>& corners) {

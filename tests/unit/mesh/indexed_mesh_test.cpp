@@ -106,7 +106,7 @@ TEST_F(IndexedMeshTest, RefusesVerticesThatAreNotItsOwn) {
 TEST(IndexedMesh, ErrorsAreThoseOfTheTree) {
   Mesh mesh = test::make_turned_torus();
   mesh.vertices[5][0] = std::numeric_limits<double>::quiet_NaN();
-  const Result<IndexedMesh> index = IndexedMesh::create(test::view_of(mesh));
+  const Result<IndexedMesh> index = IndexedMesh::build(test::view_of(mesh));
   ASSERT_FALSE(index.ok());
   EXPECT_EQ(index.error().code, ErrorCode::kInvalidMesh);
 }

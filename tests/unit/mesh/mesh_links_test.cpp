@@ -44,7 +44,7 @@ struct Turns {
   double closest_call = 0;  // greatest turn of one of them, over the bound of its triangle, both as sines
 };
 
-/// Of random points inside.
+/// Tests the spokes of random points inside.
 Turns expect_spokes_within_spreads(const Mesh& mesh) {
   constexpr double kRoundingOfSines = 1e-7;
   Turns turns;

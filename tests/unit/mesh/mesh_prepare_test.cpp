@@ -121,7 +121,7 @@ TEST(Prepare, DegenerateFacesAreDroppedAndCounted) {
   mesh.triangles.push_back({1, 4, 1});
   mesh.short_polygons = 2;
   const PreparedMesh prepared = prepare(mesh);
-  EXPECT_EQ(prepared.report.degenerate_dropped, 4u);
+  EXPECT_EQ(prepared.report.degenerates_dropped, 4u);
   EXPECT_TRUE(prepared.report.closed);
   EXPECT_EQ(prepared.mesh.triangles, make_box({1, 1, 1}).triangles);
   EXPECT_EQ(prepared.input_of_triangle[3], 4u);
@@ -159,7 +159,7 @@ TEST(Prepare, ACornerInsideASideLeavesNoCrack) {
     const PreparedMesh prepared = prepare(mesh);
     EXPECT_TRUE(prepared.report.closed);
     EXPECT_EQ(prepared.report.caps_repaired, 1u);
-    EXPECT_EQ(prepared.report.degenerate_dropped, 1u);
+    EXPECT_EQ(prepared.report.degenerates_dropped, 1u);
     EXPECT_EQ(prepared.report.triangles, 14u);
     EXPECT_EQ(prepared.report.trusted_triangles, 14u);
     EXPECT_NEAR(prepared.report.signed_volume, 1, 1e-12);
@@ -169,7 +169,7 @@ TEST(Prepare, ACornerInsideASideLeavesNoCrack) {
 TEST(Prepare, NeedlesSurvive) {
   const PreparedMesh cap = prepare(box_with_cut_side({0.5, -1e-8, 0}, true));  // a face of aspect 1e8
   EXPECT_EQ(cap.report.triangles, 14u);
-  EXPECT_EQ(cap.report.degenerate_dropped, 0u);
+  EXPECT_EQ(cap.report.degenerates_dropped, 0u);
   EXPECT_EQ(prepare(box_with_cut_side({0.5, -1e-8, 0}, false)).report.trusted_triangles, 14u);
   Mesh needle;
   needle.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-8, 0}, {0.5, 0, 1e-8}};
@@ -177,7 +177,7 @@ TEST(Prepare, NeedlesSurvive) {
   for (const double offset : {0.0, 0.3}) {
     const PreparedMesh prepared = prepare(moved(needle, {offset, offset, 0}));
     EXPECT_EQ(prepared.report.triangles, 4u);
-    EXPECT_EQ(prepared.report.degenerate_dropped, 0u);
+    EXPECT_EQ(prepared.report.degenerates_dropped, 0u);
     EXPECT_TRUE(prepared.report.closed);
   }
 }

@@ -67,16 +67,16 @@ TEST(WindingNumber, BesideASurfaceIsHalfway) {
   translate(mesh, {1e3, 0, 0});
   const TriangleTree tree(mesh);
   const WindingTree winding(tree);
-  for (std::uint32_t place = 0; place < tree.order.size(); ++place) {
-    if (tree.order[place] < 12) continue;  // the sphere: around the box's corner, 1/8 of it inside
-    const Point c = tree.corners[place][0];
+  for (std::uint32_t position = 0; position < tree.order.size(); ++position) {
+    if (tree.order[position] < 12) continue;  // the sphere: around the box's corner, 1/8 of it inside
+    const Point c = tree.corners[position][0];
     const bool inside_box = c[0] > 1e3 + 0.05 && c[1] > 0.05 && c[2] > 0.05;
     const bool outside_box = c[0] < 1e3 - 0.05 || c[1] < -0.05 || c[2] < -0.05;
     if (inside_box) {
-      EXPECT_NEAR(winding.beside(place), 1.5, 0.03);
+      EXPECT_NEAR(winding.beside(position), 1.5, 0.03);
     }
     if (outside_box) {
-      EXPECT_NEAR(winding.beside(place), 0.5, 0.03);
+      EXPECT_NEAR(winding.beside(position), 0.5, 0.03);
     }
   }
 }
@@ -121,11 +121,12 @@ TEST(WindingStep, IsTheDifferenceOfTwoValues) {
   for (Mesh mesh : {stack_of_plates(5), shells(9), rows_of_boxes(3), make_torus(2, 0.5, 12, 30), far_away}) {
     const TriangleTree tree(mesh);
     const auto count = static_cast<std::uint32_t>(tree.order.size());
-    const auto beside = [&](std::uint32_t place) {  // the sum, term by term
-      const Point centroid = (1.0 / 3) * (tree.corners[place][0] + tree.corners[place][1] + tree.corners[place][2]);
+    const auto beside = [&](std::uint32_t position) {  // sums all terms
+      const Point centroid =
+          (1.0 / 3) * (tree.corners[position][0] + tree.corners[position][1] + tree.corners[position][2]);
       double sum = 0;
       for (std::uint32_t other = 0; other < count; ++other) {
-        if (other != place) sum += triangle_winding(tree.corners[other], centroid);
+        if (other != position) sum += triangle_winding(tree.corners[other], centroid);
       }
       return sum;
     };
@@ -161,12 +162,12 @@ TEST(WindingStep, CostsTheSameInALargerStack) {
     const TriangleTree tree(mesh);
     std::uint64_t cost = 0;
     std::uint32_t last = 0;
-    for (std::uint32_t place = 0; place < tree.order.size(); ++place) {
-      if (tree.order[place] % 12 != 0) continue;
-      if (last != place) {
-        EXPECT_TRUE(winding_step(tree, last, place, cost));
+    for (std::uint32_t position = 0; position < tree.order.size(); ++position) {
+      if (tree.order[position] % 12 != 0) continue;
+      if (last != position) {
+        EXPECT_TRUE(winding_step(tree, last, position, cost));
       }
-      last = place;
+      last = position;
     }
     return static_cast<double>(cost) / plates;
   };

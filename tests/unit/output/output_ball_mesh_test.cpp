@@ -58,7 +58,7 @@ TEST(OutputBallMesh, HeaderSaysWhatFollows) {
   EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 126 * 39 + 240 * 13);
 }
 
-// In long double, which has eleven bits more: practically exact here.
+// Computed in long double, which has eleven more bits and is practically exact here.
 TEST(OutputBallMesh, NoVertexIsOutsideOfItsBall) {
   const std::vector<MedialSphere> spheres = some_spheres();
   std::istringstream body(encode_ball_mesh_ply(some_header(), spheres, true, 2).value());
@@ -91,7 +91,7 @@ TEST(OutputBallMesh, ColoursGoFromVioletToYellow) {
 
 std::uint64_t a_mebibyte_or_more(std::uint32_t detail) { return 1ull << (20 + 2 * detail); }
 
-TEST(OutputBallMesh, DetailGivesWayToTheSizeOfTheFileUnlessItWasAskedFor) {
+TEST(OutputBallMesh, DetailGivesWayToTheSizeOfTheFileUnlessItWasRequested) {
   EXPECT_EQ(choose_sphere_detail({}, 256, a_mebibyte_or_more).value(), 2u);
   EXPECT_EQ(choose_sphere_detail({}, 257, a_mebibyte_or_more).value(), 1u);
   EXPECT_EQ(choose_sphere_detail({}, 1025, a_mebibyte_or_more).value(), 0u);

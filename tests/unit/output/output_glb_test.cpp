@@ -66,17 +66,17 @@ std::vector<std::array<float, 3>> vectors(const Glb& glb, std::size_t accessor) 
   return out;
 }
 
-/// From a point, given relative to the root, to the centre of a sphere.
+/// The distance of a point, given relative to the root, from the centre of a sphere.
 long double distance(const MedialSphere& sphere, const json& root, const std::array<float, 3>& point) {
   long double squared = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const long double place = root["translation"][axis].get<long double>() + point[axis];
-    squared += (place - sphere.centre[axis]) * (place - sphere.centre[axis]);
+    const long double coordinate = root["translation"][axis].get<long double>() + point[axis];
+    squared += (coordinate - sphere.centre[axis]) * (coordinate - sphere.centre[axis]);
   }
   return std::sqrt(squared);
 }
 
-/// Inside the sphere, up to the rounding of floats.
+/// Expects a ball inside the sphere, up to the rounding of floats.
 void expect_ball(const MedialSphere& sphere, const json& root, const std::array<float, 3>& centre, float radius) {
   EXPECT_LE(distance(sphere, root, centre) + radius, static_cast<long double>(sphere.radius));
   EXPECT_NEAR(radius, sphere.radius, 1e-6);

@@ -17,7 +17,7 @@ using test::some_header;
 using test::some_spheres;
 using testing::HasSubstr;
 
-/// Of some_spheres(), of which there are three.
+/// The marks of some_spheres(), which are three.
 const std::uint8_t kMarks[] = {kSeam, 0, kSeam | kRim};
 
 template <class T>

@@ -90,12 +90,12 @@ TEST_F(PageBytes, ANameCannotBreakOut) {
   EXPECT_THAT(text, Not(HasSubstr("\xff")));
 }
 
-TEST_F(PageBytes, AsksNoNetworkAndCarriesTheLicence) {
+TEST_F(PageBytes, NeedsNoNetworkAndCarriesTheLicence) {
   const std::string text = page();
   EXPECT_THAT(text, HasSubstr("default-src 'none'"));
   EXPECT_THAT(text, HasSubstr("three.js authors"));
   EXPECT_THAT(text, HasSubstr("Permission is hereby granted"));
-  for (const char* asked : {" src=", "<link", "@import", "url("}) EXPECT_THAT(text, Not(HasSubstr(asked)));
+  for (const char* request : {" src=", "<link", "@import", "url("}) EXPECT_THAT(text, Not(HasSubstr(request)));
 }
 
 TEST_F(PageBytes, NothingFoundIsAPageToo) {

@@ -43,7 +43,7 @@ std::size_t different_pixels(const Picture& a, const Picture& b) {
   return count;
 }
 
-TEST(PictureDraw, HasTheSizeAskedForAndSomethingInIt) {
+TEST(PictureDraw, HasTheRequestedSizeAndIsNotEmpty) {
   const Picture picture = draw_picture(test::make_box({2, 1, 2}), sheet_in_box(), 0.07, kSmall);
   EXPECT_EQ(picture.width, 400u);
   EXPECT_EQ(picture.height, 300u);

@@ -39,17 +39,18 @@ class PacketQueriesTest : public test::DeviceTest {
     const auto make = [&](VkDeviceSize bytes, MemoryKind kind) {
       return arena.create_buffer(bytes, kind, "a test").value();
     };
-    const Buffer asked = make(count * 16, MemoryKind::kDevice), table = make(slots.size_bytes(), MemoryKind::kDevice);
+    const Buffer positions = make(count * 16, MemoryKind::kDevice),
+                 table = make(slots.size_bytes(), MemoryKind::kDevice);
     const Buffer nearest = make(count * 16, MemoryKind::kDevice), hits = make(count * 4, MemoryKind::kDevice);
     const Buffer read_nearest = make(count * 16, MemoryKind::kReadback);
     const Buffer read_hits = make(count * 4, MemoryKind::kReadback);
-    EXPECT_TRUE(upload(context, asked, std::as_bytes(queries)).ok());
+    EXPECT_TRUE(upload(context, positions, std::as_bytes(queries)).ok());
     EXPECT_TRUE(upload(context, table, std::as_bytes(slots)).ok());
     const auto done = run_commands(context, [&](Recorder& r) {
       r.fill(nearest, 0, count * 16, 0);
       r.fill(hits, 0, count * 4, 0);
       r.barrier();
-      record(r, table.range(0, slots.size_bytes()), asked.range(), nearest.range(), hits.range());
+      record(r, table.range(0, slots.size_bytes()), positions.range(), nearest.range(), hits.range());
       r.copy(nearest, 0, read_nearest, 0, count * 16);
       r.copy(hits, 0, read_hits, 0, count * 4);
       r.barrier_to_host();
@@ -62,26 +63,26 @@ class PacketQueriesTest : public test::DeviceTest {
     return answers;
   }
 
-  Answers ask_packets(const DeviceMesh& device, const PacketShape& shape, std::span<const Texel> queries,
-                      std::span<const Point> group, std::uint32_t* unresolved) {
+  Answers query_packets(const DeviceMesh& device, const PacketShape& shape, std::span<const Texel> queries,
+                        std::span<const Point> group, std::uint32_t* unresolved) {
     const auto count = static_cast<std::uint32_t>(queries.size());
     PacketQueries packets = PacketQueries::create(Internals::of(*context_), device, count, shape).value();
     const std::vector<std::uint32_t> slots = make_slots(shape, group);
     const auto size = static_cast<std::uint32_t>(group.size());
-    const Answers answers = run(queries, slots, [&](Recorder& r, auto table, auto asked, auto nearest, auto hits) {
-      packets.closest(r, {.groups = count / size, .group_size = size}, table, asked, nearest, hits,
+    const Answers answers = run(queries, slots, [&](Recorder& r, auto table, auto positions, auto nearest, auto hits) {
+      packets.closest(r, {.groups = count / size, .group_size = size}, table, positions, nearest, hits,
                       TreeQueries::Ties::kIndex);
     });
     *unresolved = packets.read_unresolved_total().value();
     return answers;
   }
 
-  Answers ask_one_by_one(const DeviceMesh& device, std::span<const Texel> queries) {
+  Answers query_one_by_one(const DeviceMesh& device, std::span<const Texel> queries) {
     TreeQueries single =
         TreeQueries::create(Internals::of(*context_), device, static_cast<std::uint32_t>(queries.size())).value();
     const std::vector<std::uint32_t> unused(4);
-    return run(queries, unused, [&](Recorder& r, auto, auto asked, auto nearest, auto hits) {
-      single.closest(r, QueryCount::of(static_cast<std::uint32_t>(queries.size())), asked, nearest, hits,
+    return run(queries, unused, [&](Recorder& r, auto, auto positions, auto nearest, auto hits) {
+      single.closest(r, QueryCount::of(static_cast<std::uint32_t>(queries.size())), positions, nearest, hits,
                      TreeQueries::Ties::kIndex);
     });
   }
@@ -113,12 +114,12 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
     std::vector<Texel> queries = samples_of_spheres(directions, 60);
     for (std::size_t i = 0; i < queries.size(); i += 7) queries[i][3] = -1;       // passed over
     for (std::size_t i = 3; i < queries.size(); i += 7) queries[i][3] = 0.0004f;  // nothing is that near, or few are
-    const Answers single = ask_one_by_one(device, queries);
+    const Answers single = query_one_by_one(device, queries);
     for (const PacketShape& shape : all_shapes(Internals::of(*context_))) {
       SCOPED_TRACE(testing::Message() << samples << " samples, width " << shape.width << ", shared memory "
                                       << shape.through_shared_memory);
       std::uint32_t unresolved = 1;
-      const Answers packets = ask_packets(device, shape, queries, directions, &unresolved);
+      const Answers packets = query_packets(device, shape, queries, directions, &unresolved);
       EXPECT_EQ(unresolved, 0u);
       int other_hits = 0;
       for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -144,7 +145,7 @@ TEST_F(PacketQueriesTest, CentreOfASphere) {
   }
   std::uint32_t unresolved = 0;
   const Answers answers =
-      ask_packets(device, PacketShape::best_for(Internals::of(*context_)), queries, around, &unresolved);
+      query_packets(device, PacketShape::best_for(Internals::of(*context_)), queries, around, &unresolved);
   EXPECT_EQ(unresolved, 51u);
   for (const Texel& nearest : answers.nearest) EXPECT_NEAR(std::sqrt(nearest[3]), 0.5, 1e-4);
 }
@@ -158,11 +159,11 @@ TEST(PacketSlots, HoldEveryPointOnce) {
         const auto slots = geometry ? make_slots(shape, spiral_points(size)) : make_slots(shape, size);
         EXPECT_EQ(slots.size(), shape.packets(size) * shape.slots());
         std::multiset<std::uint32_t> held;
-        for (const std::uint32_t place : slots) {
-          if (place != kNoPoint) held.insert(place);
+        for (const std::uint32_t point : slots) {
+          if (point != kNoPoint) held.insert(point);
         }
         EXPECT_EQ(held.size(), size);
-        for (std::uint32_t place = 0; place < size; ++place) EXPECT_EQ(held.count(place), 1u);
+        for (std::uint32_t point = 0; point < size; ++point) EXPECT_EQ(held.count(point), 1u);
       }
     }
   }
@@ -214,22 +215,22 @@ TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
   Context::Impl& context = Internals::of(*context_);
   const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   const std::vector<Texel> queries = samples_of_spheres(spiral_points(50), 20);
-  const Answers expected = ask_one_by_one(device, queries);
+  const Answers expected = query_one_by_one(device, queries);
   constexpr std::uint32_t kGroup = TreeQueries::kWorkgroupSize, kPerSlice = 2 * kGroup;
   const auto total = static_cast<std::uint32_t>(queries.size());
   Arena arena(context);
   const Buffer words = arena.create_buffer(64, MemoryKind::kUpload, "a test").value();
   auto* word = static_cast<std::uint32_t*>(words.mapped);
-  for (const std::uint32_t asked_for : {total, total - 1, kPerSlice + 1, kPerSlice, 1u, 0u}) {
-    SCOPED_TRACE(asked_for);
+  for (const std::uint32_t given : {total, total - 1, kPerSlice + 1, kPerSlice, 1u, 0u}) {
+    SCOPED_TRACE(given);
     TreeQueries single = TreeQueries::create(context, device, total).value();
-    std::vector<std::uint32_t> asked_before;  // by slice: recorded in this order, each before its dispatch
+    std::vector<std::uint32_t> prepared;  // by slice: recorded in this order, each before its dispatch
     const std::vector<std::uint32_t> unused(4);
-    const Answers found = run(queries, unused, [&](Recorder& r, auto, auto asked, auto nearest, auto hits) {
-      word[0] = asked_for;
+    const Answers found = run(queries, unused, [&](Recorder& r, auto, auto positions, auto nearest, auto hits) {
+      word[0] = given;
       const auto prepare = [&](Recorder& recorder, std::uint32_t k) -> VkDeviceSize {
-        asked_before.push_back(k);
-        const std::uint32_t left = asked_for - std::min(asked_for, k * kPerSlice);
+        prepared.push_back(k);
+        const std::uint32_t left = given - std::min(given, k * kPerSlice);
         const std::uint32_t groups = (std::min(left, kPerSlice) + kGroup - 1) / kGroup;
         recorder.fill(words, 16, 4, groups);
         recorder.fill(words, 20, 8, 1);
@@ -237,12 +238,12 @@ TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
         return 16;
       };
       const Slices slices = {(total + kPerSlice - 1) / kPerSlice, kPerSlice / kGroup, prepare};
-      single.closest(r, {0, &words, 0, 1, &words, slices}, asked, nearest, hits, TreeQueries::Ties::kIndex);
+      single.closest(r, {0, &words, 0, 1, &words, slices}, positions, nearest, hits, TreeQueries::Ties::kIndex);
     });
-    for (std::uint32_t k = 0; k < asked_before.size(); ++k) EXPECT_EQ(asked_before[k], k);
-    EXPECT_EQ(asked_before.size(), (total + kPerSlice - 1) / kPerSlice);
+    for (std::uint32_t k = 0; k < prepared.size(); ++k) EXPECT_EQ(prepared[k], k);
+    EXPECT_EQ(prepared.size(), (total + kPerSlice - 1) / kPerSlice);
     for (std::uint32_t i = 0; i < total; ++i) {
-      EXPECT_EQ(found.nearest[i], i < asked_for ? expected.nearest[i] : Texel{}) << i;
+      EXPECT_EQ(found.nearest[i], i < given ? expected.nearest[i] : Texel{}) << i;
     }
   }
 }

@@ -82,7 +82,7 @@ TEST_F(SceneTest, StorageBuffersInPlaceOfTexels) {
   EXPECT_EQ(without.winding_numbers(points).value(), expected_numbers);
 }
 
-// Through memory that the host cannot use, as on a GPU, and back: the same results, in memory of the caller's.
+// Queries pass through memory that the host cannot use, as on a GPU: the results are the same, in the caller's memory.
 TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   const Mesh mesh = rotated_torus();
   std::vector<Point> points;
@@ -102,7 +102,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
   ASSERT_TRUE(copying.closest_points_of_groups(points, 51, out).ok());
   EXPECT_TRUE(same(out, scene.closest_points_of_groups(points, 51).value()));
   EXPECT_EQ(scene.closest_points(points, std::span(out).first(7)).error().message,
-            "5100 points have room for 7 results");
+            "`out` must have an element for each of 5100 points; it has 7");
   EXPECT_EQ(scene.closest_points_of_groups(points, 51, std::span(out).first(7)).error().code, ErrorCode::kUsage);
 }
 
@@ -113,24 +113,24 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
   const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   TreeQueries queries = TreeQueries::create(context, device, 64).value();
   Arena arena(context);
-  const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
+  const Buffer positions = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
   const Buffer nearest = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
   const Buffer hits = arena.create_buffer(64 * 4, MemoryKind::kDevice, "a test").value();
-  const auto ask = [&](const Point& p) {
+  const auto query = [&](const Point& p) {
     const Point unit = device.to_unit(p);
     const std::vector<Texel> texels(
         64, {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2]), 3.4e38f});
-    ASSERT_TRUE(upload(context, asked, std::as_bytes(std::span<const Texel>(texels))).ok());
+    ASSERT_TRUE(upload(context, positions, std::as_bytes(std::span<const Texel>(texels))).ok());
     ASSERT_TRUE(run_commands(context, [&](Recorder& r) {
-                  queries.closest(r, QueryCount::of(10), asked.range(), nearest.range(), hits.range());
+                  queries.closest(r, QueryCount::of(10), positions.range(), nearest.range(), hits.range());
                   return r.status();
                 }).ok());
   };
-  ask({0.5, 0.1, 0.2});
+  query({0.5, 0.1, 0.2});
   EXPECT_EQ(queries.read_unresolved_total().value(), 0u);
-  ask({0, 0, 0});
+  query({0, 0, 0});
   EXPECT_EQ(queries.read_unresolved_total().value(), 10u);
-  ask({0, 0, 0});
+  query({0, 0, 0});
   EXPECT_EQ(queries.read_unresolved_total().value(), 20u);
 }
 
@@ -143,16 +143,16 @@ TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
   StopWord stop = StopWord::create(context).value();
   TreeQueries queries = TreeQueries::create(context, device, 64, stop.range()).value();
   Arena arena(context);
-  const Buffer asked = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
+  const Buffer positions = arena.create_buffer(64 * 16, MemoryKind::kDevice, "a test").value();
   const Buffer numbers = arena.create_buffer(64 * 8, MemoryKind::kDevice, "a test").value();
   const Buffer readback = arena.create_buffer(64 * 8, MemoryKind::kReadback, "a test").value();
   const std::vector<Texel> middles(64, {0.5f, 0.5f, 0.5f, 3.4e38f});
-  ASSERT_TRUE(upload(context, asked, std::as_bytes(std::span<const Texel>(middles))).ok());
-  const auto ask = [&] {
+  ASSERT_TRUE(upload(context, positions, std::as_bytes(std::span<const Texel>(middles))).ok());
+  const auto query = [&] {
     EXPECT_TRUE(run_commands(context, [&](Recorder& r) {
                   r.fill(numbers, 0, 64 * 8, 0);
                   r.barrier();
-                  queries.winding(r, QueryCount::of(64), asked.range(), numbers.range(), 0.0f);
+                  queries.winding(r, QueryCount::of(64), positions.range(), numbers.range(), 0.0f);
                   r.copy(numbers, 0, readback, 0, 64 * 8);
                   r.barrier_to_host();
                   return r.status();
@@ -161,10 +161,10 @@ TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
     std::memcpy(last.data(), static_cast<const std::byte*>(readback.mapped) + 63 * 8, sizeof(last));
     return last[0];
   };
-  EXPECT_NEAR(ask(), 1.0f, 1e-4f);
+  EXPECT_NEAR(query(), 1.0f, 1e-4f);
   EXPECT_EQ(queries.read_unresolved_total().value(), 64u);
   stop.raise();
-  EXPECT_EQ(ask(), 0.0f);
+  EXPECT_EQ(query(), 0.0f);
   EXPECT_EQ(queries.read_unresolved_total().value(), 64u);
 }
 

@@ -37,7 +37,7 @@ class SceneUpdate : public test::DeviceTest {
     bool operator==(const Nearest&) const = default;
   };
 
-  /// By `queries`, created for `mesh` before or after it was updated; ties go to the smallest index.
+  /// Answers of `queries`, created for `mesh` before or after it was updated; ties go to the smallest index.
   std::vector<Nearest> closest(const TreeQueries& queries, const DeviceMesh& mesh, const std::vector<Point>& points) {
     Context::Impl& context = Internals::of(*context_);
     const auto count = static_cast<std::uint32_t>(points.size());
@@ -47,13 +47,13 @@ class SceneUpdate : public test::DeviceTest {
       texels.push_back({static_cast<float>(u[0]), static_cast<float>(u[1]), static_cast<float>(u[2]), 3.4e38f});
     }
     Arena arena(context);
-    const Buffer asked = arena.create_buffer(count * 16, MemoryKind::kDevice, "a test").value();
+    const Buffer positions = arena.create_buffer(count * 16, MemoryKind::kDevice, "a test").value();
     const Buffer nearest = arena.create_buffer(count * 16, MemoryKind::kDevice, "a test").value();
     const Buffer hits = arena.create_buffer(count * 4, MemoryKind::kDevice, "a test").value();
     const Buffer readback = arena.create_buffer(count * 20, MemoryKind::kReadback, "a test").value();
-    EXPECT_TRUE(medial_vk::upload(context, asked, std::as_bytes(std::span<const Texel>(texels))).ok());
+    EXPECT_TRUE(medial_vk::upload(context, positions, std::as_bytes(std::span<const Texel>(texels))).ok());
     EXPECT_TRUE(run_commands(context, [&](Recorder& r) {
-                  queries.closest(r, QueryCount::of(count), asked.range(), nearest.range(), hits.range(),
+                  queries.closest(r, QueryCount::of(count), positions.range(), nearest.range(), hits.range(),
                                   TreeQueries::Ties::kIndex);
                   r.copy(nearest, 0, readback, 0, count * 16);
                   r.copy(hits, 0, readback, count * 16, count * 4);
@@ -128,7 +128,7 @@ TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
   wrong = mesh;
   wrong.vertices.push_back({0, 0, 0});
   EXPECT_EQ(device.update(test::indexed(test::view_of(wrong))).error().message,
-            "the mesh is another one than that on the device, not that one moved");
+            "the mesh is not a moved copy of the one on the device");
   ASSERT_TRUE(indexed.move_vertices(test::bent(mesh).vertices).ok());
   ASSERT_TRUE(device.update(indexed).ok());
 

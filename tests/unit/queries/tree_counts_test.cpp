@@ -105,19 +105,19 @@ TEST_F(TreeCounts, APacketTestsABoxOnceForAllItsPoints) {
     const std::vector<std::uint32_t> slots = make_slots(shape, kQueries);
     const Buffer table = arena_->create_buffer(slots.size() * 4, MemoryKind::kDevice, "a test").value();
     ASSERT_TRUE(upload(Internals::of(*context_), table, std::as_bytes(std::span(slots))).ok());
-    const auto ask = [&](Recorder& r) {
+    const auto query = [&](Recorder& r) {
       packets.closest(r, {.groups = 1, .group_size = kQueries}, table.range(0, slots.size() * 4), at_.range(),
                       out_.range(), hits_.range());
     };
-    const Tests nothing = tests_of(packets, {2, 2, 2, 0}, ask);
+    const Tests nothing = tests_of(packets, {2, 2, 2, 0}, query);
     EXPECT_EQ(nothing.nodes, shape.arity());
     EXPECT_EQ(nothing.triangles, 0u);
     // Next to the boundary all points examine only a part; from the centre much of it is nearly equally far.
-    const Tests near = tests_of(packets, {0.5f, 0.5f, 0.02f, kFar}, ask);
+    const Tests near = tests_of(packets, {0.5f, 0.5f, 0.02f, kFar}, query);
     EXPECT_GT(near.nodes, shape.arity());
     EXPECT_GE(near.triangles, kQueries);
     EXPECT_LT(near.triangles, kQueries * triangles() / 4);
-    const Tests centre = tests_of(packets, {0.5f, 0.5f, 0.5f, kFar}, ask);
+    const Tests centre = tests_of(packets, {0.5f, 0.5f, 0.5f, kFar}, query);
     EXPECT_GT(centre.triangles, near.triangles);
     EXPECT_GT(centre.nodes, near.nodes);
   }
@@ -135,7 +135,7 @@ TEST_F(TreeCounts, TheHighWordTakesWhatTheLowOneCannot) {
   EXPECT_EQ(tests.nodes, 0xffffffffull + 2 * kQueries);
 }
 
-TEST_F(TreeCounts, WhoIsNotAskedToCountDoesNot) {
+TEST_F(TreeCounts, CountsOnlyOnRequest) {
   const TreeQueries queries = TreeQueries::create(Internals::of(*context_), *device_, kQueries).value();
   const Tests tests = tests_of(queries, {0.5f, 0.5f, 0.02f, kFar}, [&](Recorder& r) {
     queries.closest(r, QueryCount::of(kQueries), at_.range(), out_.range(), hits_.range());

@@ -89,7 +89,7 @@ std::vector<test::MedialSample> samples_in(const reference::Tree& tree, Random& 
   return samples;
 }
 
-/// Clear of rounding: well inside the box, well above the angle.
+/// True if rounding does not matter: the point is well inside the box and well above the angle.
 bool holds_salient(const Box& box, const std::vector<test::MedialSample>& samples, double angle, double slack) {
   return std::any_of(samples.begin(), samples.end(), [&](const test::MedialSample& s) {
     return s.object_angle > angle + 1e-4 &&
@@ -113,7 +113,7 @@ void try_boxes(const reference::Mesh& mesh, Random& random, int boxes, Tally& ta
     Box box;
     const double scale = size * std::exp(random(std::log(0.003), std::log(0.12)));
     box.half = random.point(Vector3d::Constant(0.1), Vector3d::Ones()) * scale;
-    // Half of them close to medial points, where proofs are hard.
+    // Half of the boxes are close to medial points, where proofs are difficult.
     box.centre = random.point(tree.lower(), tree.upper());
     if (i % 2 == 0)
       box.centre =
@@ -146,7 +146,7 @@ TEST(ReferenceDismissal, DismissedBoxesHoldNoSalientPoint) {
   EXPECT_GT(all.dismissed - all.by_one_cone, 150);
 }
 
-// Without trust no sides are known: dismissal is still right.
+// Without trusted normals sides are unknown; dismissal is still right.
 TEST(ReferenceDismissal, UntrustedTrianglesFromEitherSide) {
   Random random(6);
   Tally all;

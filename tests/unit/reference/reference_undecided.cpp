@@ -50,10 +50,10 @@ int expect_promises_kept(const reference::Mesh& mesh, const Result& result, doub
     const Vector3d where(share(engine), share(engine), share(engine));
     const auto sample = test::medial_sample(tree, tree.lower() + where.cwiseProduct(tree.upper() - tree.lower()));
     if (!sample || sample->object_angle < angle + 1e-4) continue;
-    const Vector3d place = (sample->point - result.grid_origin) / result.voxel_size;
-    const Vector3d inside = place - Vector3d(place.array().floor());
+    const Vector3d scaled = (sample->point - result.grid_origin) / result.voxel_size;
+    const Vector3d inside = scaled - Vector3d(scaled.array().floor());
     const double to_face = std::min(inside.minCoeff(), 1 - inside.maxCoeff());
-    const Key key = key_of(place.array().floor().cast<int>());
+    const Key key = key_of(scaled.array().floor().cast<int>());
     if (to_face < 1e-6 || found.count(key) != 0) continue;
     ++hidden;
     EXPECT_EQ(undecided.count(key), 1u) << "lost at " << sample->point.transpose();

@@ -141,7 +141,7 @@ TEST_F(FitParts, FaultsNameLinkAndPart) {
   EXPECT_EQ(fit().error().message, "the link \"a\" has 2 geometries, each of which needs a sphere; 1 is too few");
   goals_.count_per_link = 0;
   goals_.options.max_gap = 0.1;
-  EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": the method source knows no greatest gap"));
+  EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": `method` source does not support `max_gap`"));
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
 }
 
@@ -163,7 +163,7 @@ TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
   }
 }
 
-TEST_F(FitParts, StopsWhenAsked) {
+TEST_F(FitParts, StopsOnRequest) {
   goals_.total = 50;
   std::stop_source stop;
   const Result<std::vector<PartFit>> fits = fit_parts(
@@ -172,31 +172,31 @@ TEST_F(FitParts, StopsWhenAsked) {
   EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
 }
 
-/// At any stage: at every n-th query.
-TEST_F(FitParts, StopsWhereverItIsAsked) {
+/// The stop is requested at every n-th query, so in every stage.
+TEST_F(FitParts, StopsAtAnyQuery) {
   goals_.options.method = SphereMethod::kBest;
   goals_.options.resolution = 20;
   const std::vector<Part> one = {parts_[0]};
   for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover, SphereContract::kBalanced}) {
     goals_.options.contract = contract;
     goals_.count_per_link = 6;
-    const auto run = [&](std::size_t most, std::size_t& asked) {
-      asked = 0;
+    const auto run = [&](std::size_t most, std::size_t& queried) {
+      queried = 0;
       std::stop_source stop;
       const auto on_progress = [&](const Part&, double) {
-        if (asked++ >= most) stop.request_stop();
+        if (queried++ >= most) stop.request_stop();
       };
       return fit_parts(one, goals_, reference_extractor(), on_progress, stop.get_token());
     };
-    std::size_t all = 0, asked = 0;
+    std::size_t all = 0, queried = 0;
     ASSERT_TRUE(run(~std::size_t{0}, all).ok());
     ASSERT_GT(all, 100u);
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t most = all / 2 * k / 4;  // their number depends slightly on the threads
-      const Result<std::vector<PartFit>> fits = run(most, asked);
+      const Result<std::vector<PartFit>> fits = run(most, queried);
       ASSERT_FALSE(fits.ok()) << most << " of " << all;
       EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
-      EXPECT_LE(asked, most + 16);  // others may have queried meanwhile
+      EXPECT_LE(queried, most + 16);  // other threads may have queried meanwhile
     }
   }
 }

@@ -47,7 +47,7 @@ TEST_P(Curved, MeshesAreWithinOrAround) {
     EXPECT_TRUE(report.closed);
     EXPECT_EQ(report.reoriented_faces, 0u);
     EXPECT_EQ(report.intersecting_faces, 0u);
-    EXPECT_EQ(report.degenerate_dropped, 0u);
+    EXPECT_EQ(report.degenerates_dropped, 0u);
     const bool inside = side == FacetSide::kInscribed;
     EXPECT_EQ(inside, report.signed_volume < primitive_volume(geometry));
     EXPECT_NEAR(report.signed_volume / primitive_volume(geometry), 1, 0.004);

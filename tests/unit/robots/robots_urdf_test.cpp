@@ -101,7 +101,7 @@ TEST(Urdf, PosesFollowChainsInWhateverOrder) {
   EXPECT_EQ(poses[3].shift[0], 0);
 }
 
-TEST(Urdf, WhatIsNoRobotIsSaidSo) {
+TEST(Urdf, RefusesWhatIsNoRobot) {
   EXPECT_EQ(message_of(""), "r.urdf: the file is empty");
   EXPECT_THAT(message_of("<robot><link name='a'>"), StartsWith("r.urdf:1: this is no well-formed XML: "));
   EXPECT_THAT(message_of("<robot></link>"), HasSubstr("mismatched element"));

@@ -67,8 +67,8 @@ TEST(Collapse, KeepsComponentsTunnelsAndCavities) {
     tunnels.insert(before.tunnels);
     cavities.insert(before.cavities);
   }
-  EXPECT_GT(tunnels.size(), 5u) << "the test says nothing";
-  EXPECT_GT(cavities.size(), 3u) << "the test says nothing";
+  EXPECT_GT(tunnels.size(), 5u) << "too few for a meaningful test";
+  EXPECT_GT(cavities.size(), 3u) << "too few for a meaningful test";
 }
 
 // With ties of any kind: lattices, balls through a point, in a plane, of one centre.

@@ -101,8 +101,8 @@ TEST(SheetsAround, DividesAmongAllPointsWithinReach) {
   }
 }
 
-// Twelve points around the origin, and beside each other, 1 apart and 3 away, six and six: a node of its own, of width
-// 1. It counts as a whole from a reach of 4 on if it is all of one sheet, otherwise from 8 on.
+// Twelve points lie around the origin. At a distance of 3 two groups of six lie 1 apart and form a node of width 1. It
+// counts as a whole from a reach of 4 on if it is all of one sheet, otherwise from 8 on.
 TEST(SheetsAround, TakesNodesWholeThatAreSmallForTheReach) {
   std::vector<Ball> balls(12, {{0, 0, 0}, 1});
   for (int i = 0; i < 12; ++i) balls.push_back({{3, i < 6 ? -0.5 : 0.5, 0}, 1});

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/point_ops.h"
-#include "sheets/absorb_pieces.h"
-#include "sheets/join_pieces.h"
+#include "sheets/absorb_components.h"
+#include "sheets/join_components.h"
 #include "sheets/spoke_turns.h"
 
 namespace medial_vk {
@@ -23,7 +23,7 @@ namespace {
 
 using testing::ElementsAreArray;
 
-using Pieces = std::vector<std::uint32_t>;  // by position
+using Components = std::vector<std::uint32_t>;  // by position
 
 MedialSphere point_at(std::uint32_t x, std::uint32_t y, const Point& normal, double radius = 4) {
   MedialSphere s;
@@ -58,71 +58,72 @@ std::vector<MedialSphere> patches(std::uint32_t seed) {
 }
 
 /// Components of neighbours whose spokes turn by 10 degrees at most.
-Pieces grown(const VoxelGraph& graph) {
-  Pieces piece_of(graph.size(), std::numeric_limits<std::uint32_t>::max());
+Components grown(const VoxelGraph& graph) {
+  Components component_of(graph.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t count = 0;
   for (std::uint32_t start = 0; start < graph.size(); ++start) {
-    if (piece_of[start] < count) continue;
+    if (component_of[start] < count) continue;
     std::vector<std::uint32_t> open = {start};
-    piece_of[start] = count;
+    component_of[start] = count;
     while (!open.empty()) {
       const std::uint32_t at = open.back();
       open.pop_back();
       for (const std::uint32_t other : graph.neighbours(at)) {
-        if (piece_of[other] <= count) continue;
+        if (component_of[other] <= count) continue;
         if (cosine_of_turn(graph.sphere(at), graph.sphere(other)) < std::cos(10 * std::numbers::pi / 180)) continue;
-        piece_of[other] = count;
+        component_of[other] = count;
         open.push_back(other);
       }
     }
     ++count;
   }
-  return piece_of;
+  return component_of;
 }
 
-Pieces numbered_anew(Pieces piece_of) {
+Components renumbered(Components component_of) {
   std::map<std::uint32_t, std::uint32_t> numbers;
-  for (std::uint32_t& piece : piece_of) {
-    piece = numbers.try_emplace(piece, static_cast<std::uint32_t>(numbers.size())).first->second;
+  for (std::uint32_t& component : component_of) {
+    component = numbers.try_emplace(component, static_cast<std::uint32_t>(numbers.size())).first->second;
   }
-  return piece_of;
+  return component_of;
 }
 
 /// Borders of all pairs, measured again for every join.
 class PlainJoining {
  public:
-  PlainJoining(const VoxelGraph& graph, const Pieces& pieces) : piece_of_(pieces) {
-    for (const std::uint32_t piece : pieces) ++points_[piece];
-    for (std::uint32_t place = 0; place < graph.size(); ++place) {
+  PlainJoining(const VoxelGraph& graph, const Components& components) : component_of_(components) {
+    for (const std::uint32_t component : components) ++points_[component];
+    for (std::uint32_t point = 0; point < graph.size(); ++point) {
       std::map<std::uint32_t, float> greatest;
-      for (const std::uint32_t other : graph.neighbours(place)) {
-        const auto cosine = static_cast<float>(cosine_of_turn(graph.sphere(place), graph.sphere(other)));
-        float& so_far = greatest.try_emplace(pieces[other], -1.0f).first->second;
+      for (const std::uint32_t other : graph.neighbours(point)) {
+        const auto cosine = static_cast<float>(cosine_of_turn(graph.sphere(point), graph.sphere(other)));
+        float& so_far = greatest.try_emplace(components[other], -1.0f).first->second;
         so_far = std::max(so_far, cosine);
       }
-      greatest.erase(pieces[place]);
-      for (const auto& [piece, cosine] : greatest) borders_[std::minmax(pieces[place], piece)].push_back(cosine);
+      greatest.erase(components[point]);
+      for (const auto& [component, cosine] : greatest)
+        borders_[std::minmax(components[point], component)].push_back(cosine);
     }
   }
 
-  Pieces run(double limit) {
+  Components run(double limit) {
     while (!borders_.empty()) {
       const auto strongest =
-          std::ranges::max_element(borders_, {}, [&](const auto& entry) { return pull(entry, limit); });
-      if (pull(*strongest, limit) < 0) break;
+          std::ranges::max_element(borders_, {}, [&](const auto& entry) { return weight(entry, limit); });
+      if (weight(*strongest, limit) < 0) break;
       join(strongest->first.first, strongest->first.second);
     }
-    return numbered_anew(piece_of_);
+    return renumbered(component_of_);
   }
 
  private:
   using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>>;
 
-  /// Of all its points, in whole millionths of a degree, and of those that are added to reach 1.75 sqrt(points of the
-  /// smaller component).
-  double pull(const Borders::value_type& entry, double limit) const {
-    const auto& [pieces, cosines] = entry;
-    const auto fewer = static_cast<double>(std::min(points_.at(pieces.first), points_.at(pieces.second)));
+  /// The sum of the weights of the border's points, in whole millionths of a degree. Points of repulsion are added
+  /// until it has 1.75 sqrt(points of the smaller component).
+  double weight(const Borders::value_type& entry, double limit) const {
+    const auto& [components, cosines] = entry;
+    const auto fewer = static_cast<double>(std::min(points_.at(components.first), points_.at(components.second)));
     double sum = 0;
     for (const float cosine : cosines) {
       const double turn = std::acos(std::min(double{cosine}, 1.0)) * 180 / std::numbers::pi;
@@ -134,11 +135,11 @@ class PlainJoining {
 
   void join(std::uint32_t a, std::uint32_t b) {
     points_[a] += points_[b];
-    std::ranges::replace(piece_of_, b, a);
+    std::ranges::replace(component_of_, b, a);
     Borders joined;
-    for (const auto& [pieces, turns] : borders_) {
-      const std::uint32_t first = pieces.first == b ? a : pieces.first;
-      const std::uint32_t second = pieces.second == b ? a : pieces.second;
+    for (const auto& [components, turns] : borders_) {
+      const std::uint32_t first = components.first == b ? a : components.first;
+      const std::uint32_t second = components.second == b ? a : components.second;
       if (first == second) continue;
       std::vector<float>& all = joined[std::minmax(first, second)];
       all.insert(all.end(), turns.begin(), turns.end());
@@ -146,30 +147,30 @@ class PlainJoining {
     borders_ = std::move(joined);
   }
 
-  Pieces piece_of_;
+  Components component_of_;
   std::map<std::uint32_t, std::size_t> points_;
   Borders borders_;
 };
 
-TEST(JoinPieces, AsAPlainProgramWould) {
+TEST(JoinComponents, AsAPlainProgramWould) {
   std::size_t joins = 0;
   for (std::uint32_t seed = 1; seed <= 150; ++seed) {
     const std::vector<MedialSphere> spheres = patches(seed);
     const VoxelGraph graph(spheres);
-    const Pieces pieces = grown(graph);
+    const Components components = grown(graph);
     for (const double border : {0.0, 30.0, 77.0, 110.0, 180.0}) {
       SheetOptions parameters;
       parameters.border = border;
-      Pieces joined = pieces;
-      join_pieces(graph, parameters, joined);
-      EXPECT_EQ(joined, PlainJoining(graph, pieces).run(border)) << "seed " << seed << ", border " << border;
-      joins += std::set(pieces.begin(), pieces.end()).size() - std::set(joined.begin(), joined.end()).size();
+      Components joined = components;
+      join_components(graph, parameters, joined);
+      EXPECT_EQ(joined, PlainJoining(graph, components).run(border)) << "seed " << seed << ", border " << border;
+      joins += std::set(components.begin(), components.end()).size() - std::set(joined.begin(), joined.end()).size();
     }
   }
-  EXPECT_GT(joins, 1000u) << "or it says little";
+  EXPECT_GT(joins, 1000u) << "too few joins for a meaningful test";
 }
 
-/// Rows of letters, a point each: its component. A blank: no point.
+/// Rows of letters, each of which is a point and names its component. A blank is no point.
 class Drawn {
  public:
   explicit Drawn(const std::vector<std::string>& rows) {
@@ -182,21 +183,21 @@ class Drawn {
     }
   }
 
-  /// The letters that remain once components of fewer points than that are distributed.
-  std::vector<std::string> handed_out(std::uint64_t points, std::size_t width) const {
+  /// The letters after the absorption of all components with fewer points than that.
+  std::vector<std::string> absorbed(std::uint64_t points, std::size_t width) const {
     const std::set<char> names(letters_.begin(), letters_.end());
     const std::vector<char> alphabet(names.begin(), names.end());
-    Pieces piece_of;
+    Components component_of;
     for (const char letter : letters_) {
-      piece_of.push_back(static_cast<std::uint32_t>(std::ranges::find(alphabet, letter) - alphabet.begin()));
+      component_of.push_back(static_cast<std::uint32_t>(std::ranges::find(alphabet, letter) - alphabet.begin()));
     }
     SheetOptions parameters;
     parameters.width = 0;
     parameters.absorb_fragments = points;
-    absorb_pieces(VoxelGraph(spheres_), 1, parameters, piece_of);
+    absorb_components(VoxelGraph(spheres_), 1, parameters, component_of);
     std::vector<std::string> rows(1 + spheres_.back().voxel[1], std::string(width, ' '));
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
-      rows[spheres_[i].voxel[1]][spheres_[i].voxel[0]] = alphabet[piece_of[i]];
+      rows[spheres_[i].voxel[1]][spheres_[i].voxel[0]] = alphabet[component_of[i]];
     }
     return rows;
   }
@@ -206,26 +207,26 @@ class Drawn {
   std::vector<char> letters_;
 };
 
-// The point s has five of B around it and three of A, which comes first.
-TEST(AbsorbPieces, GivesAPointToThePieceOfMostVoxelsAround) {
-  EXPECT_THAT(Drawn({"AAABBB", "AABsBB", "AABBBB"}).handed_out(2, 6), ElementsAreArray({"AAABBB", "AABBBB", "AABBBB"}));
-  EXPECT_THAT(Drawn({"BBBAAA", "BBAsAA", "BBAAAA"}).handed_out(2, 6), ElementsAreArray({"BBBAAA", "BBAAAA", "BBAAAA"}));
-  EXPECT_THAT(Drawn({"AAAAAA", "BBBsBB", "BBBBBB"}).handed_out(2, 6), ElementsAreArray({"AAAAAA", "BBBBBB", "BBBBBB"}));
+// The point s has five points of B and three of A around it, although A comes first.
+TEST(AbsorbComponents, AssignsAPointToTheComponentOfMostVoxelsAround) {
+  EXPECT_THAT(Drawn({"AAABBB", "AABsBB", "AABBBB"}).absorbed(2, 6), ElementsAreArray({"AAABBB", "AABBBB", "AABBBB"}));
+  EXPECT_THAT(Drawn({"BBBAAA", "BBAsAA", "BBAAAA"}).absorbed(2, 6), ElementsAreArray({"BBBAAA", "BBAAAA", "BBAAAA"}));
+  EXPECT_THAT(Drawn({"AAAAAA", "BBBsBB", "BBBBBB"}).absorbed(2, 6), ElementsAreArray({"AAAAAA", "BBBBBB", "BBBBBB"}));
 }
 
 // A strip of one row between A and B is shortened from both ends, one point per layer: half of it is assigned to either
 // side, and a point equally near to both to the first.
-TEST(AbsorbPieces, LayerByLayer) {
-  EXPECT_THAT(Drawn({"AAA       BBB", "AAAssssssBBBB", "AAA       BBB"}).handed_out(7, 13),
+TEST(AbsorbComponents, LayerByLayer) {
+  EXPECT_THAT(Drawn({"AAA       BBB", "AAAssssssBBBB", "AAA       BBB"}).absorbed(7, 13),
               ElementsAreArray({"AAA       BBB", "AAAAAABBBBBBB", "AAA       BBB"}));
-  EXPECT_THAT(Drawn({"AAA        BBB", "AAAsssssssBBBB", "AAA        BBB"}).handed_out(8, 14),
+  EXPECT_THAT(Drawn({"AAA        BBB", "AAAsssssssBBBB", "AAA        BBB"}).absorbed(8, 14),
               ElementsAreArray({"AAA        BBB", "AAAAAAABBBBBBB", "AAA        BBB"}));
 }
 
 // The first s has two of either around it, the second two of A and three of B, and does not depend on the assignment of
 // the first.
-TEST(AbsorbPieces, PointsOfALayerDoNotSeeEachOther) {
-  EXPECT_THAT(Drawn({"AA ", "AA ", "ss ", "BBB"}).handed_out(3, 3), ElementsAreArray({"AA ", "AA ", "AB ", "BBB"}));
+TEST(AbsorbComponents, PointsOfALayerDoNotSeeEachOther) {
+  EXPECT_THAT(Drawn({"AA ", "AA ", "ss ", "BBB"}).absorbed(3, 3), ElementsAreArray({"AA ", "AA ", "AB ", "BBB"}));
 }
 
 }  // namespace

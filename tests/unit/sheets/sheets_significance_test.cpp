@@ -215,7 +215,7 @@ TEST(SheetRemoval, TakesTheLeastSignificantFirst) {
   const SheetRemoval removal = remove(parts, RemovalRule::kSignificance);
   EXPECT_THAT(removal.sheets, ElementsAre(1, 2));
   EXPECT_THAT(removal.kept, ElementsAre(0));
-  // Without the bar: the two balls, which are apart.
+  // Without the bar the two balls remain, which are disjoint.
   const double balls = 4 * std::numbers::pi / 3 * (1 + 0.729);
   EXPECT_NEAR(removal.volume_left[0], balls / measure(parts).volume, 1e-13);
 }

@@ -49,7 +49,7 @@ std::vector<MedialSphere> together(std::vector<MedialSphere> a, const std::vecto
   return a;
 }
 
-/// Only the published test.
+/// The options of the published test alone.
 SheetOptions as_published(double angle = 5.7) {
   SheetOptions parameters;
   parameters.angle = angle;
@@ -135,7 +135,7 @@ TEST(Sheets, AllOfABorderDecides) {
 // The second square begins beside the last row of the first, so that two points of either are at the border. They turn
 // by 20 degrees and have an attraction of 30 each, and their number is raised to 1.75 sqrt(points) with points of
 // repulsion 4: 4 * 30 - 29.25 * 4 = 3 for squares of 19 by 19 points, 4 * 30 - 31 * 4 = -4 for 20 by 20.
-TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
+TEST(Sheets, AShortBorderDoesNotJoinLargeComponents) {
   const auto touching = [](std::uint32_t n) {
     std::vector<MedialSphere> out = square(n);
     for (MedialSphere s : square(n, 20, n + 1)) {
@@ -154,7 +154,7 @@ TEST(Sheets, AShortBorderDoesNotJoinLargePieces) {
 }
 
 // Between two that differ by 60 degrees lies one that differs from them by 29 and 31.
-TEST(Sheets, PiecesJoinUpToTheTurnOfABorder) {
+TEST(Sheets, ComponentsJoinUpToTheTurnOfABorder) {
   const std::vector<MedialSphere> spheres = together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
   SheetOptions parameters;
   parameters.border = 28;
@@ -201,7 +201,7 @@ TEST(Sheets, DecreasingNumberOfPointsThenFirstVoxel) {
   EXPECT_EQ(sheets.fragment_points, 18u);
 }
 
-/// Patches of random tilts side by side, so that there is a lot to decide.
+/// Patches of random tilts side by side, so that there are many decisions.
 std::vector<MedialSphere> patchwork(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> tilts(0, 60);
@@ -239,7 +239,7 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
 }
 
 // Ten columns, a strip of three, five columns, all 13 high; bends of 60 degrees.
-TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
+TEST(Sheets, SmallComponentsGoToThoseAroundThem) {
   std::vector<MedialSphere> spheres;
   for (const MedialSphere& s : square(18)) {
     if (s.voxel[1] > 13) continue;
@@ -253,8 +253,8 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
   EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(130, 65, 39));
   parameters.absorb_fragments = 40;
   const Sheets absorbed = find(spheres, parameters);
-  EXPECT_EQ(absorbed.pieces, 3u);
-  EXPECT_EQ(absorbed.absorbed_pieces, 1u);
+  EXPECT_EQ(absorbed.components, 3u);
+  EXPECT_EQ(absorbed.absorbed_components, 1u);
   EXPECT_EQ(absorbed.absorbed_points, 39u);
   EXPECT_THAT(sizes(absorbed), ElementsAre(156, 78)) << "a column to either side, the middle one to the first";
   // Between the columns at its borders the strip is two voxels wide: 1/4 of the diameter. Between the border and the
@@ -268,7 +268,7 @@ TEST(Sheets, SmallPiecesGoToThoseAroundThem) {
 
 // Six columns, and two of another sheet beside them, one at the border and one at the rim: those have depth 0.
 // Narrowness is not tested where a quarter of the diameter is less than a voxel.
-TEST(Sheets, NoPieceIsTooNarrowForBallsOfAFewVoxels) {
+TEST(Sheets, NoComponentIsTooNarrowForBallsOfAFewVoxels) {
   SheetOptions parameters;
   parameters.width = 0.25;
   const auto sizes_with = [&](double radius) {
@@ -301,7 +301,7 @@ TEST(Sheets, MarksWhatIsSmall) {
 }
 
 // Four columns, each turned by 80 degrees against those beside it: no component is wide enough to take the others.
-TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
+TEST(Sheets, SmallComponentsAmongThemselvesAreOne) {
   std::vector<MedialSphere> spheres;
   for (MedialSphere s : square(4)) {
     const double turn = 80 * s.voxel[0] * std::numbers::pi / 180;
@@ -314,7 +314,7 @@ TEST(Sheets, SmallPiecesAmongThemselvesAreOne) {
   parameters.width = 0.3;
   const Sheets sheets = find(spheres, parameters);
   EXPECT_THAT(sizes(sheets), ElementsAre(16));
-  EXPECT_EQ(sheets.absorbed_pieces, 3u);
+  EXPECT_EQ(sheets.absorbed_components, 3u);
   EXPECT_EQ(sheets.absorbed_points, 12u);
 }
 
@@ -323,7 +323,7 @@ std::size_t small_points(const Sheets& sheets) {
 }
 
 // Eight columns, each turned by 80 degrees against those beside it, of balls of the diameter 8; 6 wide between rims.
-TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
+TEST(Sheets, AbsorbedComponentsAreJudgedAgain) {
   std::vector<MedialSphere> spheres;
   for (const MedialSphere& s : square(8)) {
     const double turn = (s.voxel[0] % 2 == 0 ? 40 : -40) * std::numbers::pi / 180;
@@ -336,7 +336,7 @@ TEST(Sheets, WhatSmallPiecesBecomeIsJudgedInItsTurn) {
     SCOPED_TRACE(width);
     parameters.width = width;
     const Sheets sheets = find(spheres, parameters);
-    EXPECT_EQ(sheets.pieces, 8u);
+    EXPECT_EQ(sheets.components, 8u);
     EXPECT_THAT(sizes(sheets), ElementsAre(64));
     EXPECT_EQ(small_points(sheets), 8 * width > 6 ? 64u : 0u);
   }
@@ -363,7 +363,7 @@ TEST(Sheets, WhatIsClosedIsNotSmall) {
   EXPECT_EQ(small_points(sheets), 0u);
 }
 
-TEST(Sheets, APieceWithoutNeighboursStays) {
+TEST(Sheets, AComponentWithoutNeighboursStays) {
   SheetOptions parameters;
   parameters.width = 1;
   parameters.absorb_fragments = 1000;

@@ -26,7 +26,7 @@ constexpr double kPi = std::numbers::pi;
 
 struct Shape {
   explicit Shape(Mesh raw)
-      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
+      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(test::indexed(mesh)).value()) {}
   Shape(const Shape&) = delete;
 
   std::vector<SphereSet> balanced(std::size_t count, bool levels = false) const {
@@ -41,7 +41,7 @@ struct Shape {
   Solid solid;
 };
 
-/// In ascending order.
+/// The numbers of the balls, in ascending order.
 std::vector<std::array<double, 4>> numbers_of(const std::vector<Ball>& balls) {
   std::vector<std::array<double, 4>> numbers;
   for (const Ball& b : balls) numbers.push_back({b.centre[0], b.centre[1], b.centre[2], b.radius});
@@ -198,7 +198,7 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
   EXPECT_EQ(numbers_of(levels[3].balls), numbers_of(shape.balanced(8).back().balls));
 }
 
-/// Also a box that is thinner than a spacing of lines.
+/// One of the boxes is thinner than the spacing of lines.
 TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
   for (const Point& size : {Point{1, 0.8, 0.6}, Point{1, 0.02, 0.006}}) {
     const Shape box(test::make_box(size));

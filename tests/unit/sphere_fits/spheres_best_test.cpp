@@ -1,4 +1,4 @@
-// The best method, and each of its parts.
+// The best method, as a whole and by its parts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 /// A mesh that stays in memory, as its solid requires.
 struct Shape {
   explicit Shape(Mesh raw)
-      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::create(test::indexed(mesh)).value()) {}
+      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(test::indexed(mesh)).value()) {}
   Shape(const Shape&) = delete;
 
   Result<SphereSet> fit(const SphereOptions& request) const {
@@ -138,12 +138,12 @@ TEST(GapFinder, FindsTheCornersOfABoxAndTheVertices) {
   EXPECT_EQ(gaps.deepest_vertex().size, 0);
   for (const Ball& ball : {Ball{{0.5, 0.4, 0.4}, 0.4}, Ball{{0.4, 0.5, 0.6}, 0.4}}) {
     ASSERT_TRUE(balls.add(ball).ok());
-    for (const std::uint32_t place : balls.changed()) gaps.forget(place);
+    for (const std::uint32_t slot : balls.changed()) gaps.forget(slot);
   }
   const GapFinder::Gap deepest = gaps.deepest_vertex();
   double expected = 0;
-  for (std::uint32_t place = 0; place < 3; ++place) {
-    const std::vector<Point> vertices = balls.vertices(place).value();
+  for (std::uint32_t slot = 0; slot < 3; ++slot) {
+    const std::vector<Point> vertices = balls.vertices(slot).value();
     for (const Point& v : vertices) expected = std::max(expected, box.solid.distance(v));
   }
   EXPECT_EQ(deepest.size, expected);
@@ -227,7 +227,7 @@ TEST(BestMethod, GapsAreFilledWhenCandidatesAreUsedUp) {
   EXPECT_EQ(cube.fit({.count = 8, .resolution = 1}).value().balls.size(), 8u);
 }
 
-TEST(BestMethod, StopsWhenAsked) {
+TEST(BestMethod, StopsOnRequest) {
   const Shape shape(turned_l_shape());
   SphereOptions request{.count = 50, .resolution = 16};
   const Result<SphereSet> set =

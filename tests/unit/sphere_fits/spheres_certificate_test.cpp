@@ -20,7 +20,7 @@ using namespace test;
 class SphereCertificate : public testing::Test {
  protected:
   explicit SphereCertificate(Mesh input = make_box({2, 2, 2}))
-      : mesh_(prepare(std::move(input))), solid_(Solid::create(test::indexed(mesh_)).value()) {}
+      : mesh_(prepare(std::move(input))), solid_(Solid::build(test::indexed(mesh_)).value()) {}
 
   bool inside(const std::vector<Ball>& balls) const {
     const bool proved = prove_inside(solid_, balls).proved();
@@ -46,7 +46,7 @@ TEST_F(SphereCertificate, InsideUpToRounding) {
   EXPECT_EQ(proof.tested, 2u);
   EXPECT_EQ(proof.failed, 1u);
   EXPECT_EQ(proof.first_failure, 1u);
-  EXPECT_NEAR(proof.worst, 0.25, 1e-12);
+  EXPECT_NEAR(proof.greatest_excess, 0.25, 1e-12);
 }
 
 TEST_F(SphereCertificate, OneBallCoversOrDoesNot) {
@@ -58,7 +58,7 @@ TEST_F(SphereCertificate, OneBallCoversOrDoesNot) {
 }
 
 TEST_F(SphereCertificate, BoundaryThatSeveralBallsShare) {
-  // One for each octant, all through the middles of their neighbours' edges.
+  // There is one ball for each octant; all pass through the middles of their neighbours' edges.
   std::vector<Ball> octants;
   for (int k = 0; k < 8; ++k) {
     octants.push_back({{k & 1 ? 1.5 : 0.5, k & 2 ? 1.5 : 0.5, k & 4 ? 1.5 : 0.5}, std::sqrt(0.75) + 1e-9});
@@ -143,7 +143,7 @@ TEST(SphereCertificateOfOpenMeshes, OnlyTheSurfaceIsProved) {
   Mesh open = make_box({2, 2, 2});
   open.triangles.pop_back();
   const PreparedMesh mesh = prepare(open);
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   const CoverProof proof = prove_cover(solid, std::vector<Ball>{{{1, 1, 1}, 2}}).value();
   EXPECT_TRUE(proof.surface_proved());
   EXPECT_FALSE(proof.closed);

@@ -23,7 +23,7 @@ struct Case {
   std::unique_ptr<Solid> solid;
 
   explicit Case(Mesh input) : mesh(prepare(std::move(input))) {
-    solid = std::make_unique<Solid>(Solid::create(test::indexed(mesh)).value());
+    solid = std::make_unique<Solid>(Solid::build(test::indexed(mesh)).value());
   }
 };
 

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 
 SphereMeasures measure_in_cube(const std::vector<Ball>& balls, MeasureOptions options = {}) {
   const PreparedMesh mesh = prepare(make_box({2, 2, 2}));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   return measure_spheres(solid, balls, options).value();
 }
 
@@ -101,7 +101,7 @@ TEST(SphereMeasures, AnOpenMeshHasAnEstimate) {
   Mesh open = make_sphere(1, 2000);
   open.triangles.resize(open.triangles.size() - 20);
   const PreparedMesh mesh = prepare(open);
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   ASSERT_FALSE(solid.has_volume());
   const SphereMeasures m = measure_spheres(solid, std::vector<Ball>{{{0, 0, 0}, 0.9}}).value();
   EXPECT_GT(m.volume.standard_error, 0);
@@ -135,7 +135,7 @@ TEST(SphereMeasures, JsonTextAndPicture) {
 
 TEST(SphereMeasures, NoBallsAreAnError) {
   const PreparedMesh mesh = prepare(make_box({2, 2, 2}));
-  const Solid solid = Solid::create(test::indexed(mesh)).value();
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
   EXPECT_EQ(measure_spheres(solid, {}).error().code, ErrorCode::kUsage);
 }
 

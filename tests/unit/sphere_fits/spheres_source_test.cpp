@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 class SourceMethod : public testing::Test {
  protected:
-  SourceMethod() : mesh_(prepare_mesh(make()).value()), solid_(Solid::create(test::indexed(mesh_)).value()) {
+  SourceMethod() : mesh_(prepare_mesh(make()).value()), solid_(Solid::build(test::indexed(mesh_)).value()) {
     request_.method = SphereMethod::kSource;
   }
 
@@ -69,7 +69,7 @@ TEST_F(SourceMethod, ReachesAnErrorWithTheCoarsestGrid) {
   EXPECT_LE(error_of(set.value().balls), 0.2);
   EXPECT_GT(error_of(set.value().balls), 0.1);
   request_.count = 10;
-  EXPECT_THAT(fit().error().message, HasSubstr("more than the error of 0.2 wanted"));
+  EXPECT_THAT(fit().error().message, HasSubstr("more than the `error` of 0.2; raise `count`"));
 }
 
 TEST_F(SourceMethod, TakesAResolutionForACount) {
@@ -85,15 +85,15 @@ TEST_F(SourceMethod, SaysWhatCannotBe) {
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
   request_.count = 1;
   request_.resolution = 7;
-  EXPECT_THAT(fit().error().message, HasSubstr("finds its own resolution"));
+  EXPECT_THAT(fit().error().message, HasSubstr("`method` source finds its own resolution"));
   request_.resolution = 0;
   request_.max_gap = 0.1;
-  EXPECT_THAT(fit().error().message, HasSubstr("knows no greatest gap"));
+  EXPECT_THAT(fit().error().message, HasSubstr("`method` source does not support `max_gap`"));
   request_.max_gap = std::nan("");
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
 }
 
-TEST_F(SourceMethod, StopsWhenAsked) {
+TEST_F(SourceMethod, StopsOnRequest) {
   request_.count = 100;
   const Result<SphereSet> set =
       approximate_by_spheres(solid_, request_, reference_extractor(), [](const char*, double) { return false; });

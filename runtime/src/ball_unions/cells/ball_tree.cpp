@@ -70,19 +70,19 @@ void fit_powers(BallTree::Node& node, std::span<const Ball> balls, std::span<con
     const Point d = balls[j].centre - node.middle;
     return dot(d, d) - balls[j].radius * balls[j].radius;
   };
-  const auto place = [&](std::uint32_t j) { return along(node.axes, balls[j].centre - node.middle); };
+  const auto position = [&](std::uint32_t j) { return along(node.axes, balls[j].centre - node.middle); };
   double mean = 0;
   Point centre{};
   for (const std::uint32_t j : names) {
     mean += lifted(j);
-    centre = centre + place(j);
+    centre = centre + position(j);
   }
   const double share = 1.0 / static_cast<double>(names.size());
   mean *= share;
   centre = share * centre;
   Point both{}, own{};
   for (const std::uint32_t j : names) {
-    const Point d = place(j) - centre;
+    const Point d = position(j) - centre;
     const double rise = lifted(j) - mean;
     for (std::size_t k = 0; k < 3; ++k) {
       both[k] += d[k] * rise;
@@ -91,7 +91,7 @@ void fit_powers(BallTree::Node& node, std::span<const Ball> balls, std::span<con
   }
   for (std::size_t k = 0; k < 3; ++k) node.slope[k] = own[k] > DBL_MIN ? both[k] / own[k] : 0;
   node.least = HUGE_VAL;
-  for (const std::uint32_t j : names) node.least = std::min(node.least, lifted(j) - dot(node.slope, place(j)));
+  for (const std::uint32_t j : names) node.least = std::min(node.least, lifted(j) - dot(node.slope, position(j)));
 }
 
 }  // namespace

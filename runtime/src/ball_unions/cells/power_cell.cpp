@@ -67,7 +67,7 @@ void PowerCell::start(std::uint32_t i, const RegularTriangulation& triangulation
     for (std::size_t k = 0; k < 3; ++k) corner.planes[k] = plane_of(balls[others[k]]);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t next = neighbours[others[k]];
-      corner.neighbours[k] = triangulation.place_around(next, index_of(i, tetrahedra[next].balls));
+      corner.neighbours[k] = triangulation.position_around(next, index_of(i, tetrahedra[next].balls));
     }
     farthest_ = std::max(farthest_, length(corner.at));
     corners_.push_back(corner);

@@ -275,9 +275,9 @@ constexpr std::size_t kMostPerBall = 24, kMostAnyway = 4096;  // tetrahedra
 
 }  // namespace
 
-std::optional<RegularTriangulation> RegularTriangulation::create(std::span<const Ball> balls,
-                                                                 std::span<const std::uint32_t> order,
-                                                                 unsigned threads) {
+std::optional<RegularTriangulation> RegularTriangulation::build(std::span<const Ball> balls,
+                                                                std::span<const std::uint32_t> order,
+                                                                unsigned threads) {
   RegularTriangulation made(balls);
   const auto far = static_cast<std::uint32_t>(balls.size());
   Inserting inserting(made.balls_);
@@ -326,13 +326,13 @@ void RegularTriangulation::list_stars() {
   }
   for (std::size_t i = 0; i < balls_.size(); ++i) first_[i + 1] += first_[i];
   around_.resize(first_.back());
-  places_.resize(tetrahedra_.size());
+  positions_.resize(tetrahedra_.size());
   std::vector<std::uint32_t> count(balls_.size(), 0);
   for (std::uint32_t t = 0; t < tetrahedra_.size(); ++t) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::uint32_t ball = tetrahedra_[t].balls[k];
-      places_[t][k] = count[ball]++;
-      around_[first_[ball] + places_[t][k]] = t;
+      positions_[t][k] = count[ball]++;
+      around_[first_[ball] + positions_[t][k]] = t;
     }
   }
 }

@@ -38,8 +38,8 @@ class RegularTriangulation {
   /// most neighbours in space after each other. No value if there are more than 24 tetrahedra per ball, with an
   /// allowance for few balls: medial and random balls have 7, but two rods that pass each other, or a ring and its
   /// axis, n^2 / 4, as every ball of one may be joined to all of the other, at any distance.
-  static std::optional<RegularTriangulation> create(std::span<const Ball> balls, std::span<const std::uint32_t> order,
-                                                    unsigned threads);
+  static std::optional<RegularTriangulation> build(std::span<const Ball> balls, std::span<const std::uint32_t> order,
+                                                   unsigned threads);
 
   /// All input balls, followed by the far points as balls of radius 0.
   std::span<const Ball> balls() const { return balls_; }
@@ -51,7 +51,7 @@ class RegularTriangulation {
     return std::span(around_).subspan(first_[ball], first_[ball + 1] - first_[ball]);
   }
   /// The position of tetrahedron t among those around its ball number k.
-  std::uint32_t place_around(std::uint32_t t, std::size_t k) const { return places_[t][k]; }
+  std::uint32_t position_around(std::uint32_t t, std::size_t k) const { return positions_[t][k]; }
 
  private:
   static constexpr std::uint32_t kFarPoints = 4;
@@ -63,9 +63,9 @@ class RegularTriangulation {
 
   std::vector<Ball> balls_;
   std::vector<Tetrahedron> tetrahedra_;
-  std::vector<Corner> corners_;                       // by tetrahedron
-  std::vector<std::array<std::uint32_t, 4>> places_;  // by tetrahedron
-  std::vector<std::size_t> first_;                    // by ball: into around_
+  std::vector<Corner> corners_;                          // by tetrahedron
+  std::vector<std::array<std::uint32_t, 4>> positions_;  // by tetrahedron
+  std::vector<std::size_t> first_;                       // by ball: into around_
   std::vector<std::uint32_t> around_;
 };
 

@@ -30,7 +30,7 @@ std::vector<std::uint32_t> order_of(std::span<const Ball> balls) {
 }
 
 /// The contribution of one block of balls to the lists.
-struct Pieces {
+struct Chunk {
   DualComplex complex;
   std::vector<EnvelopeVertex> vertices;
 };
@@ -43,20 +43,20 @@ class Measuring {
         threads_(thread_count(options.threads)),
         block_(block_of(balls.size())),
         order_(order_of(balls)),
-        triangulation_(RegularTriangulation::create(balls, order_, threads_)) {
+        triangulation_(RegularTriangulation::build(balls, order_, threads_)) {
     if (!triangulation_) tree_.emplace(balls, threads_);
   }
 
   BallUnion run() {
     result_.volumes.resize(balls_.size());
     result_.areas.resize(balls_.size());
-    if (options_.complex) pieces_.resize((balls_.size() + block_ - 1) / block_);
+    if (options_.complex) chunks_.resize((balls_.size() + block_ - 1) / block_);
     parallel_blocks(balls_.size(), block_, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
     result_.volume = careful_sum(result_.volumes);
     result_.area = careful_sum(result_.areas);
-    for (const Pieces& pieces : pieces_) {
-      append(result_.complex, pieces.complex);
-      append(result_.vertices, pieces.vertices);
+    for (const Chunk& chunk : chunks_) {
+      append(result_.complex, chunk.complex);
+      append(result_.vertices, chunk.vertices);
     }
     if (options_.complex) make_complete(result_.complex, result_.vertices);
     return std::move(result_);
@@ -89,8 +89,8 @@ class Measuring {
       result_.volumes[i] = part.volume;
       result_.areas[i] = part.area;
       if (options_.complex) {
-        Pieces& pieces = pieces_[begin / block_];
-        collector.collect(cell, ball, pieces.complex, pieces.vertices);
+        Chunk& chunk = chunks_[begin / block_];
+        collector.collect(cell, ball, chunk.complex, chunk.vertices);
       }
     }
   }
@@ -102,7 +102,7 @@ class Measuring {
   std::vector<std::uint32_t> order_;
   std::optional<RegularTriangulation> triangulation_;
   std::optional<BallTree> tree_;  // used without a triangulation: each cell is cut by itself
-  std::vector<Pieces> pieces_;
+  std::vector<Chunk> chunks_;
   BallUnion result_;
 };
 

@@ -31,12 +31,12 @@ struct Cofaces {
 };
 
 template <std::size_t N>
-std::vector<std::array<std::uint32_t, N>> faces_by_place(const std::vector<std::array<std::uint32_t, N>>& simplices,
+std::vector<std::array<std::uint32_t, N>> faces_by_index(const std::vector<std::array<std::uint32_t, N>>& simplices,
                                                          const std::vector<std::array<std::uint32_t, N - 1>>& faces) {
   std::vector<std::array<std::uint32_t, N>> result(simplices.size());
   for (std::size_t s = 0; s < simplices.size(); ++s) {
     for (std::size_t k = 0; k < N; ++k)
-      result[s][k] = static_cast<std::uint32_t>(place_of(faces, face(simplices[s], k)));
+      result[s][k] = static_cast<std::uint32_t>(index_in(faces, face(simplices[s], k)));
   }
   return result;
 }
@@ -103,8 +103,8 @@ std::uint64_t left_over(const std::vector<bool>& gone) {
 // The number of cavities is the dimension of the cycles of remaining triangles: the number of these triangles less the
 // rank of their boundary operator. Tunnels follow from the Euler characteristic, which collapses do not change.
 BettiNumbers count_homology(const DualComplex& complex) {
-  const auto tetrahedra = faces_by_place(complex.tetrahedra, complex.triangles);
-  const auto triangles = faces_by_place(complex.triangles, complex.edges);
+  const auto tetrahedra = faces_by_index(complex.tetrahedra, complex.triangles);
+  const auto triangles = faces_by_index(complex.triangles, complex.edges);
   std::vector<bool> gone_triangles(complex.triangles.size()), gone_edges(complex.edges.size());
   const std::vector<bool> gone = collapse(tetrahedra, gone_triangles, std::vector<bool>(tetrahedra.size()));
   gone_triangles = collapse(triangles, gone_edges, std::move(gone_triangles));

@@ -40,7 +40,7 @@ class DeviceMeasuring {
   Result<DeviceBallUnion> run();
 
  private:
-  Status ask_device();
+  Status measure_on_device();
   void record(Recorder& r, const std::array<BufferRange, 4>& buffers) const;
   void accept();
   void redo();
@@ -59,7 +59,7 @@ Result<DeviceBallUnion> DeviceMeasuring::run() {
   for (auto* values : {&result_.volumes, &result_.areas, &result_.volume_bounds, &result_.area_bounds}) {
     values->resize(balls_.size());
   }
-  if (const Status asked = ask_device(); !asked.ok()) return asked.error();
+  if (const Status measured = measure_on_device(); !measured.ok()) return measured.error();
   accept();
   redo();
   result_.volume = careful_sum(result_.volumes);
@@ -69,7 +69,7 @@ Result<DeviceBallUnion> DeviceMeasuring::run() {
   return std::move(result_);
 }
 
-Status DeviceMeasuring::ask_device() {
+Status DeviceMeasuring::measure_on_device() {
   if (balls_.empty()) return {};
   const SplitBalls split = split_balls(balls_, tree_.order());
   if (!split.exact) return {};  // numbers outside the range of float: the host measures all balls
@@ -177,7 +177,7 @@ void scale_back(DeviceBallUnion& result, double scale) {
 Result<DeviceBallUnion> measure_ball_union(Context& context, std::span<const Ball> balls,
                                            const DeviceBallUnionOptions& options) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
-  if (!(options.tolerance > 0)) return Error{ErrorCode::kUsage, "the tolerance of a union of balls must be positive"};
+  if (!(options.tolerance > 0)) return Error{ErrorCode::kUsage, "`tolerance` must be positive"};
   return catch_out_of_memory("measuring a union of balls", [&]() -> Result<DeviceBallUnion> {
     const double scale = scale_of(balls);
     const std::vector<Ball> unit_balls = scaled_balls(balls, scale);

@@ -52,7 +52,7 @@ class DisjointSets {
 
 std::uint64_t count_components(const DualComplex& complex) {
   DisjointSets sets(complex.vertices.size());
-  for (const auto& [a, b] : complex.edges) sets.join(place_of(complex.vertices, a), place_of(complex.vertices, b));
+  for (const auto& [a, b] : complex.edges) sets.join(index_in(complex.vertices, a), index_in(complex.vertices, b));
   return sets.sets();
 }
 

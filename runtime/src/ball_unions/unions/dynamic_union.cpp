@@ -49,7 +49,7 @@ double reach_of(const std::vector<PowerCell::Corner>& corners) {
 }
 
 /// A stored power cell with its measures.
-struct Piece {
+struct BallCell {
   PowerCell::Kept cell;
   BallInCell measured;
   double reach = 0;
@@ -72,31 +72,31 @@ class DynamicUnion::Impl {
         capacity_(capacity),
         balls_(kFirst + capacity, kGone),
         given_(kFirst + capacity, kGone),
-        pieces_(kFirst + capacity),
+        cells_(kFirst + capacity),
         cell_(balls_) {}
 
-  std::uint32_t places() const { return end_ - kFirst; }
-  std::uint32_t size() const { return places() - static_cast<std::uint32_t>(free_.size()); }
-  bool holds(std::uint32_t place) const { return place < places() && !is_gone(balls_[kFirst + place]); }
-  const Ball& ball(std::uint32_t place) const { return given_[kFirst + place]; }
+  std::uint32_t slots() const { return end_ - kFirst; }
+  std::uint32_t size() const { return slots() - static_cast<std::uint32_t>(free_.size()); }
+  bool holds(std::uint32_t slot) const { return slot < slots() && !is_gone(balls_[kFirst + slot]); }
+  const Ball& ball(std::uint32_t slot) const { return given_[kFirst + slot]; }
   std::span<const std::uint32_t> changed() const { return last_.changed; }
 
   double volume() const {
     CarefulSum sum;
-    for (std::uint32_t j = kFirst; j < end_; ++j) sum.add(pieces_[j].measured.volume);
+    for (std::uint32_t j = kFirst; j < end_; ++j) sum.add(cells_[j].measured.volume);
     return sum.value() / scale_ / scale_ / scale_;
   }
 
-  Exposure exposure(std::uint32_t place) const {
-    const BallInCell& measured = pieces_[kFirst + place].measured;
+  Exposure exposure(std::uint32_t slot) const {
+    const BallInCell& measured = cells_[kFirst + slot].measured;
     return {measured.area / scale_ / scale_, (1 / scale_ / scale_) * measured.area_vector};
   }
 
-  std::vector<Point> vertices(std::uint32_t place) const {
-    const std::uint32_t i = kFirst + place;
+  std::vector<Point> vertices(std::uint32_t slot) const {
+    const std::uint32_t i = kFirst + slot;
     const Ball& ball = balls_[i];
     PowerCell cell(balls_);
-    cell.restore(pieces_[i].cell);
+    cell.restore(cells_[i].cell);
     std::vector<Point> found;
     for_each_edge(cell, ball.radius, [&](const CellEdge& edge) {
       if (!(edge.half_chord_squared > 0)) return;
@@ -118,18 +118,18 @@ class DynamicUnion::Impl {
     double most = ball.radius;
     for (const double x : ball.centre) most = std::max(most, std::fabs(x));
     if (most > largest_) {
-      return Error{ErrorCode::kUsage, "a ball reaches " + std::to_string(most) + ", beyond the " +
-                                          std::to_string(largest_) + " that its union was made for"};
+      return Error{ErrorCode::kUsage, "a ball reaches " + std::to_string(most) + ", beyond `largest`, which is " +
+                                          std::to_string(largest_)};
     }
     return {};
   }
-  Status check(std::uint32_t place) const {
-    if (holds(place)) return {};
-    return Error{ErrorCode::kUsage, "no ball at place " + std::to_string(place)};
+  Status check(std::uint32_t slot) const {
+    if (holds(slot)) return {};
+    return Error{ErrorCode::kUsage, "no ball in slot " + std::to_string(slot)};
   }
   Status check_room() const {
     if (size() < capacity_) return {};
-    return Error{ErrorCode::kUsage, "the union is full: it was made for at most " + std::to_string(capacity_)};
+    return Error{ErrorCode::kUsage, "the union is full: its `capacity` is " + std::to_string(capacity_)};
   }
 
   std::uint32_t add(const Ball& ball) {
@@ -138,14 +138,14 @@ class DynamicUnion::Impl {
     change(i, ball);
     return i - kFirst;
   }
-  void remove(std::uint32_t place) { change(kFirst + place, kGone); }
-  void move(std::uint32_t place, const Ball& to) { change(kFirst + place, to); }
+  void remove(std::uint32_t slot) { change(kFirst + slot, kGone); }
+  void move(std::uint32_t slot, const Ball& to) { change(kFirst + slot, to); }
 
   /// Allocates no memory.
   void undo() {
     if (last_.ball == kNoBall) return;
     set_ball(last_.ball, last_.given_before);
-    for (auto& [j, piece] : last_.pieces_before) std::swap(pieces_[j], piece);
+    for (auto& [j, kept] : last_.cells_before) std::swap(cells_[j], kept);
     last_.ball = kNoBall;
     last_.changed.clear();
   }
@@ -157,20 +157,20 @@ class DynamicUnion::Impl {
     double sum = measure(kTrial).volume;
     for (const std::uint32_t j : near_) {
       if (sum <= 0) break;
-      if (cut(j, kTrial)) sum += measure(j).volume - pieces_[j].measured.volume;
+      if (cut(j, kTrial)) sum += measure(j).volume - cells_[j].measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
   }
 
-  double loss(std::uint32_t place) {
-    const std::uint32_t i = kFirst + place;
-    double sum = pieces_[i].measured.volume;
+  double loss(std::uint32_t slot) {
+    const std::uint32_t i = kFirst + slot;
+    double sum = cells_[i].measured.volume;
     find_touching(balls_[i], near_);
     for (const std::uint32_t j : near_) {
       if (sum <= 0) break;
-      if (j == i || !pieces_[j].may_grow_without(i)) continue;
+      if (j == i || !cells_[j].may_grow_without(i)) continue;
       build(j, i);
-      sum -= measure(j).volume - pieces_[j].measured.volume;
+      sum -= measure(j).volume - cells_[j].measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
   }
@@ -180,7 +180,7 @@ class DynamicUnion::Impl {
     std::uint32_t ball = kNoBall;
     Ball given_before{};
     std::vector<std::uint32_t> changed;
-    std::vector<std::pair<std::uint32_t, Piece>> pieces_before;
+    std::vector<std::pair<std::uint32_t, BallCell>> cells_before;
   };
 
   Ball scaled(const Ball& ball) const { return scaled_ball(ball, scale_); }
@@ -213,9 +213,9 @@ class DynamicUnion::Impl {
 
   /// The stored cell of j, also cut by i. False if that changes nothing.
   bool cut(std::uint32_t j, std::uint32_t i) {
-    const Piece& piece = pieces_[j];
-    if (piece.cell.corners.empty() || offset_of(balls_[j], balls_[i]) > piece.reach) return false;
-    cell_.restore(piece.cell);
+    const BallCell& kept = cells_[j];
+    if (kept.cell.corners.empty() || offset_of(balls_[j], balls_[i]) > kept.reach) return false;
+    cell_.restore(kept.cell);
     if (!cell_.clip(i)) return false;
     cell_.sharpen();
     return true;
@@ -234,7 +234,7 @@ class DynamicUnion::Impl {
     std::swap(last_, change_before_);
     last_.ball = kNoBall;
     last_.changed.clear();
-    last_.pieces_before.clear();
+    last_.cells_before.clear();
     try {
       make_change(i, to);
     } catch (...) {
@@ -264,7 +264,7 @@ class DynamicUnion::Impl {
   /// The cell of j, with its measures, after a change of ball i.
   void update(std::uint32_t j, std::uint32_t i, bool was_there) {
     if (j == i && is_gone(balls_[i])) return;
-    if (j == i || (was_there && pieces_[j].may_grow_without(i))) {
+    if (j == i || (was_there && cells_[j].may_grow_without(i))) {
       build(j, kNoBall);
       put_cell(j);
     } else if (touch(balls_[i], balls_[j]) && cut(j, i)) {
@@ -273,17 +273,17 @@ class DynamicUnion::Impl {
   }
 
   void put_cell(std::uint32_t j) {
-    Piece piece;
-    cell_.keep(piece.cell);
-    piece.measured = measure(j);
-    piece.reach = reach_of(cell_.corners());
-    put(j, std::move(piece));
+    BallCell kept;
+    cell_.keep(kept.cell);
+    kept.measured = measure(j);
+    kept.reach = reach_of(cell_.corners());
+    put(j, std::move(kept));
   }
 
-  void put(std::uint32_t j, Piece piece) {
+  void put(std::uint32_t j, BallCell kept) {
     last_.changed.push_back(j - kFirst);
-    last_.pieces_before.emplace_back(j, Piece{});  // from here on nothing throws: undo() must not meet this empty one
-    last_.pieces_before.back().second = std::exchange(pieces_[j], std::move(piece));
+    last_.cells_before.emplace_back(j, BallCell{});  // from here on nothing throws: undo() must not meet this empty one
+    last_.cells_before.back().second = std::exchange(cells_[j], std::move(kept));
   }
 
   void set_ball(std::uint32_t i, const Ball& to) {
@@ -302,7 +302,7 @@ class DynamicUnion::Impl {
   std::uint32_t capacity_;
   std::vector<Ball> balls_;  // scaled; kGone in empty slots
   std::vector<Ball> given_;
-  std::vector<Piece> pieces_;
+  std::vector<BallCell> cells_;
   std::uint32_t end_ = kFirst;
   std::vector<std::uint32_t> free_;
   Change last_, change_before_;
@@ -318,26 +318,26 @@ DynamicUnion& DynamicUnion::operator=(DynamicUnion&&) noexcept = default;
 DynamicUnion::~DynamicUnion() = default;
 
 Result<DynamicUnion> DynamicUnion::build(std::uint32_t capacity, double largest) {
-  if (capacity >= 1u << 30) return Error{ErrorCode::kUsage, "a union of 2^30 balls or more"};
+  if (capacity >= 1u << 30) return Error{ErrorCode::kUsage, "`capacity` must be below 2^30"};
   if (!(largest > 0) || !std::isfinite(largest)) {
-    return Error{ErrorCode::kUsage, "the largest coordinate of a union is not a positive number"};
+    return Error{ErrorCode::kUsage, "`largest` must be positive and finite"};
   }
   return catch_out_of_memory("making room for balls", [&]() -> Result<DynamicUnion> {
     return DynamicUnion(std::make_unique<Impl>(capacity, largest));
   });
 }
 
-std::uint32_t DynamicUnion::places() const { return impl_->places(); }
-bool DynamicUnion::holds(std::uint32_t place) const { return impl_->holds(place); }
+std::uint32_t DynamicUnion::slots() const { return impl_->slots(); }
+bool DynamicUnion::holds(std::uint32_t slot) const { return impl_->holds(slot); }
 std::uint32_t DynamicUnion::size() const { return impl_->size(); }
-const Ball& DynamicUnion::ball(std::uint32_t place) const { return impl_->ball(place); }
+const Ball& DynamicUnion::ball(std::uint32_t slot) const { return impl_->ball(slot); }
 double DynamicUnion::volume() const { return impl_->volume(); }
-Exposure DynamicUnion::exposure(std::uint32_t place) const { return impl_->exposure(place); }
+Exposure DynamicUnion::exposure(std::uint32_t slot) const { return impl_->exposure(slot); }
 
-Result<std::vector<Point>> DynamicUnion::vertices(std::uint32_t place) const {
+Result<std::vector<Point>> DynamicUnion::vertices(std::uint32_t slot) const {
   return catch_out_of_memory("finding the vertices of a union", [&]() -> Result<std::vector<Point>> {
-    if (Status status = impl_->check(place); !status.ok()) return status.error();
-    return impl_->vertices(place);
+    if (Status status = impl_->check(slot); !status.ok()) return status.error();
+    return impl_->vertices(slot);
   });
 }
 
@@ -352,19 +352,19 @@ Result<std::uint32_t> DynamicUnion::add(const Ball& ball) {
   });
 }
 
-Status DynamicUnion::remove(std::uint32_t place) {
-  return catch_out_of_memory("taking a ball from a union", [&]() -> Status {
-    if (Status status = impl_->check(place); !status.ok()) return status;
-    impl_->remove(place);
+Status DynamicUnion::remove(std::uint32_t slot) {
+  return catch_out_of_memory("removing a ball from a union", [&]() -> Status {
+    if (Status status = impl_->check(slot); !status.ok()) return status;
+    impl_->remove(slot);
     return {};
   });
 }
 
-Status DynamicUnion::move(std::uint32_t place, const Ball& to) {
+Status DynamicUnion::move(std::uint32_t slot, const Ball& to) {
   return catch_out_of_memory("moving a ball of a union", [&]() -> Status {
-    if (Status status = impl_->check(place); !status.ok()) return status;
+    if (Status status = impl_->check(slot); !status.ok()) return status;
     if (Status status = impl_->check(to); !status.ok()) return status;
-    impl_->move(place, to);
+    impl_->move(slot, to);
     return {};
   });
 }
@@ -376,10 +376,10 @@ Result<double> DynamicUnion::gain(const Ball& ball) {
   });
 }
 
-Result<double> DynamicUnion::loss(std::uint32_t place) {
+Result<double> DynamicUnion::loss(std::uint32_t slot) {
   return catch_out_of_memory("measuring a union without a ball", [&]() -> Result<double> {
-    if (Status status = impl_->check(place); !status.ok()) return status.error();
-    return impl_->loss(place);
+    if (Status status = impl_->check(slot); !status.ok()) return status.error();
+    return impl_->loss(slot);
   });
 }
 

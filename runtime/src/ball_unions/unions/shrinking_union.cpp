@@ -23,7 +23,7 @@ constexpr std::size_t kBallsAtOnce = 64;
 constexpr double kSliver = 0x1p-30;
 
 /// The measures of the power cell of one ball.
-struct Share {
+struct CellMeasures {
   double volume = 0;
   bool is_hidden = false;                 // none of the ball is in its cell, or nearly none
   std::vector<std::uint32_t> neighbours;  // balls that bound the cell
@@ -40,23 +40,23 @@ class ShrinkingUnion::Impl {
         threads_(thread_count(threads)),
         tree_(balls_, threads_),
         mask_(tree_),
-        pieces_(balls.size()),
+        cells_(balls.size()),
         volumes_(balls.size()) {
-    std::vector<std::pair<std::uint32_t, Share>> all = measure(tree_.order());
-    for (auto& [i, piece] : all) put(i, std::move(piece));
+    std::vector<std::pair<std::uint32_t, CellMeasures>> all = measure(tree_.order());
+    for (auto& [i, cell] : all) put(i, std::move(cell));
   }
 
   double volume() const { return careful_sum(volumes_); }
   std::span<const double> volumes() const { return volumes_; }
   bool holds(std::uint32_t ball) const { return mask_.holds(ball); }
   std::span<const std::uint32_t> changed() const { return changed_; }
-  std::size_t size() const { return pieces_.size(); }
+  std::size_t size() const { return cells_.size(); }
 
   Result<BettiNumbers> betti() const {
     DualComplex complex;
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
       if (!mask_.holds(i)) continue;
-      append(complex, pieces_[i].simplices);
+      append(complex, cells_[i].simplices);
     }
     std::vector<EnvelopeVertex> none;
     make_complete(complex, none);
@@ -68,7 +68,7 @@ class ShrinkingUnion::Impl {
     sort_unique(gone);
     std::erase_if(gone, [&](std::uint32_t i) { return !mask_.holds(i); });
     for (const std::uint32_t i : gone) mask_.set(i, false);
-    std::vector<std::pair<std::uint32_t, Share>> changed;
+    std::vector<std::pair<std::uint32_t, CellMeasures>> changed;
     std::vector<std::uint32_t> touched;
     try {
       touched = touched_by(gone);
@@ -79,15 +79,15 @@ class ShrinkingUnion::Impl {
     }
     gone_ = std::move(gone);
     changed_ = std::move(touched);
-    for (auto& [i, piece] : changed) std::swap(piece, pieces_[i]);
+    for (auto& [i, cell] : changed) std::swap(cell, cells_[i]);
     before_ = std::move(changed);
     for (const std::uint32_t i : gone_) volumes_[i] = 0;
-    for (const auto& [i, piece] : before_) refresh_volume(i);
+    for (const auto& [i, cell] : before_) refresh_volume(i);
   }
 
   void undo() {
     for (const std::uint32_t i : gone_) mask_.set(i, true);
-    for (auto& [i, piece] : before_) put(i, std::move(piece));
+    for (auto& [i, cell] : before_) put(i, std::move(cell));
     for (const std::uint32_t i : gone_) refresh_volume(i);
     before_.clear();
     gone_.clear();
@@ -95,20 +95,20 @@ class ShrinkingUnion::Impl {
   }
 
  private:
-  void put(std::uint32_t i, Share piece) {
-    pieces_[i] = std::move(piece);
+  void put(std::uint32_t i, CellMeasures cell) {
+    cells_[i] = std::move(cell);
     refresh_volume(i);
   }
-  void refresh_volume(std::uint32_t i) { volumes_[i] = pieces_[i].volume / scale_ / scale_ / scale_; }
+  void refresh_volume(std::uint32_t i) { volumes_[i] = cells_[i].volume / scale_ / scale_ / scale_; }
 
-  /// Balls whose share grows by the removal of others. If the share of ball k grows, the face of its cell with a
+  /// Balls whose cell grows by the removal of others. If the cell of ball k grows, the face of its cell with a
   /// removed ball meets both balls, as the later cell is convex: k is among the neighbours of that ball. A ball without
-  /// a share may get one where it overlaps a removed ball.
+  /// a cell may get one where it overlaps a removed ball.
   std::vector<std::uint32_t> touched_by(const std::vector<std::uint32_t>& gone) const {
     std::vector<std::uint32_t> touched;
-    for (const std::uint32_t i : gone) append(touched, pieces_[i].neighbours);
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      if (pieces_[i].is_hidden && mask_.holds(i) && overlaps_any(i, gone)) touched.push_back(i);
+    for (const std::uint32_t i : gone) append(touched, cells_[i].neighbours);
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+      if (cells_[i].is_hidden && mask_.holds(i) && overlaps_any(i, gone)) touched.push_back(i);
     }
     std::erase_if(touched, [&](std::uint32_t i) { return !mask_.holds(i); });
     sort_unique(touched);
@@ -126,15 +126,15 @@ class ShrinkingUnion::Impl {
   /// Neighbours in space follow each other, which reduces the cost of their cells.
   std::vector<std::uint32_t> in_tree_order(const std::vector<std::uint32_t>& sorted) const {
     std::vector<std::uint32_t> result;
-    if (sorted.size() * 8 < pieces_.size()) return sorted;
+    if (sorted.size() * 8 < cells_.size()) return sorted;
     for (const std::uint32_t i : tree_.order()) {
       if (std::binary_search(sorted.begin(), sorted.end(), i)) result.push_back(i);
     }
     return result;
   }
 
-  std::vector<std::pair<std::uint32_t, Share>> measure(std::span<const std::uint32_t> balls) const {
-    std::vector<std::pair<std::uint32_t, Share>> result(balls.size());
+  std::vector<std::pair<std::uint32_t, CellMeasures>> measure(std::span<const std::uint32_t> balls) const {
+    std::vector<std::pair<std::uint32_t, CellMeasures>> result(balls.size());
     parallel_blocks(balls.size(), kBallsAtOnce, threads_, [&](std::size_t begin, std::size_t end) {
       CellBuilder builder(balls_, tree_, &mask_);
       SimplexCollector collector;
@@ -146,19 +146,19 @@ class ShrinkingUnion::Impl {
     return result;
   }
 
-  void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, Share& piece) const {
+  void measure(CellBuilder& builder, SimplexCollector& collector, std::uint32_t i, CellMeasures& measures) const {
     const Ball& ball = balls_[i];
     if (ball.radius == 0) return;
     const PowerCell& cell = builder.build(i);
-    piece.is_hidden = true;
+    measures.is_hidden = true;
     if (cell.empty()) return;
-    piece.volume = measure_ball_in_cell(cell, ball.radius).volume;
+    measures.volume = measure_ball_in_cell(cell, ball.radius).volume;
     const auto neighbours = builder.neighbours();
-    piece.neighbours.assign(neighbours.begin() + 1, neighbours.end());
+    measures.neighbours.assign(neighbours.begin() + 1, neighbours.end());
     std::vector<EnvelopeVertex> unused;
-    collector.collect(cell, ball, piece.simplices, unused);
-    piece.is_hidden =
-        piece.simplices.vertices.empty() || piece.volume <= kSliver * ball.radius * ball.radius * ball.radius;
+    collector.collect(cell, ball, measures.simplices, unused);
+    measures.is_hidden =
+        measures.simplices.vertices.empty() || measures.volume <= kSliver * ball.radius * ball.radius * ball.radius;
   }
 
   double scale_;
@@ -166,11 +166,11 @@ class ShrinkingUnion::Impl {
   unsigned threads_;
   BallTree tree_;
   BallMask mask_;
-  std::vector<Share> pieces_;
+  std::vector<CellMeasures> cells_;
   std::vector<double> volumes_;
   // State of the last removal.
   std::vector<std::uint32_t> gone_, changed_;
-  std::vector<std::pair<std::uint32_t, Share>> before_;
+  std::vector<std::pair<std::uint32_t, CellMeasures>> before_;
 };
 
 ShrinkingUnion::ShrinkingUnion(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -195,7 +195,7 @@ std::span<const std::uint32_t> ShrinkingUnion::changed() const { return impl_->c
 void ShrinkingUnion::undo() { impl_->undo(); }
 
 Status ShrinkingUnion::remove(std::span<const std::uint32_t> balls) {
-  return catch_out_of_memory("taking balls from a union", [&]() -> Status {
+  return catch_out_of_memory("removing balls from a union", [&]() -> Status {
     for (const std::uint32_t i : balls) {
       if (i < impl_->size()) continue;
       return Error{ErrorCode::kUsage, "no ball " + std::to_string(i) + ": there are " + std::to_string(impl_->size())};

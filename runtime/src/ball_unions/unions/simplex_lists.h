@@ -41,7 +41,7 @@ std::array<std::uint32_t, N - 1> face(const std::array<std::uint32_t, N>& simple
 
 /// The index of a simplex in a sorted list that holds it.
 template <class T>
-std::size_t place_of(const std::vector<T>& list, const T& simplex) {
+std::size_t index_in(const std::vector<T>& list, const T& simplex) {
   return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), simplex) - list.begin());
 }
 

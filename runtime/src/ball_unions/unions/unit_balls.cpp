@@ -7,7 +7,7 @@
 namespace medial_vk {
 
 Status check_balls(std::span<const Ball> balls) {
-  if (balls.size() >= 1u << 30) return Error{ErrorCode::kUsage, "a union of 2^30 balls or more"};
+  if (balls.size() >= 1u << 30) return Error{ErrorCode::kUsage, "a union must have fewer than 2^30 balls"};
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const auto& [centre, radius] = balls[i];
     const bool finite = std::isfinite(centre[0]) && std::isfinite(centre[1]) && std::isfinite(centre[2]);

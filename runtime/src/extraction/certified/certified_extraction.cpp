@@ -91,7 +91,7 @@ class CertifiedRun {
 
   static Error too_small() {
     return {ErrorCode::kOutOfMemory,
-            "the contacts of a single top cell do not fit the memory budget; raise `memory_budget` or the resolution"};
+            "the contacts of a single top cell do not fit the device memory; raise `memory_budget` or `resolution`"};
   }
 
   // The host reads the points of the previous chunk while the device is busy.

@@ -146,14 +146,14 @@ Status CertifiedPipeline::allocate(std::uint64_t memory_budget) {
       {&masks_, 8 * words * 4, "masks of listed triangles"},
       {&touch_masks_, 8 * words * 4, "masks of contacts"},
       {&counts_, 8 * c * 16, "contact counts"},
-      {&asked_, 8 * c * 4, "cells and lines whose side is asked"},
+      {&requests_, 8 * c * 4, "cells and lines whose side is decided"},
       {&open_, 8 * c * 4, "cells that an axis may dismiss"},
       {&states_, scanned * 16, "states"},
       {&offsets_, scanned * 16, "offsets"},
       {&block_sums_, (scanned / 1024 + 1) * 16, "block sums"},
       {&aims_, gpu::kAimsPerCell * c * sizeof(gpu::Aim), "aims"},
       {&points_, 16 * c * 16, "line ends"},
-      {&work_, gpu::kLinesPerCell * c * 4, "contacts that lines and samples ask"},
+      {&work_, gpu::kLinesPerCell * c * 4, "contacts of lines and samples"},
       {&order_, gpu::kLinesPerCell * c * 4, "order of lines and samples"},
       {&lines_, lines * sizeof(gpu::Line), "lines"},
       {&winners_, c * 4, "winners"},
@@ -234,7 +234,7 @@ void CertifiedPipeline::begin_stage(Recorder& r, const char* stage) const {
 VkDeviceSize CertifiedPipeline::prepare(Recorder& r, gpu::DispatchConstants constants) {
   constants.threads = context_->dispatch_threads;
   // Kernels increment these while others read them.
-  if (constants.items_counter == gpu::kAsked || constants.items_counter == gpu::kOpen) arguments_.counters_change();
+  if (constants.items_counter == gpu::kRequests || constants.items_counter == gpu::kOpen) arguments_.counters_change();
   return arguments_.offset_of(r, constants);
 }
 
@@ -359,7 +359,7 @@ void CertifiedPipeline::find_nearest(Recorder& r, Source source, const Extent& e
   run_rounds(r,
              {"find_nearest",
               {mesh_->storage_of(mesh_->triangles), cells.range(), lists.range(), counters_.range(), points.range(),
-               lines_.range(), result_.range(), nearest.range(), asked_.range(), masks_.range(), winners_.range(),
+               lines_.range(), result_.range(), nearest.range(), requests_.range(), masks_.range(), winners_.range(),
                order_.range()},
               Reads::kTriangles,
               {static_cast<uint>(source), points_per_lane}},

@@ -150,9 +150,9 @@ class CertifiedPipeline {
   // The pairs of carriers of cells from `first` on, before their search or after (step.second_task).
   void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,
                    std::uint32_t limit);
-  // Sorts the items `asking` by their numbers of contacts in work_, so that invocations that work together get about
+  // Sorts `items` by their numbers of contacts in work_, so that invocations that work together get about
   // equally many each.
-  void sort_by_work(Recorder& r, gpu::StepConstants step, Extent asking);
+  void sort_by_work(Recorder& r, gpu::StepConstants step, Extent items);
   void find_nearest(Recorder& r, Source source, const Extent& extent, const gpu::StepConstants& step,
                     const Buffer& cells, const Buffer& lists, const Buffer& points, const Buffer& nearest);
   // Changes counters: callers whose later dispatches depend on these, or on the overflow, must call counters_change().
@@ -177,7 +177,7 @@ class CertifiedPipeline {
 
   Buffer counters_, counters_readback_;
   std::array<Buffer, 3> cells_, lists_;  // two to alternate between; [2] holds the finest voxels to the end
-  Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, asked_, open_, states_, offsets_, block_sums_;
+  Buffer nearest_, grown_nearest_, masks_, touch_masks_, counts_, requests_, open_, states_, offsets_, block_sums_;
   Buffer aims_, points_, work_, order_, lines_, winners_, given_up_, reasons_, voxel_points_, result_, undecided_;
   Buffer opposites_, sample_nearest_, opposite_nearest_, flux_tallies_;
 };

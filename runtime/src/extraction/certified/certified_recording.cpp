@@ -105,23 +105,23 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   begin_stage(r, "dismissal");
   const Buffer& axes = offsets_;  // large enough, and unused until the prefix sums
   const Extent children{gpu::kParents, 8, 1, 0, 0xffffffffu, gpu::kLongestParentList};
-  Extent asking = children;
-  asking.queries = 1;
-  clear_counters(r, {gpu::kAsked, gpu::kOpen});
+  Extent queried = children;
+  queried.queries = 1;
+  clear_counters(r, {gpu::kRequests, gpu::kOpen});
   run_rounds(r,
              {"mark_contacts",
               {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(),
                counters_.range(), nearest_.range(), masks_.range(), touch_masks_.range(), counts_.range(), axes.range(),
-               states_.range(), open_.range(), asked_.range()},
+               states_.range(), open_.range(), requests_.range()},
               Reads::kTriangles,
               {},
               64,
               Lanes::kEight},
-             asking, step);
+             queried, step);
   run(r,
       {"dismiss_cells",
        {mesh_->storage_of(mesh_->triangles), level.parents->range(), level.parent_lists->range(), counters_.range(),
-        nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), asked_.range(),
+        nearest_.range(), touch_masks_.range(), open_.range(), axes.range(), states_.range(), requests_.range(),
         counts_.range()},
        Reads::kTriangles},
       {gpu::kOpen}, step);
@@ -133,18 +133,18 @@ void CertifiedPipeline::record_children(Recorder& r, const gpu::StepConstants& s
   write_children(r, step, level, touch_masks_, finest);
 }
 
-// For the children listed by kAsked, or, as its second task, for all top cells (kParents).
+// For the children listed by kRequests, or, as its second task, for all top cells (kParents).
 void CertifiedPipeline::decide_sides(Recorder& r, const gpu::StepConstants& step, std::uint32_t counter,
                                      const Buffer& parents) {
   run(r,
       side_kernel("decide_side",
-                  {counters_.range(), parents.range(), nearest_.range(), states_.range(), asked_.range()}),
+                  {counters_.range(), parents.range(), nearest_.range(), states_.range(), requests_.range()}),
       {counter}, step);
 }
 
 void CertifiedPipeline::decide_sides_and_make_room(Recorder& r, const gpu::StepConstants& step,
                                                    const LevelBuffers& level) {
-  decide_sides(r, step, gpu::kAsked, *level.parents);
+  decide_sides(r, step, gpu::kRequests, *level.parents);
   // Kernels that write children are sized before the overflow is known: they test it themselves.
   scan(r, {gpu::kParents, 8, gpu::kCells, gpu::kListEntries, gpu::kMaskWords, capacity_.cells, capacity_.list_entries,
            capacity_.list_entries / 32 + capacity_.cells});
@@ -166,11 +166,11 @@ void CertifiedPipeline::record_clustered_children(Recorder& r, const gpu::StepCo
                                                   const LevelBuffers& level) {
   begin_stage(r, "dismissal");
   const Extent children{gpu::kParents, 8};
-  clear_counters(r, {gpu::kAsked});
+  clear_counters(r, {gpu::kRequests});
   run(r,
       {"mark_clusters",
        {level.parents->range(), level.parent_lists->range(), counters_.range(), nearest_.range(), masks_.range(),
-        touch_masks_.range(), counts_.range(), states_.range(), asked_.range()},
+        touch_masks_.range(), counts_.range(), states_.range(), requests_.range()},
        Reads::kClusters,
        {},
        kEightLanes,
@@ -248,11 +248,11 @@ void CertifiedPipeline::record_lines(Recorder& r, const gpu::StepConstants& step
   record_narrowing(r, step, level);
 }
 
-void CertifiedPipeline::sort_by_work(Recorder& r, gpu::StepConstants step, Extent asking) {
-  step.items_counter = asking.counter;
-  step.items_multiplier = asking.multiplier;
-  asking.divisor = gpu::kSortedPerLane;
-  run(r, {"sort_by_work", {counters_.range(), work_.range(), order_.range()}}, asking, step);
+void CertifiedPipeline::sort_by_work(Recorder& r, gpu::StepConstants step, Extent items) {
+  step.items_counter = items.counter;
+  step.items_multiplier = items.multiplier;
+  items.divisor = gpu::kSortedPerLane;
+  run(r, {"sort_by_work", {counters_.range(), work_.range(), order_.range()}}, items, step);
 }
 
 void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level) {
@@ -267,10 +267,10 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
          Reads::kTriangles},
         {gpu::kLines}, step);
   }
-  clear_counters(r, {gpu::kAsked});
+  clear_counters(r, {gpu::kRequests});
   find_nearest(r, Source::kGrownEnds, lines, step, *level.cells, *level.lists, points_, grown_nearest_);
-  run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), asked_.range(), winners_.range()}),
-      {gpu::kAsked}, step);
+  run(r, side_kernel("decide_line_side", {counters_.range(), lines_.range(), requests_.range(), winners_.range()}),
+      {gpu::kRequests}, step);
 }
 
 // Cells give up at the last level, some before it, from kBoundaryDepth on where the mesh cannot be trusted.
@@ -343,14 +343,14 @@ void CertifiedPipeline::record_flux(Recorder& r, std::uint32_t first) {
   sort_by_work(r, counted, groups);
   // The positions of samples are implicit: no buffer holds them.
   find_nearest(r, Source::kSamples, groups, of_groups, cells_[2], lists_[2], opposites_, sample_nearest_);
-  clear_counters(r, {gpu::kAsked});
+  clear_counters(r, {gpu::kRequests});
   run(r,
       {"choose_opposites",
        {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), sample_nearest_.range(),
-        opposites_.range(), flux_tallies_.range(), asked_.range()},
+        opposites_.range(), flux_tallies_.range(), requests_.range()},
        Reads::kTriangles},
       points, step);
-  find_nearest(r, Source::kOpposites, {gpu::kAsked}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
+  find_nearest(r, Source::kOpposites, {gpu::kRequests}, of_groups, cells_[2], lists_[2], opposites_, opposite_nearest_);
   run(r,
       {"measure_flux",
        {mesh_->storage_of(mesh_->triangles), counters_.range(), result_.range(), sample_nearest_.range(),

@@ -46,7 +46,7 @@ Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const Devi
                                               const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   for (const std::uint32_t samples : options.thesis.samples) {
     if (samples >= 1 && samples <= 4096) continue;
-    return Error{ErrorCode::kUsage, "samples per sphere must be 1 to 4096"};
+    return Error{ErrorCode::kUsage, "each of `samples` must be 1 to 4096"};
   }
   ThesisPipeline p(context, mesh, options, stop);
   p.grid_ = grid;
@@ -83,8 +83,8 @@ Status ThesisPipeline::allocate() {
       std::min({left * 9 / 10 / bytes_per_top, limit / (16 * samples_per_top),
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
-    return Error{ErrorCode::kOutOfMemory, "the thesis mode needs " + std::to_string(bytes_per_top * 10 / 9) +
-                                              " bytes of device memory; raise `memory_budget` or ask fewer samples"};
+    return Error{ErrorCode::kOutOfMemory, "mode thesis needs " + std::to_string(bytes_per_top * 10 / 9) +
+                                              " bytes of device memory; raise `memory_budget`"};
   }
   chunk_ = static_cast<std::uint32_t>(fitting);
   const VkDeviceSize cells = chunk_ * cells_per_top, lines = chunk_ * lines_per_top;

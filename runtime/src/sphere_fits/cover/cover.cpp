@@ -18,15 +18,15 @@ constexpr std::size_t kFew = 64;
 /// The least growth of radii before the proof, as a share of the diagonal.
 constexpr double kRoom = 1e-9;
 
-/// Number of pieces of the boundary: enough that the protrusion of a piece from a ball is negligible.
-std::size_t pieces_for(std::size_t balls) {
+/// Number of elements of the boundary: enough that the protrusion of an element from a ball is negligible.
+std::size_t elements_for(std::size_t balls) {
   if (balls <= 16) return 6'000;
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
 }
 
 CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, const Threads& threads) {
-  CoverPieces pieces(solid, pieces_for(balls.size()), threads);
-  return {std::move(pieces), std::move(balls), 0.1 * solid.diagonal(), threads};
+  CoverElements elements(solid, elements_for(balls.size()), threads);
+  return {std::move(elements), std::move(balls), 0.1 * solid.diagonal(), threads};
 }
 
 /// A start without the balls inside: points far from each other, then moved to the middles of the points nearest to

@@ -20,7 +20,7 @@ class Cover {
   /// Balls grow from these. Keeps a reference to the solid.
   Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report);
 
-  /// Repeats steps until they gain little, between two shares of the work; then also with finer pieces.
+  /// Repeats steps until they gain little, between two shares of the work; then also with finer elements.
   void search(double from, double until);
   void polish();
   /// Removes one ball, and improves its neighbours; improves all balls each time an eighth has been removed.

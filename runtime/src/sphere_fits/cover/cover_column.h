@@ -1,4 +1,4 @@
-// The measure in the search for covers: columns between a piece of the boundary and the sphere of a ball.
+// The measure in the search for covers: columns between an element of the boundary and the sphere of a ball.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// Factor by which radii are enlarged, so that pieces stay held for any rounding of distances.
+/// Factor by which radii are enlarged, so that elements stay held for any rounding of distances.
 inline constexpr double kCoverRoom = 1 + 1e-13;
 
 /// The reach of the ball from a point in it along a unit direction.

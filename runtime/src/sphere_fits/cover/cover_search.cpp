@@ -10,21 +10,23 @@
 
 namespace medial_vk {
 
-CoverSearch::CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, Threads threads)
-    : pieces_(std::move(pieces)), balls_(std::move(balls)), ease_(ease), threads_(std::move(threads)) {
+CoverSearch::CoverSearch(CoverElements elements, std::vector<Ball> balls, double ease, Threads threads)
+    : elements_(std::move(elements)), balls_(std::move(balls)), ease_(ease), threads_(std::move(threads)) {
   const NearestBallTree tree(balls_);
-  std::vector<std::uint32_t> owner(pieces_.size());
-  for_all(pieces_.size(), 64, threads_, [&](std::size_t piece) {
-    owner[piece] = tree.nearest(pieces_.middle(static_cast<std::uint32_t>(piece))).ball;
+  std::vector<std::uint32_t> owner(elements_.size());
+  for_all(elements_.size(), 64, threads_, [&](std::size_t element) {
+    owner[element] = tree.nearest(elements_.middle(static_cast<std::uint32_t>(element))).ball;
   });
-  for (std::uint32_t piece = 0; piece < owner.size(); ++piece) {
-    Ball& ball = balls_[owner[piece]];
-    ball.radius = std::max(ball.radius, pieces_.needed(ball.centre, piece) * kCoverRoom);
+  for (std::uint32_t element = 0; element < owner.size(); ++element) {
+    Ball& ball = balls_[owner[element]];
+    ball.radius = std::max(ball.radius, elements_.needed(ball.centre, element) * kCoverRoom);
   }
   recount();
 }
 
-double CoverSearch::cost_of(std::uint32_t piece, double height) const { return pieces_.area(piece) * column(height); }
+double CoverSearch::cost_of(std::uint32_t element, double height) const {
+  return elements_.area(element) * column(height);
+}
 
 /// Of a column over a unit of area.
 double CoverSearch::column(double height) const {
@@ -32,8 +34,8 @@ double CoverSearch::column(double height) const {
   return height * (1 + spread + spread * spread / 3);
 }
 
-double CoverSearch::highest(std::uint32_t piece, std::uint32_t but) const {
-  const Highest& two = highest_[piece];
+double CoverSearch::highest(std::uint32_t element, std::uint32_t but) const {
+  const Highest& two = highest_[element];
   return two[0].ball == but ? two[1].height : two[0].height;
 }
 
@@ -45,19 +47,19 @@ void CoverSearch::rank(const Holder& holder, Highest& two) {
   }
 }
 
-void CoverSearch::add_holder(std::uint32_t piece, const Holder& holder) {
-  holders_[piece].push_back(holder);
-  rank(holder, highest_[piece]);
+void CoverSearch::add_holder(std::uint32_t element, const Holder& holder) {
+  holders_[element].push_back(holder);
+  rank(holder, highest_[element]);
 }
 
 /// Its height.
-double CoverSearch::remove_holder(std::uint32_t piece, std::uint32_t ball) {
-  std::vector<Holder>& holders = holders_[piece];
+double CoverSearch::remove_holder(std::uint32_t element, std::uint32_t ball) {
+  std::vector<Holder>& holders = holders_[element];
   const auto at = std::find_if(holders.begin(), holders.end(), [ball](const Holder& h) { return h.ball == ball; });
   const double height = at->height;
   *at = holders.back();
   holders.pop_back();
-  Highest& two = highest_[piece];
+  Highest& two = highest_[element];
   if (two[0].ball != ball && two[1].ball != ball) return height;
   two = {};
   for (const Holder& holder : holders) rank(holder, two);
@@ -66,8 +68,8 @@ double CoverSearch::remove_holder(std::uint32_t piece, std::uint32_t ball) {
 
 void CoverSearch::recount() {
   touched_.assign(balls_.size(), {});
-  holders_.assign(pieces_.size(), {});
-  highest_.assign(pieces_.size(), {});
+  holders_.assign(elements_.size(), {});
+  highest_.assign(elements_.size(), {});
   total_ = 0;
   std::vector<Ball> balls(balls_.size());
   balls.swap(balls_);
@@ -76,19 +78,20 @@ void CoverSearch::recount() {
 }
 
 void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
-  for (const std::uint32_t piece : touched_[i]) {
-    const double height = remove_holder(piece, i), rest = highest(piece, i);
-    if (height > rest) total_ += cost_of(piece, rest) - cost_of(piece, height);
+  for (const std::uint32_t element : touched_[i]) {
+    const double height = remove_holder(element, i), rest = highest(element, i);
+    if (height > rest) total_ += cost_of(element, rest) - cost_of(element, height);
   }
   balls_[i] = ball;
   touched_[i].clear();
   if (ball.radius == 0) return;
-  pieces_.gather(ball, touched_[i]);
-  for (const std::uint32_t piece : touched_[i]) {
-    const double height = pieces_.area(piece) > 0 ? height_over(ball, pieces_.middle(piece), pieces_.normal(piece)) : 0;
-    const double rest = highest(piece, i);
-    if (height > rest) total_ += cost_of(piece, height) - cost_of(piece, rest);
-    add_holder(piece, {i, pieces_.needed(ball.centre, piece) <= ball.radius, height});
+  elements_.gather(ball, touched_[i]);
+  for (const std::uint32_t element : touched_[i]) {
+    const double height =
+        elements_.area(element) > 0 ? height_over(ball, elements_.middle(element), elements_.normal(element)) : 0;
+    const double rest = highest(element, i);
+    if (height > rest) total_ += cost_of(element, height) - cost_of(element, rest);
+    add_holder(element, {i, elements_.needed(ball.centre, element) <= ball.radius, height});
   }
 }
 
@@ -98,24 +101,24 @@ void CoverSearch::undo(const std::vector<Saved>& saved) {
 
 std::vector<std::uint32_t> CoverSearch::exclusive(std::uint32_t i) const {
   std::vector<std::uint32_t> alone;
-  for (const std::uint32_t piece : touched_[i]) {
+  for (const std::uint32_t element : touched_[i]) {
     bool is_held = false, by_other = false;
-    for (const Holder& holder : holders_[piece]) (holder.ball == i ? is_held : by_other) |= holder.holds;
-    if (is_held && !by_other) alone.push_back(piece);
+    for (const Holder& holder : holders_[element]) (holder.ball == i ? is_held : by_other) |= holder.holds;
+    if (is_held && !by_other) alone.push_back(element);
   }
   return alone;
 }
 
 double CoverSearch::needed(const Point& centre, const std::vector<std::uint32_t>& some) const {
   double radius = 0;
-  for (const std::uint32_t piece : some) radius = std::max(radius, pieces_.needed(centre, piece));
+  for (const std::uint32_t element : some) radius = std::max(radius, elements_.needed(centre, element));
   return radius * kCoverRoom;
 }
 
 Ball CoverSearch::around(const std::vector<std::uint32_t>& some) const {
   std::vector<Point> points;
-  for (const std::uint32_t piece : some) {
-    points.insert(points.end(), pieces_.points(piece).begin(), pieces_.points(piece).end());
+  for (const std::uint32_t element : some) {
+    points.insert(points.end(), elements_.points(element).begin(), elements_.points(element).end());
   }
   Ball ball = smallest_ball(points);
   ball.radius *= kCoverRoom;
@@ -124,10 +127,10 @@ Ball CoverSearch::around(const std::vector<std::uint32_t>& some) const {
 
 double CoverSearch::share(std::uint32_t i) const {
   double sum = 0;
-  for (const std::uint32_t piece : touched_[i]) {
-    const double rest = highest(piece, i);
-    for (const Holder& holder : holders_[piece]) {
-      if (holder.ball == i && holder.height > rest) sum += cost_of(piece, holder.height) - cost_of(piece, rest);
+  for (const std::uint32_t element : touched_[i]) {
+    const double rest = highest(element, i);
+    for (const Holder& holder : holders_[element]) {
+      if (holder.ball == i && holder.height > rest) sum += cost_of(element, holder.height) - cost_of(element, rest);
     }
   }
   return sum;
@@ -136,26 +139,27 @@ double CoverSearch::share(std::uint32_t i) const {
 bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const {
   const Ball ball = {balls_[i].centre, radius};
   double sum = 0;
-  for (const std::uint32_t piece : touched_[i]) {
-    if (!(pieces_.area(piece) > 0)) continue;
-    const double height = height_over(ball, pieces_.middle(piece), pieces_.normal(piece));
-    const double paid = highest_[piece][0].height;
-    if (height > paid) sum += cost_of(piece, height) - cost_of(piece, paid);
+  for (const std::uint32_t element : touched_[i]) {
+    if (!(elements_.area(element) > 0)) continue;
+    const double height = height_over(ball, elements_.middle(element), elements_.normal(element));
+    const double paid = highest_[element][0].height;
+    if (height > paid) sum += cost_of(element, height) - cost_of(element, paid);
     if (sum > most) return true;
   }
   return false;
 }
 
 void CoverSearch::refine() {
-  constexpr double kSmall = 0.05;  // of the ball's radius: the protrusion of such a piece is negligible
-  std::vector<bool> which(pieces_.size());
+  constexpr double kSmall = 0.05;  // of the ball's radius: the protrusion of such an element is negligible
+  std::vector<bool> which(elements_.size());
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
-    for (const std::uint32_t piece : exclusive(i)) {
-      const bool holds_up = pieces_.needed(balls_[i].centre, piece) > 0.98 * balls_[i].radius;
-      if (holds_up && pieces_.needed(pieces_.middle(piece), piece) > kSmall * balls_[i].radius) which[piece] = true;
+    for (const std::uint32_t element : exclusive(i)) {
+      const bool holds_up = elements_.needed(balls_[i].centre, element) > 0.98 * balls_[i].radius;
+      if (holds_up && elements_.needed(elements_.middle(element), element) > kSmall * balls_[i].radius)
+        which[element] = true;
     }
   }
-  pieces_.refine(which);
+  elements_.refine(which);
   recount();
 }
 
@@ -166,7 +170,7 @@ void CoverSearch::restore(std::vector<Ball> balls) {
 
 void CoverSearch::add(std::span<const Point> points) {
   for (const Point& p : points) {
-    pieces_.add({&p, 1});
+    elements_.add({&p, 1});
     Ball* taker = &balls_.front();
     double least = std::numeric_limits<double>::infinity();
     for (Ball& ball : balls_) {

@@ -1,4 +1,4 @@
-// Balls that hold given pieces, and the search for such balls with little volume outside the solid.
+// Balls that hold given elements, and the search for such balls with little volume outside the solid.
 #pragma once
 
 #include <array>
@@ -7,43 +7,43 @@
 #include <span>
 #include <vector>
 
-#include "sphere_fits/cover/cover_pieces.h"
+#include "sphere_fits/cover/cover_elements.h"
 
 namespace medial_vk {
 
-/// Every piece is held by a ball, also after each step. The volume outside is a sum of columns: over each triangle,
+/// Every element is held by a ball, also after each step. The volume outside is a sum of columns: over each triangle,
 /// along its normal, to the farthest end of the balls that hold its middle. Steps that do not lower the sum are undone.
 /// Deterministic.
 class CoverSearch {
  public:
-  /// Every ball grows until it holds the pieces that are nearest to it. `ease` is a length: shorter columns count as
+  /// Every ball grows until it holds the elements that are nearest to it. `ease` is a length: shorter columns count as
   /// straight, longer ones as widening.
-  CoverSearch(CoverPieces pieces, std::vector<Ball> balls, double ease, Threads threads);
+  CoverSearch(CoverElements elements, std::vector<Ball> balls, double ease, Threads threads);
 
-  /// Each ball in turn moves, and shrinks around the pieces that no other holds.
+  /// Each ball in turn moves, and shrinks around the elements that no other holds.
   void slide();
-  /// Assigns the pieces that determine the radius of a ball to another one. Returns the number of such changes.
+  /// Assigns the elements that determine the radius of a ball to another one. Returns the number of such changes.
   std::size_t trade();
   /// Moves the most dispensable balls to those that protrude most. Returns the number moved.
   std::size_t relocate();
   /// Removes a dispensable ball, after which others have other indices. Precondition: two balls or more.
   void remove_one();
-  /// Divides the pieces that determine the radius of a ball, unless they are small compared with it.
+  /// Divides the elements that determine the radius of a ball, unless they are small compared with it.
   void refine();
-  /// Adds a piece for each point, held by the ball that must grow least for it.
+  /// Adds an element for each point, held by the ball that must grow least for it.
   void add(std::span<const Point> points);
 
   const std::vector<Ball>& balls() const { return balls_; }
-  /// Restores previous balls, which must hold the pieces.
+  /// Restores previous balls, which must hold the elements.
   void restore(std::vector<Ball> balls);
 
  private:
   struct Holder {
     std::uint32_t ball = 0xffffffffu;
-    bool holds = false;  ///< The whole piece, not only its middle.
+    bool holds = false;  ///< The whole element, not only its middle.
     double height = 0;   ///< Of the column.
   };
-  /// The highest two of a piece's columns.
+  /// The highest two of an element's columns.
   using Highest = std::array<Holder, 2>;
   /// The state of a ball after its last move.
   struct Slid {
@@ -57,22 +57,22 @@ class CoverSearch {
   };
 
   void recount();
-  /// Changes a ball and the state of the pieces around it, total_ included.
+  /// Changes a ball and the state of the elements around it, total_ included.
   void replace(std::uint32_t i, const Ball& ball);
   void undo(const std::vector<Saved>& saved);
-  double cost_of(std::uint32_t piece, double height) const;
+  double cost_of(std::uint32_t element, double height) const;
   double column(double height) const;
-  double highest(std::uint32_t piece, std::uint32_t but) const;
+  double highest(std::uint32_t element, std::uint32_t but) const;
   static void rank(const Holder& holder, Highest& two);
-  void add_holder(std::uint32_t piece, const Holder& holder);
-  double remove_holder(std::uint32_t piece, std::uint32_t ball);
-  /// Pieces that no other ball holds.
+  void add_holder(std::uint32_t element, const Holder& holder);
+  double remove_holder(std::uint32_t element, std::uint32_t ball);
+  /// Elements that no other ball holds.
   std::vector<std::uint32_t> exclusive(std::uint32_t i) const;
   double needed(const Point& centre, const std::vector<std::uint32_t>& some) const;
   Ball around(const std::vector<std::uint32_t>& some) const;
   /// The part of the sum that only ball i causes.
   double share(std::uint32_t i) const;
-  /// True if the ball with this radius adds more than `most` to the columns over the pieces that it touches now.
+  /// True if the ball with this radius adds more than `most` to the columns over the elements that it touches now.
   bool costs_more(std::uint32_t i, double radius, double most) const;
   Ball best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const;
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
@@ -86,16 +86,16 @@ class CoverSearch {
   bool leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved);
   void take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share);
   std::array<Point, 2> tips(std::uint32_t i) const;
-  /// Ball `free` leaves its pieces to others and takes a part of those of `wide`, if that lowers the sum.
+  /// Ball `free` leaves its elements to others and takes a part of those of `wide`, if that lowers the sum.
   bool move_to(std::uint32_t free, std::uint32_t wide);
 
-  CoverPieces pieces_;
+  CoverElements elements_;
   std::vector<Ball> balls_;
   double ease_;
   Threads threads_;
-  std::vector<std::vector<std::uint32_t>> touched_;  // by ball: pieces whose middles it holds
-  std::vector<std::vector<Holder>> holders_;         // by piece
-  std::vector<Highest> highest_;                     // by piece
+  std::vector<std::vector<std::uint32_t>> touched_;  // by ball: elements whose middles it holds
+  std::vector<std::vector<Holder>> holders_;         // by element
+  std::vector<Highest> highest_;                     // by element
   std::vector<Slid> slid_;
   double total_ = 0;
 };

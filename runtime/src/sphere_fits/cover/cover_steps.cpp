@@ -18,8 +18,8 @@ namespace medial_vk {
 /// ball.
 Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const {
   std::vector<Point> points;
-  for (const std::uint32_t piece : some) {
-    points.insert(points.end(), pieces_.points(piece).begin(), pieces_.points(piece).end());
+  for (const std::uint32_t element : some) {
+    points.insert(points.end(), elements_.points(element).begin(), elements_.points(element).end());
   }
   const Ball smallest = smallest_ball(points);
   const auto radius_at = [&](const Point& centre) {
@@ -32,19 +32,20 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
   };
   const Point from = balls_[i].centre;
   Ball best = {from, radius_at(from)};
-  // All pieces that a step may touch.
+  // All elements that a step may touch.
   std::vector<std::uint32_t> near;
   const double reach = std::max(best.radius, smallest.radius + length(smallest.centre - from));
-  pieces_.gather({from, 1.6 * reach}, near);
+  elements_.gather({from, 1.6 * reach}, near);
   struct Column {
     Point middle, direction;
     double area, rest, paid;
   };
   std::vector<Column> columns;
-  for (const std::uint32_t piece : near) {
-    if (!(pieces_.area(piece) > 0)) continue;
-    const double rest = highest(piece, i);
-    columns.push_back({pieces_.middle(piece), pieces_.normal(piece), pieces_.area(piece), rest, column(rest)});
+  for (const std::uint32_t element : near) {
+    if (!(elements_.area(element) > 0)) continue;
+    const double rest = highest(element, i);
+    columns.push_back(
+        {elements_.middle(element), elements_.normal(element), elements_.area(element), rest, column(rest)});
   }
   /// Stops where it is more than `enough`.
   const auto cost = [&](const Ball& ball, double enough) {
@@ -172,23 +173,24 @@ bool CoverSearch::trade_one(std::uint32_t i) {
   const Ball whole = balls_[i];
   std::uint32_t support = 0;
   double most = -1;
-  for (const std::uint32_t piece : alone) {
-    const double here = pieces_.needed(whole.centre, piece);
+  for (const std::uint32_t element : alone) {
+    const double here = elements_.needed(whole.centre, element);
     if (here > most) {
       most = here;
-      support = piece;
+      support = element;
     }
   }
   const double total = total_, own = share(i);
   for (const double part : {0.03, 0.12, 0.3}) {
     std::vector<std::uint32_t> given;
-    for (const std::uint32_t piece : alone) {
-      if (length(pieces_.middle(piece) - pieces_.middle(support)) <= part * whole.radius) given.push_back(piece);
+    for (const std::uint32_t element : alone) {
+      if (length(elements_.middle(element) - elements_.middle(support)) <= part * whole.radius)
+        given.push_back(element);
     }
     if (given.size() == alone.size()) return false;
     // Those that must grow least.
     std::vector<std::pair<double, std::uint32_t>> takers;
-    const Point at = pieces_.middle(support);
+    const Point at = elements_.middle(support);
     for (std::uint32_t j = 0; j < balls_.size(); ++j) {
       if (j == i || balls_[j].radius == 0) continue;
       const double gap = length(balls_[j].centre - at) - balls_[j].radius;
@@ -219,7 +221,7 @@ std::size_t CoverSearch::trade() {
   return traded;
 }
 
-/// Assigns the pieces that only ball i holds to the neighbour that must grow least for them, except `but`.
+/// Assigns the elements that only ball i holds to the neighbour that must grow least for them, except `but`.
 bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved) {
   threads_.check();
   const std::vector<std::uint32_t> left = exclusive(i);
@@ -242,11 +244,12 @@ bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& 
   return true;
 }
 
-/// Of the pieces that only `wide` holds, ball i, which holds nothing, takes the share that is nearest to the `tip`.
+/// Of the elements that only `wide` holds, ball i, which holds nothing, takes the share that is nearest to the `tip`.
 void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share) {
   constexpr int kHalvings = 3;
   std::vector<std::pair<double, std::uint32_t>> sorted;
-  for (const std::uint32_t piece : exclusive(wide)) sorted.emplace_back(length(pieces_.middle(piece) - tip), piece);
+  for (const std::uint32_t element : exclusive(wide))
+    sorted.emplace_back(length(elements_.middle(element) - tip), element);
   std::sort(sorted.begin(), sorted.end());
   std::vector<std::uint32_t> part;
   const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -260,17 +263,17 @@ void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& t
   }
 }
 
-/// The points where a ball protrudes most, and where it reaches farthest for a piece that only it holds.
+/// The points where a ball protrudes most, and where it reaches farthest for an element that only it holds.
 std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
   std::array<Point, 2> tips{};
   std::array<double, 2> most = {-1, -1};
-  for (const std::uint32_t piece : exclusive(i)) {
-    const std::array<double, 2> here = {pieces_.area(piece) > 0 ? highest(piece, 0xffffffffu) : -1,
-                                        pieces_.needed(balls_[i].centre, piece)};
+  for (const std::uint32_t element : exclusive(i)) {
+    const std::array<double, 2> here = {elements_.area(element) > 0 ? highest(element, 0xffffffffu) : -1,
+                                        elements_.needed(balls_[i].centre, element)};
     for (std::size_t k = 0; k < 2; ++k) {
       if (here[k] <= most[k]) continue;
       most[k] = here[k];
-      tips[k] = pieces_.middle(piece);
+      tips[k] = elements_.middle(element);
     }
   }
   return tips;
@@ -305,8 +308,8 @@ double CoverSearch::price_to_leave(std::uint32_t i) const {
 }
 
 std::size_t CoverSearch::relocate() {
-  // The share of the volume that a ball adds bounds the gain by another ball beside it; pieces that a ball holds alone
-  // must be held by a neighbour: the cheapest balls to remove are tried first.
+  // The share of the volume that a ball adds bounds the gain by another ball beside it; elements that a ball holds
+  // alone must be held by a neighbour: the cheapest balls to remove are tried first.
   const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
   std::vector<std::pair<double, std::uint32_t>> free, wide;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {

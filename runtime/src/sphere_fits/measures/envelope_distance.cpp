@@ -3,6 +3,7 @@
 #include <cmath>
 #include <new>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {
@@ -11,7 +12,7 @@ namespace {
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// A triangle or a part of one.
-struct Piece {
+struct Part {
   std::array<Point, 3> corner;
 
   Point middle() const { return (1.0 / 3) * (corner[0] + (corner[1] + corner[2])); }
@@ -20,8 +21,8 @@ struct Piece {
   }
 };
 
-void split_piece(const Piece& piece, std::vector<Piece>& parts) {
-  const auto& [a, b, c] = piece.corner;
+void split_part(const Part& part, std::vector<Part>& parts) {
+  const auto& [a, b, c] = part.corner;
   const Point ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
   parts.insert(parts.end(), {{{a, ab, ca}}, {{ab, b, bc}}, {{ca, bc, c}}, {{ab, bc, ca}}});
 }
@@ -83,9 +84,9 @@ class Measure {
     limits_.cells = options.cells;
     limits_.threads = options.threads;
     const PreparedMesh& mesh = solid.mesh();
-    pieces_.reserve(mesh.mesh.triangles.size());
+    parts_.reserve(mesh.mesh.triangles.size());
     for (const Triangle& t : mesh.mesh.triangles) {
-      pieces_.push_back({{mesh.mesh.vertices[t[0]], mesh.mesh.vertices[t[1]], mesh.mesh.vertices[t[2]]}});
+      parts_.push_back({{mesh.mesh.vertices[t[0]], mesh.mesh.vertices[t[1]], mesh.mesh.vertices[t[2]]}});
     }
   }
 
@@ -104,12 +105,12 @@ class Measure {
   }
 
   Bounds boundary_to_balls() const {
-    const auto evaluate = [&](const Piece& piece, double) -> CellBounds {
-      const Point middle = piece.middle();
+    const auto evaluate = [&](const Part& part, double) -> CellBounds {
+      const Point middle = part.middle();
       const NearestBall nearest = tree_.nearest(middle);
-      return {nearest.distance, bound_over(piece, middle, nearest)};
+      return {nearest.distance, bound_over(part, middle, nearest)};
     };
-    return rounded(bound_supremum(pieces_, 0, limits_, evaluate, split_piece), slack_);
+    return rounded(bound_supremum(parts_, 0, limits_, evaluate, split_part), slack_);
   }
 
  private:
@@ -118,9 +119,9 @@ class Measure {
   }
 
   /// A ball's |p - c| - r is convex: in the part, it is at most the greatest of its values at corners.
-  double bound_over(const Piece& piece, const Point& middle, const NearestBall& nearest) const {
+  double bound_over(const Part& part, const Point& middle, const NearestBall& nearest) const {
     const Ball& ball = tree_.balls()[nearest.ball];
-    return std::min(nearest.distance + piece.reach(middle), piece.reach(ball.centre) - ball.radius);
+    return std::min(nearest.distance + part.reach(middle), part.reach(ball.centre) - ball.radius);
   }
 
   Bounds solid_to_balls(double lower) const {
@@ -183,9 +184,9 @@ class Measure {
   Bounds boundary_to_envelope(double lower) const {
     lower = std::max(lower,
                      greatest_at_vertices([&](const Point& p) { return envelope_.distance(solid_.closest(p).point); }));
-    const auto evaluate = [&](const Piece& piece, double known) -> CellBounds {
-      const Point middle = piece.middle();
-      const double reach = piece.reach(middle);
+    const auto evaluate = [&](const Part& part, double known) -> CellBounds {
+      const Point middle = part.middle();
+      const double reach = part.reach(middle);
       const NearestBall nearest = tree_.nearest(middle);
       if (nearest.distance >= 0) {
         // The part outside of the balls, if any; points in them are at most `reach` deep.
@@ -195,7 +196,7 @@ class Measure {
       const double distance = envelope_.distance(middle, enough);
       return {distance > enough ? distance : kNone, distance + reach};
     };
-    return rounded(bound_supremum(pieces_, lower, limits_, evaluate, split_piece), slack_ + 4 * envelope_.tolerance());
+    return rounded(bound_supremum(parts_, lower, limits_, evaluate, split_part), slack_ + 4 * envelope_.tolerance());
   }
 
   Bounds envelope_to_boundary() const {
@@ -224,7 +225,7 @@ class Measure {
   const DistanceOptions& options_;
   double slack_;
   SearchLimits limits_;
-  std::vector<Piece> pieces_;
+  std::vector<Part> parts_;
 };
 
 Bounds greater(const Bounds& a, const Bounds& b) { return {std::max(a.lower, b.lower), std::max(a.upper, b.upper)}; }
@@ -239,9 +240,7 @@ namespace {
 
 Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
 
-Error no_memory() {
-  return {ErrorCode::kOutOfMemory, "not enough memory to measure how far the balls are from the solid"};
-}
+Error no_memory() { return out_of_memory("measuring the distance of the balls from the solid"); }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <new>
 #include <numbers>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "sphere_fits/measures/surface_samples.h"
 
@@ -175,10 +176,10 @@ double mean_of(const std::vector<double>& values) {
 double p95_of(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  const double place = 0.95 * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double position = 0.95 * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
   const double above = values[std::min(below + 1, values.size() - 1)];
-  return values[below] + (place - static_cast<double>(below)) * (above - values[below]);
+  return values[below] + (position - static_cast<double>(below)) * (above - values[below]);
 }
 
 /// Distances to the boundary of those points of all spheres that are outside the solid.
@@ -250,8 +251,8 @@ void fill_bins(const std::vector<Weighted>& samples, double lower, double upper,
   double area = 0;
   for (const Weighted& sample : samples) area += sample.area;
   for (const Weighted& sample : samples) {
-    const double place = (sample.distance - lower) / (upper - lower) * static_cast<double>(kBins);
-    out.share[std::min(kBins - 1, static_cast<std::size_t>(std::max(0.0, place)))] += sample.area / area;
+    const double position = (sample.distance - lower) / (upper - lower) * static_cast<double>(kBins);
+    out.share[std::min(kBins - 1, static_cast<std::size_t>(std::max(0.0, position)))] += sample.area / area;
   }
 }
 
@@ -315,7 +316,7 @@ Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball>
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to measure the balls"};
+    return out_of_memory("measuring the balls");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <vector>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "sphere_fits/measures/branch_and_bound.h"
 
@@ -15,7 +16,7 @@ constexpr double kUnit = 0x1p-53;
 /// Greatest number of halvings of a triangle: 2^-40 of its size is below the accuracy of written balls.
 constexpr int kDepth = 40;
 /// Greatest number of parts of a triangle; one for which they do not suffice is undecided.
-constexpr std::size_t kPieces = 200'000;
+constexpr std::size_t kMostParts = 200'000;
 
 enum class Cover : std::uint8_t { kCovered, kUncovered, kUndecided };
 
@@ -32,21 +33,21 @@ class TriangleCover {
     const Point middle = middle_of(triangle);
     tree_.gather(middle, reach(triangle, middle), found);
     lists_.push_back(found);
-    std::size_t pieces = 0;
+    std::size_t parts = 0;
     while (!stack_.empty()) {
-      const Piece piece = stack_.back();
+      const Part part = stack_.back();
       stack_.pop_back();
-      const Cover cover = look(piece);
+      const Cover cover = test(part);
       if (cover == Cover::kCovered) continue;
-      where = middle_of(piece.corner);
+      where = middle_of(part.corner);
       if (cover == Cover::kUncovered) return cover;
-      if (piece.depth == kDepth || ++pieces > kPieces) return Cover::kUndecided;
+      if (part.depth == kDepth || ++parts > kMostParts) return Cover::kUndecided;
     }
     return Cover::kCovered;
   }
 
  private:
-  struct Piece {
+  struct Part {
     std::array<Point, 3> corner;
     int depth;
     std::size_t list;  // balls that may meet it
@@ -60,33 +61,33 @@ class TriangleCover {
   /// A ball is convex: a part is in it if its corners are. Corners of parts are rounded, up to once per halving, by
   /// half a unit in the last place of each coordinate: the parts are exact parts of the triangle, moved by at most
   /// moved_. Lengths have relative errors of at most 4u.
-  bool holds(const Ball& ball, const Piece& piece) const {
+  bool holds(const Ball& ball, const Part& part) const {
     const double most = ball.radius * (1 - 8 * kUnit) - moved_;
-    return reach(piece.corner, ball.centre) <= most;
+    return reach(part.corner, ball.centre) <= most;
   }
 
   /// kUndecided: parts of it are on the stack, unless it is too small.
-  Cover look(const Piece& piece) {
-    const Point middle = middle_of(piece.corner);
-    const double around = reach(piece.corner, middle);
+  Cover test(const Part& part) {
+    const Point middle = middle_of(part.corner);
+    const double around = reach(part.corner, middle);
     std::vector<std::uint32_t> near;
     bool is_covered = false;
-    lists_.resize(piece.list + 1);  // drops those of finished parts
-    for (const std::uint32_t i : lists_[piece.list]) {
+    lists_.resize(part.list + 1);  // drops those of finished parts
+    for (const std::uint32_t i : lists_[part.list]) {
       const Ball& ball = tree_.balls()[i];
       const double distance = length(middle - ball.centre) - ball.radius;
       if (distance > around) continue;
       if (distance <= 0) is_covered = true;
-      if (distance <= 0 && holds(ball, piece)) return Cover::kCovered;
+      if (distance <= 0 && holds(ball, part)) return Cover::kCovered;
       near.push_back(i);
     }
     if (!is_covered) return Cover::kUncovered;
-    if (piece.depth == kDepth) return Cover::kUndecided;
+    if (part.depth == kDepth) return Cover::kUndecided;
     lists_.push_back(std::move(near));
     const std::size_t list = lists_.size() - 1;
-    const auto& [a, b, c] = piece.corner;
+    const auto& [a, b, c] = part.corner;
     const Point ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-    const int depth = piece.depth + 1;
+    const int depth = part.depth + 1;
     stack_.push_back({{a, ab, ca}, depth, list});
     stack_.push_back({{ab, b, bc}, depth, list});
     stack_.push_back({{ca, bc, c}, depth, list});
@@ -96,7 +97,7 @@ class TriangleCover {
 
   const NearestBallTree& tree_;
   double moved_;
-  std::vector<Piece> stack_;
+  std::vector<Part> stack_;
   std::vector<std::vector<std::uint32_t>> lists_;  // of the parts on the stack
 };
 
@@ -136,7 +137,7 @@ void test_surface(const Solid& solid, const NearestBallTree& tree, const Threads
   const std::size_t count = mesh.triangles.size();
   const double magnitude = magnitude_of(solid.mesh().report);
   std::vector<Cover> covers(count);
-  std::vector<Point> places(count);
+  std::vector<Point> failures(count);
   constexpr std::size_t kTrianglesAtOnce = 32;
   for_all((count + kTrianglesAtOnce - 1) / kTrianglesAtOnce, 1, threads, [&](std::size_t block) {
     TriangleCover cover(tree, magnitude);
@@ -144,13 +145,13 @@ void test_surface(const Solid& solid, const NearestBallTree& tree, const Threads
       const Triangle& corners = mesh.triangles[t];
       threads.check();
       covers[t] =
-          cover.run({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, places[t]);
+          cover.run({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, failures[t]);
     }
   });
   proof.triangles = count;
   for (std::size_t t = 0; t < count; ++t) {
     if (covers[t] == Cover::kCovered) continue;
-    if (proof.uncovered + proof.undecided == 0) proof.first_uncovered = places[t];
+    if (proof.uncovered + proof.undecided == 0) proof.first_uncovered = failures[t];
     ++(covers[t] == Cover::kUncovered ? proof.uncovered : proof.undecided);
   }
 }
@@ -183,7 +184,7 @@ InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const 
   InsideProof proof;
   proof.tested = balls.size();
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    proof.worst = i == 0 ? excess[i] : std::max(proof.worst, excess[i]);
+    proof.greatest_excess = i == 0 ? excess[i] : std::max(proof.greatest_excess, excess[i]);
     if (!(excess[i] <= 0) && proof.failed++ == 0) proof.first_failure = static_cast<std::uint32_t>(i);
   }
   return proof;
@@ -199,7 +200,7 @@ Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, con
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to prove that the balls cover the solid"};
+    return out_of_memory("proving that the balls cover the solid");
   }
 }
 

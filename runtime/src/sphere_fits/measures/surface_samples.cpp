@@ -29,8 +29,8 @@ std::vector<Point> sample_surface(const Mesh& mesh, std::size_t count) {
   points.reserve(count);
   std::size_t t = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * sum.value();
-    while (t + 1 < until.size() && until[t] < place) ++t;
+    const double position = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * sum.value();
+    while (t + 1 < until.size() && until[t] < position) ++t;
     const double i = static_cast<double>(k) + 1;
     double u = fraction(0.5 + 0.7548776662466927 * i), v = fraction(0.5 + 0.5698402909980532 * i);
     if (u + v > 1) {

@@ -20,7 +20,7 @@ struct Threads {
   std::function<bool()> goes_on = {};  ///< Called often, from any of them at any time; returns false to stop.
 
   Threads(unsigned n = 0) : count(n) {}  // NOLINT(google-explicit-constructor): a number is enough
-  Threads(unsigned n, std::function<bool()> asked) : count(n), goes_on(std::move(asked)) {}
+  Threads(unsigned n, std::function<bool()> test) : count(n), goes_on(std::move(test)) {}
 
   void check() const {
     if (goes_on && !goes_on()) throw Stopped();
@@ -31,9 +31,9 @@ struct Threads {
 /// call threads.check() themselves, too.
 template <class Body>
 void for_all(std::size_t count, std::size_t block, const Threads& threads, Body body) {
-  constexpr std::size_t kAsked = 8;
+  constexpr std::size_t kPeriod = 8;
   const auto run = [&](std::size_t i) {
-    if (i % kAsked == 0) threads.check();
+    if (i % kPeriod == 0) threads.check();
     body(i);
   };
   parallel_for(count, block, threads.count, run);

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "sphere_fits/cover/cover_family.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/best_method.h"
@@ -45,25 +46,25 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
 Status check_request(const Solid& solid, const SphereOptions& options) {
   const bool finite = std::isfinite(options.error) && std::isfinite(options.max_gap);
   if (!finite || options.error < 0 || options.error >= 1 || options.max_gap < 0) {
-    return usage("an error is a share below 1, and a gap a length; neither is negative");
+    return usage("`error` must be in [0, 1), and `max_gap` finite and not negative");
   }
   if (options.error > 0 && !solid.has_volume()) {
-    return usage("an error is a share of the volume, which this mesh does not enclose cleanly; give a count");
+    return usage("`error` is a share of the volume, which this mesh does not enclose cleanly; use `count` instead");
   }
   // Balls inside keep a distance of the rounding from the boundary.
   if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
-    return usage("so small a gap is below the rounding of distances");
+    return usage("`max_gap` is below the rounding of distances");
   }
   if (options.contract == SphereContract::kCover && options.max_gap > 0) {
-    return usage("balls that cover leave no gap; give an error, or how many");
+    return usage("balls that cover leave no gap; use `error` or `count` instead of `max_gap`");
   }
   const bool is_best = options.method == SphereMethod::kBest;
   if (options.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
-    return usage("balanced balls need a mesh without open edges; take the contract inside, or the method source");
+    return usage("balanced balls need a mesh without open edges; use `contract` inside, or `method` source");
   }
   const bool has_goal = options.error > 0 || options.max_gap > 0;
   if (has_goal && options.contract != SphereContract::kInside && !is_best) {
-    return usage("an error or a gap is a goal for the source's balls inside; for the other contracts say how many");
+    return usage("`method` source with this `contract` supports neither `error` nor `max_gap`; use `count`");
   }
   return {};
 }
@@ -93,7 +94,7 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& optio
     if (!inside) return inside.error();
     starts = std::move(inside.value().stages);  // the previous starts, and one more
     if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
-    if (count == most) return usage("no cover of so many balls adds so little; allow more balls, or a larger error");
+    if (count == most) return usage("no cover of so many balls adds so little; raise `count` or `error`");
   }
 }
 
@@ -122,7 +123,7 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptio
     if (!cover) return cover.error();
     return levels_below(solid, options, all_levels, std::move(cover).value(), extractor, progress);
   }
-  if (count == 0) return usage("say how many balls shall cover the solid");
+  if (count == 0) return usage("a cover requires `count` or `error`");
   const Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
   if (!inside) return inside.error();
   const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
@@ -182,7 +183,7 @@ Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOp
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+    return out_of_memory("choosing balls", "try a lower `count`");
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
   }

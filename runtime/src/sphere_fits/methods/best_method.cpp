@@ -152,8 +152,10 @@ class Placing {
       left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
     }
     const std::size_t n = balls_.size();
-    return {ErrorCode::kUsage, fmt::format("{} {} {}; allow more balls, or a larger error or gap", n,
-                                           n == 1 ? "ball leaves" : "balls leave", left)};
+    return {ErrorCode::kUsage, fmt::format("{} {} {}; raise {}", n, n == 1 ? "ball leaves" : "balls leave", left,
+                                           options_.max_gap <= 0 ? "`count` or `error`"
+                                           : options_.error <= 0 ? "`count` or `max_gap`"
+                                                                 : "`count`, `error` or `max_gap`")};
   }
 
   /// Switches to the next finer medial points, if there are enough balls for them.
@@ -243,15 +245,15 @@ class Placing {
     const Ball maximal = maximal_ball(solid_, choice.ball.centre);
     const bool is_larger = maximal.radius > choice.ball.radius && stays_inside(solid_, maximal);
     const Ball ball = is_larger ? maximal : choice.ball;
-    const Result<std::uint32_t> place = balls_.add(ball);
-    if (!place) return place.error();
-    moves_->came(balls_, place.value());
+    const Result<std::uint32_t> slot = balls_.add(ball);
+    if (!slot) return slot.error();
+    moves_->came(balls_, slot.value());
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
     note_change();
-    steps_.resize(balls_.places());
-    steps_[place.value()] = kFirstStep * ball.radius;
+    steps_.resize(balls_.slots());
+    steps_[slot.value()] = kFirstStep * ball.radius;
     for (int i = 0; i < kOwnSlides; ++i) {
-      if (Result<double> gain = move(place.value()); !gain) return gain.error();
+      if (Result<double> gain = move(slot.value()); !gain) return gain.error();
     }
     for (const std::uint32_t p : around) steps_[p] = std::max(steps_[p], kLeastFirstStep * balls_.ball(p).radius);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -270,8 +272,8 @@ class Placing {
   /// The uncovered volume between a ball and its neighbours lies around their common points.
   void add_candidates_at_vertices(std::span<const std::uint32_t> around) {
     std::vector<Ball> balls;
-    for (const std::uint32_t place : around) {
-      const std::optional<Point> vertex = gaps_.deepest_vertex(place);
+    for (const std::uint32_t slot : around) {
+      const std::optional<Point> vertex = gaps_.deepest_vertex(slot);
       if (!vertex) continue;
       const Ball ball = maximal_ball(solid_, *vertex);
       if (ball.radius > 0 && stays_inside(solid_, ball)) balls.push_back(ball);
@@ -280,19 +282,19 @@ class Placing {
   }
 
   /// One step of one ball; returns the gain.
-  Result<double> move(std::uint32_t place) {
-    Result<double> gain = moves_->take(balls_, place, steps_[place]);
+  Result<double> move(std::uint32_t slot) {
+    Result<double> gain = moves_->take(balls_, slot, steps_[slot]);
     if (gain && gain.value() > 0) note_change();
     return gain;
   }
 
   void note_change() {
-    for (const std::uint32_t place : balls_.changed()) gaps_.forget(place);
+    for (const std::uint32_t slot : balls_.changed()) gaps_.forget(slot);
   }
 
   std::vector<Ball> all_balls() const {
     std::vector<Ball> all;
-    for (std::uint32_t place = 0; place < balls_.places(); ++place) all.push_back(balls_.ball(place));
+    for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) all.push_back(balls_.ball(slot));
     return all;
   }
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <set>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "sphere_fits/methods/dilation.h"
 
@@ -71,7 +72,7 @@ Result<SphereSet> dilate_to_boundary(const Solid& solid, SphereSet inside, unsig
     }
     return SphereSet{growth.grown()};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to grow the balls"};
+    return out_of_memory("growing the balls");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "sphere_fits/cover/cover_family.h"
 
 namespace medial_vk {
@@ -46,7 +47,7 @@ Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned thr
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
+    return out_of_memory("covering the solid");
   }
 }
 
@@ -63,7 +64,7 @@ Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
   } catch (const Stopped&) {
     return Error{ErrorCode::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "not enough memory to cover the solid"};
+    return out_of_memory("covering the solid");
   }
 }
 

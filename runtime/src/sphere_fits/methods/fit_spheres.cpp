@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/spheres.h"
 #include "sphere_fits/measures/measures.h"
@@ -39,12 +40,11 @@ Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop) {
 Status check_promise(SphereContract contract, const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
   if (contract == SphereContract::kInside && !inside.proved()) {
-    return Error{ErrorCode::kInternal,
-                 fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}; nothing was written",
-                             inside.failed, inside.tested, inside.worst)};
+    return Error{ErrorCode::kInternal, fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}",
+                                                   inside.failed, inside.tested, inside.greatest_excess)};
   }
   if (contract == SphereContract::kCover && !measures.cover.surface_proved()) {
-    return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid; nothing was written"};
+    return Error{ErrorCode::kInternal, "the spheres are not proved to cover the solid"};
   }
   return {};
 }
@@ -55,14 +55,14 @@ Status check_promise(SphereContract contract, const SphereMeasures& measures) {
 ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector<Ball>& balls) {
   ReachOut reach;
   if (contract == SphereContract::kInside || balls.empty()) return reach;
-  reach.best = HUGE_VAL;
+  reach.least = HUGE_VAL;
   CompensatedSum sum;
   for (const Ball& ball : balls) {
     const double distance = solid.distance(ball.centre) * (solid.contains(ball.centre) ? -1 : 1);
     const double out = std::max(0.0, ball.radius + distance + solid.rounding());
     sum.add(out);
-    reach.best = std::min(reach.best, out);
-    reach.worst = std::max(reach.worst, out);
+    reach.least = std::min(reach.least, out);
+    reach.greatest = std::max(reach.greatest, out);
   }
   reach.mean = sum.value() / static_cast<double>(balls.size());
   return reach;
@@ -121,11 +121,11 @@ template <class Work>
 auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
     -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {
   try {
-    const Result<Solid> solid = Solid::create(mesh);
+    const Result<Solid> solid = Solid::build(mesh);
     if (!solid) return solid.error();
     return work(solid.value(), guarded(progress, stop));
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "out of memory; ask for fewer balls"};
+    return out_of_memory("fitting spheres", "try a lower `count`");
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
   }

@@ -32,7 +32,7 @@ class GridSearch {
     if (by_count && by_error && !(error_of(best_).value_or(1) <= options_.error)) {
       return source_usage(
           fmt::format("one ball per voxel leaves {:.3g} of the volume uncovered with {} balls, more than the "
-                      "error of {:.3g} wanted; allow more balls, or use the method best",
+                      "`error` of {:.3g}; raise `count`, or use `method` best",
                       error_of(best_).value_or(1), best_.size(), options_.error));
     }
     if (Status ordered = order_by_share(best_, options_.threads); !ordered) return ordered.error();
@@ -115,7 +115,7 @@ class GridSearch {
     if (fewest_ == SIZE_MAX) return no_balls();
     return source_usage(
         fmt::format("one ball per voxel gives {} balls even on the coarsest grid that has any, more than the {} "
-                    "wanted; allow more, or use the method best",
+                    "allowed; raise `count`, or use `method` best",
                     fewest_, options_.count));
   }
 
@@ -124,12 +124,12 @@ class GridSearch {
     if (!found) return found.error();
     if (!best_.empty()) return {};
     return source_usage(
-        fmt::format("one ball per voxel reaches an error of {:.3g} on no grid; use the method best", options_.error));
+        fmt::format("one ball per voxel reaches an `error` of {:.3g} on no grid; use `method` best", options_.error));
   }
 
   Status no_balls() const {
-    return source_usage(
-        fmt::format("no medial ball has an object angle of {:.3g} or more; lower it", options_.object_angle));
+    return source_usage(fmt::format("no medial ball has an object angle of {:.3g} or more; lower `object_angle`",
+                                    options_.object_angle));
   }
 
   const Solid& solid_;
@@ -145,13 +145,13 @@ class GridSearch {
 
 Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress) {
-  if (options.max_gap > 0) return source_usage("the method source knows no greatest gap; use the method best");
+  if (options.max_gap > 0) return source_usage("`method` source does not support `max_gap`; use `method` best");
   const bool has_goal = options.count > 0 || options.error > 0;
   if (has_goal && options.resolution > 0) {
-    return source_usage("the method source finds its own resolution; give either that or a count or error");
+    return source_usage("`method` source finds its own resolution; use either `resolution`, or `count` and `error`");
   }
   if (!has_goal && options.resolution == 0)
-    return source_usage("there is no goal: give a count, an error or a resolution");
+    return source_usage("there is no goal: use `count`, `error` or `resolution`");
   return GridSearch(solid, options, extractor, progress).run();
 }
 

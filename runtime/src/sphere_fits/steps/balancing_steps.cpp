@@ -56,9 +56,9 @@ class BalancingSteps : public BallSteps {
  public:
   explicit BalancingSteps(const Solid& solid) : solid_(solid), difference_(solid) {}
 
-  void came(const DynamicUnion& balls, std::uint32_t place) override {
-    find_others(balls, place, 0);
-    gained_ -= difference_.change(balls.ball(place), others_);
+  void came(const DynamicUnion& balls, std::uint32_t slot) override {
+    find_others(balls, slot, 0);
+    gained_ -= difference_.change(balls.ball(slot), others_);
   }
 
   double error(const DynamicUnion& /*balls*/) const override {
@@ -67,11 +67,11 @@ class BalancingSteps : public BallSteps {
 
  private:
   /// Balls that meet the ball, or would after such a motion; those that hold most of it first.
-  void find_others(const DynamicUnion& balls, std::uint32_t place, double reach) {
-    const Ball& ball = balls.ball(place);
+  void find_others(const DynamicUnion& balls, std::uint32_t slot, double reach) {
+    const Ball& ball = balls.ball(slot);
     std::vector<std::pair<double, Ball>> found;
-    for (std::uint32_t p = 0; p < balls.places(); ++p) {
-      if (p == place || !balls.holds(p)) continue;
+    for (std::uint32_t p = 0; p < balls.slots(); ++p) {
+      if (p == slot || !balls.holds(p)) continue;
       const Ball& other = balls.ball(p);
       const double apart = length(other.centre - ball.centre) - other.radius;
       if (apart < ball.radius + reach) found.emplace_back(apart, other);
@@ -81,9 +81,9 @@ class BalancingSteps : public BallSteps {
     for (const auto& [apart, other] : found) others_.push_back(other);
   }
 
-  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) override {
-    const Ball& ball = balls.ball(place);
-    find_others(balls, place, 3 * step);
+  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) override {
+    const Ball& ball = balls.ball(slot);
+    find_others(balls, slot, 3 * step);
     heights_.clear();
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       const Point normal = spiral_point(k, kSpherePoints);
@@ -101,10 +101,10 @@ class BalancingSteps : public BallSteps {
   }
 
   /// Among the others that propose() has found: no step is longer than its limit there.
-  Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
-    const double gain = difference_.change(balls.ball(place), others_) - difference_.change(to, others_);
+  Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
+    const double gain = difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
     if (!(gain > 0)) return 0.0;
-    if (Status status = balls.move(place, to); !status.ok()) return status.error();
+    if (Status status = balls.move(slot, to); !status.ok()) return status.error();
     gained_ += gain;
     return gain;
   }

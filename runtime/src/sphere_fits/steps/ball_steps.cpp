@@ -4,16 +4,16 @@
 
 namespace medial_vk {
 
-Result<double> BallSteps::take(DynamicUnion& balls, std::uint32_t place, double& step) {
+Result<double> BallSteps::take(DynamicUnion& balls, std::uint32_t slot, double& step) {
   // In radii: a ball whose step is shorter has converged.
   constexpr double kLongestStep = 0.5, kShortestStep = 1e-3;
-  if (step < kShortestStep * balls.ball(place).radius) return 0.0;
-  const std::optional<Ball> to = propose(balls, place, step);
+  if (step < kShortestStep * balls.ball(slot).radius) return 0.0;
+  const std::optional<Ball> to = propose(balls, slot, step);
   if (!to) {
     step /= 4;
     return 0.0;
   }
-  const Result<double> gain = try_move(balls, place, *to);
+  const Result<double> gain = try_move(balls, slot, *to);
   if (!gain) return gain.error();
   step = gain.value() > 0 ? std::min(1.3 * step, kLongestStep * to->radius) : step / 2;
   return gain.value();

@@ -13,19 +13,19 @@ namespace medial_vk {
 class BallSteps {
  public:
   virtual ~BallSteps() = default;
-  /// Moves the ball in slot `place` about as far as `step`, if that gains anything, and returns the gain (mesh units
+  /// Moves the ball in slot `slot` about as far as `step`, if that gains anything, and returns the gain (mesh units
   /// cubed); 0: the ball is unchanged. `step` becomes the next length to try. Errors: those of DynamicUnion::move().
-  Result<double> take(DynamicUnion& balls, std::uint32_t place, double& step);
+  Result<double> take(DynamicUnion& balls, std::uint32_t slot, double& step);
   /// To be called for each added ball.
-  virtual void came(const DynamicUnion& balls, std::uint32_t place) = 0;
+  virtual void came(const DynamicUnion& balls, std::uint32_t slot) = 0;
   /// The share of the solid's volume that the steps reduce.
   virtual double error(const DynamicUnion& balls) const = 0;
 
  private:
   /// The replacement of the ball; no value if no direction is better.
-  virtual std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) = 0;
+  virtual std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) = 0;
   /// The gain of that; 0: there is none, and nothing has changed.
-  virtual Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) = 0;
+  virtual Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) = 0;
 };
 
 /// Balls stay inside the solid and touch its boundary; the gain is that of the volume of the union.

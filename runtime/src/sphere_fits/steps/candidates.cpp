@@ -16,7 +16,7 @@ Result<std::optional<Candidates::Choice>> Candidates::take_best(DynamicUnion& ba
   ++round_;
   while (!queue_.empty()) {
     const Entry best = queue_.top();
-    if (best.asked == round_) {
+    if (best.evaluated == round_) {
       if (best.gain == 0) break;  // all remain candidates, as balls may move away from them
       queue_.pop();
       return std::optional<Choice>({balls_[best.candidate], best.gain});

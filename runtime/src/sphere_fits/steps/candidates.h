@@ -31,7 +31,7 @@ class Candidates {
   struct Entry {
     double gain;
     std::uint32_t candidate;
-    std::uint32_t asked;  // number of the round of the last evaluation
+    std::uint32_t evaluated;  // the round of the last evaluation
     bool operator<(const Entry& other) const {
       return gain != other.gain ? gain < other.gain : candidate > other.candidate;
     }

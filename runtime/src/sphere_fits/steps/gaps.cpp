@@ -67,21 +67,21 @@ GapFinder::GapFinder(const Solid& solid, const DynamicUnion& balls, bool reach_o
   }
 }
 
-void GapFinder::forget(std::uint32_t place) {
-  if (place < known_.size()) known_[place] = 0;
+void GapFinder::forget(std::uint32_t slot) {
+  if (slot < known_.size()) known_[slot] = 0;
 }
 
-double GapFinder::distance_to(const Point& p, std::uint32_t place) const {
-  if (!balls_.holds(place)) return std::numeric_limits<double>::infinity();
-  const Ball& ball = balls_.ball(place);
+double GapFinder::distance_to(const Point& p, std::uint32_t slot) const {
+  if (!balls_.holds(slot)) return std::numeric_limits<double>::infinity();
+  const Ball& ball = balls_.ball(slot);
   return length(p - ball.centre) - ball.radius;
 }
 
 double GapFinder::refresh(Sample& sample) const {
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t place = 0; place < balls_.places(); ++place) {
-    const double distance = distance_to(sample.at, place);
-    if (distance < least) least = distance, sample.place = place;
+  for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) {
+    const double distance = distance_to(sample.at, slot);
+    if (distance < least) least = distance, sample.slot = slot;
   }
   return least;
 }
@@ -90,7 +90,7 @@ double GapFinder::refresh(Sample& sample) const {
 GapFinder::Gap GapFinder::widest_on_boundary() {
   std::vector<std::pair<double, std::uint32_t>> bounds;
   for (std::uint32_t k = 0; k < samples_.size(); ++k) {
-    bounds.emplace_back(distance_to(samples_[k].at, samples_[k].place), k);
+    bounds.emplace_back(distance_to(samples_[k].at, samples_[k].slot), k);
   }
   std::priority_queue queue(std::less<>(), std::move(bounds));
   Gap widest;
@@ -99,40 +99,40 @@ GapFinder::Gap GapFinder::widest_on_boundary() {
     queue.pop();
     const double size = refresh(sample);
     if (!(size > widest.size)) continue;
-    const Point towards = balls_.ball(sample.place).centre - sample.at;
+    const Point towards = balls_.ball(sample.slot).centre - sample.at;
     widest = {sample.at, size, sample.at + (0.5 * size / length(towards)) * towards, sample.inward};
   }
   return widest;
 }
 
-const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t place) {
-  known_.resize(balls_.places(), 0);
-  deepest_.resize(balls_.places());
-  Gap& deepest = deepest_[place];
-  if (known_[place]) return deepest;
+const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t slot) {
+  known_.resize(balls_.slots(), 0);
+  deepest_.resize(balls_.slots());
+  Gap& deepest = deepest_[slot];
+  if (known_[slot]) return deepest;
   deepest = {};
-  const Result<std::vector<Point>> vertices = balls_.vertices(place);
+  const Result<std::vector<Point>> vertices = balls_.vertices(slot);
   if (!vertices) throw std::bad_alloc();  // its only error for an occupied slot
   for (const Point& vertex : vertices.value()) {
     const double depth = solid_.distance(vertex);
     if (!(depth > deepest.size) || (reach_out_ && !solid_.contains(vertex))) continue;
     deepest = {.at = vertex, .size = depth};
   }
-  known_[place] = 1;
+  known_[slot] = 1;
   return deepest;
 }
 
 GapFinder::Gap GapFinder::deepest_vertex() {
   Gap deepest;
-  for (std::uint32_t place = 0; place < balls_.places(); ++place) {
-    if (!balls_.holds(place)) continue;
-    if (const Gap& here = deepest_at(place); here.size > deepest.size) deepest = here;
+  for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) {
+    if (!balls_.holds(slot)) continue;
+    if (const Gap& here = deepest_at(slot); here.size > deepest.size) deepest = here;
   }
   return deepest;
 }
 
-std::optional<Point> GapFinder::deepest_vertex(std::uint32_t place) {
-  const Gap& deepest = deepest_at(place);
+std::optional<Point> GapFinder::deepest_vertex(std::uint32_t slot) {
+  const Gap& deepest = deepest_at(slot);
   return deepest.size > 0 ? std::optional(deepest.at) : std::nullopt;
 }
 

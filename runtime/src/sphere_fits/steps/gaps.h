@@ -25,25 +25,25 @@ class GapFinder {
     Point inward = {0, 0, 0};
   };
   /// To be called after a change, addition or removal of the ball in a slot.
-  void forget(std::uint32_t place);
+  void forget(std::uint32_t slot);
   /// The point of the boundary that is farthest from the balls.
   Gap widest_on_boundary();
   /// The vertex of the envelope inside the solid that is farthest from the boundary.
   Gap deepest_vertex();
   /// The same among those of one ball; no value if it has none.
-  std::optional<Point> deepest_vertex(std::uint32_t place);
+  std::optional<Point> deepest_vertex(std::uint32_t slot);
 
   struct Sample {
     Point at, inward;
-    std::uint32_t place;  ///< Of the ball that was nearest.
+    std::uint32_t slot;  ///< Of the ball that was nearest.
   };
   /// The samples of the boundary.
   const std::vector<Sample>& samples() const { return samples_; }
 
  private:
-  double distance_to(const Point& p, std::uint32_t place) const;
+  double distance_to(const Point& p, std::uint32_t slot) const;
   double refresh(Sample& sample) const;
-  const Gap& deepest_at(std::uint32_t place);
+  const Gap& deepest_at(std::uint32_t slot);
 
   const Solid& solid_;
   const DynamicUnion& balls_;

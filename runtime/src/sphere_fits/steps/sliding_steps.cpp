@@ -12,21 +12,21 @@ class SlidingSteps : public BallSteps {
  public:
   explicit SlidingSteps(const Solid& solid) : solid_(solid), slider_(solid) {}
 
-  void came(const DynamicUnion& /*balls*/, std::uint32_t /*place*/) override {}
+  void came(const DynamicUnion& /*balls*/, std::uint32_t /*slot*/) override {}
 
   double error(const DynamicUnion& balls) const override { return 1 - balls.volume() / solid_.volume(); }
 
  private:
-  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t place, double step) override {
-    const Ball& ball = balls.ball(place);
-    const Point move = slider_.direction(ball, balls.exposure(place), step);
+  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) override {
+    const Ball& ball = balls.ball(slot);
+    const Point move = slider_.direction(ball, balls.exposure(slot), step);
     return move == Point{} ? std::nullopt : std::optional(maximal_ball(solid_, ball.centre + move));
   }
 
-  Result<double> try_move(DynamicUnion& balls, std::uint32_t place, const Ball& to) override {
+  Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
     if (!(to.radius > 0) || !stays_inside(solid_, to)) return 0.0;
     const double before = balls.volume();
-    if (Status status = balls.move(place, to); !status.ok()) return status.error();
+    if (Status status = balls.move(slot, to); !status.ok()) return status.error();
     const double gain = balls.volume() - before;
     if (gain > 0) return gain;
     balls.undo();

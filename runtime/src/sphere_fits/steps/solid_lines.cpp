@@ -38,8 +38,8 @@ class Shadow {
 
  private:
   double flat(std::uint32_t vertex, std::size_t k) const { return mesh_.vertices[vertex][across_[k]]; }
-  static std::ptrdiff_t index(double place, std::ptrdiff_t count) {
-    return static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, static_cast<double>(count)));
+  static std::ptrdiff_t index(double position, std::ptrdiff_t count) {
+    return static_cast<std::ptrdiff_t>(std::clamp(position, 0.0, static_cast<double>(count)));
   }
 
   /// Twice the area of a, b and the line. Triangles that share an edge get the same number for it except for the sign,

@@ -47,9 +47,9 @@ class Pen {
 };
 
 Vector3f palette_colour(const std::vector<Vector3f>& palette, float share) {
-  const float place = share * static_cast<float>(palette.size() - 1);
-  const std::size_t below = std::min(static_cast<std::size_t>(place), palette.size() - 2);
-  return palette[below] + (place - static_cast<float>(below)) * (palette[below + 1] - palette[below]);
+  const float position = share * static_cast<float>(palette.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(position), palette.size() - 2);
+  return palette[below] + (position - static_cast<float>(below)) * (palette[below + 1] - palette[below]);
 }
 
 void draw_bar(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t top, std::uint32_t width) {

@@ -90,22 +90,22 @@ class Composer {
   /// The part of the sky that neighbours leave visible: 1 on an open plain. Eight positions around the sample are
   /// tested, different ones for each sample of a pixel, on one spiral.
   float openness(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
-    constexpr int kAsked = 8;
+    constexpr int kPositions = 8;
     const SurfaceLayer& surface = layers_.marks.surface;
     const float nearness = surface.nearness[pixel];
     const float unit = camera_.scale_at(nearness);
     const float reach = std::min(kReach * unit, kGreatestReach * kCpuSamples);
     const std::uint32_t number = y % kCpuSamples * kCpuSamples + x % kCpuSamples;
-    constexpr float kAll = kAsked * kCpuSamples * kCpuSamples;
+    constexpr float kAll = kPositions * kCpuSamples * kCpuSamples;
     float taken = 0;
-    for (int i = 0; i < kAsked; ++i) {
-      const float place = static_cast<float>(i) * kCpuSamples * kCpuSamples + static_cast<float>(number) + 0.5f;
-      const float angle = 2.39996323f * place, radius = reach * std::sqrt(place / kAll);
+    for (int i = 0; i < kPositions; ++i) {
+      const float index = static_cast<float>(i) * kCpuSamples * kCpuSamples + static_cast<float>(number) + 0.5f;
+      const float angle = 2.39996323f * index, radius = reach * std::sqrt(index / kAll);
       const int dx = static_cast<int>(std::lround(radius * std::cos(angle)));
       const int dy = static_cast<int>(std::lround(radius * std::sin(angle)));
       taken += taken_by(x, y, dx, dy, nearness, unit, reach, surface.normal[pixel]);
     }
-    return 1.0f - 0.85f * std::min(1.6f * taken / kAsked, 1.0f);
+    return 1.0f - 0.85f * std::min(1.6f * taken / kPositions, 1.0f);
   }
 
   float taken_by(std::uint32_t x, std::uint32_t y, int dx, int dy, float nearness, float unit, float reach,

@@ -44,17 +44,17 @@ float taken_by(ivec2 at, ivec2 offset, float nearness, float unit, float reach, 
 // The part of the sky that neighbours leave visible: 1 on an open plain. Eight positions around the sample are tested,
 // different ones for each sample of a pixel, on one spiral.
 float openness(ivec2 at, float nearness, vec3 normal) {
-  const int asked = 8;
+  const int positions = 8;
   int side = int(panel.layer.z), samples = side * side;
   float unit = panel.towards.w * nearness, reach = min(panel.place.w * unit, panel.depth.w);
   int number = at.y % side * side + at.x % side;
   float taken = 0.0;
-  for (int i = 0; i < asked; ++i) {
-    float place = float(i * samples + number) + 0.5;
-    float angle = 2.39996323 * place, radius = reach * sqrt(place / float(asked * samples));
+  for (int i = 0; i < positions; ++i) {
+    float index = float(i * samples + number) + 0.5;
+    float angle = 2.39996323 * index, radius = reach * sqrt(index / float(positions * samples));
     taken += taken_by(at, ivec2(round(radius * vec2(cos(angle), sin(angle)))), nearness, unit, reach, normal);
   }
-  return 1.0 - 0.85 * min(1.6 * taken / float(asked), 1.0);
+  return 1.0 - 0.85 * min(1.6 * taken / float(positions), 1.0);
 }
 
 // A disc or a ball, lit by the sky, which nearby marks occlude, and by a lamp. Discs are darker at the rim, which

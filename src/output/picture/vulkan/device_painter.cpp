@@ -273,12 +273,12 @@ class DevicePainter::Impl {
   }
 
   void record(const Scene& scene, const SceneBuffers& buffers, const Panel& panel, std::size_t marks,
-              const PanelConstants& told) {
+              const PanelConstants& constants) {
     DrawingDevice::check(device_.vk.ResetCommandPool(device_.device, pool_, 0), "vkResetCommandPool");
     auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     DrawingDevice::check(device_.vk.BeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-    device_.vk.CmdPushConstants(commands_, pipelines_.layout, kDrawingStages, 0, sizeof(told), &told);
+    device_.vk.CmdPushConstants(commands_, pipelines_.layout, kDrawingStages, 0, sizeof(constants), &constants);
     const std::array vertices = {buffers.positions.handle, buffers.normals.handle};
     const std::array<VkDeviceSize, 2> offsets = {0, 0};
     device_.vk.CmdBindVertexBuffers(commands_, 0, 2, vertices.data(), offsets.data());

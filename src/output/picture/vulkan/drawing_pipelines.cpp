@@ -132,7 +132,7 @@ class Shader {
   DrawingDevice& device_;
 };
 
-struct PipelineWish {
+struct PipelineRequest {
   std::span<const std::uint32_t> vertex, fragment;
   VkRenderPass pass = VK_NULL_HANDLE;
   VkExtent2D size{};
@@ -141,8 +141,8 @@ struct PipelineWish {
   VkCompareOp keep = VK_COMPARE_OP_GREATER;  // depth 1 is near
 };
 
-VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const PipelineWish& wish) {
-  const Shader vertex(device, wish.vertex), fragment(device, wish.fragment);
+VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const PipelineRequest& request) {
+  const Shader vertex(device, request.vertex), fragment(device, request.fragment);
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -159,7 +159,7 @@ VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0}}};
   auto input =
       vulkan_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-  if (wish.has_attributes) {
+  if (request.has_attributes) {
     input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(bindings.size());
     input.pVertexBindingDescriptions = bindings.data();
     input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
@@ -168,8 +168,9 @@ VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const
   auto assembly = vulkan_struct<VkPipelineInputAssemblyStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
   assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  const VkViewport viewport = {0, 0, static_cast<float>(wish.size.width), static_cast<float>(wish.size.height), 0, 1};
-  const VkRect2D scissor = {{0, 0}, wish.size};
+  const VkViewport viewport = {0, 0, static_cast<float>(request.size.width), static_cast<float>(request.size.height),
+                               0, 1};
+  const VkRect2D scissor = {{0, 0}, request.size};
   auto area = vulkan_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
   area.viewportCount = 1;
   area.pViewports = &viewport;
@@ -186,7 +187,7 @@ VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const
       vulkan_struct<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
   depth.depthTestEnable = VK_TRUE;
   depth.depthWriteEnable = VK_TRUE;
-  depth.depthCompareOp = wish.keep;
+  depth.depthCompareOp = request.keep;
   VkPipelineColorBlendAttachmentState blend{};
   blend.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
@@ -203,10 +204,10 @@ VkPipeline create_pipeline(DrawingDevice& device, VkPipelineLayout layout, const
   info.pViewportState = &area;
   info.pRasterizationState = &raster;
   info.pMultisampleState = &samples;
-  info.pDepthStencilState = wish.has_depth ? &depth : nullptr;
+  info.pDepthStencilState = request.has_depth ? &depth : nullptr;
   info.pColorBlendState = &blending;
   info.layout = layout;
-  info.renderPass = wish.pass;
+  info.renderPass = request.pass;
   VkPipeline pipeline = VK_NULL_HANDLE;
   DrawingDevice::check(device.vk.CreateGraphicsPipelines(device.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
                        "vkCreateGraphicsPipelines");
@@ -221,7 +222,7 @@ DrawingPipelines::DrawingPipelines(DrawingDevice& device, VkExtent2D layer, VkEx
       compose_pass(create_compose_pass(device)),
       set_layout(create_set_layout(device)),
       layout(create_layout(device, set_layout)) {
-  PipelineWish wall = {kMeshVert, kMeshFrag, layer_pass, layer, true, true, VK_COMPARE_OP_GREATER};
+  PipelineRequest wall = {kMeshVert, kMeshFrag, layer_pass, layer, true, true, VK_COMPARE_OP_GREATER};
   front = create_pipeline(device, layout, wall);
   wall.keep = VK_COMPARE_OP_LESS;
   back = create_pipeline(device, layout, wall);

@@ -1,4 +1,4 @@
-#include "sphere_fits/cover/cover_pieces.h"
+#include "sphere_fits/cover/cover_elements.h"
 
 #include <algorithm>
 #include <array>
@@ -17,14 +17,14 @@ constexpr std::uint32_t kLeaf = 12;
 
 }  // namespace
 
-CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, const Threads& threads) {
+CoverElements::CoverElements(const Solid& solid, std::size_t elements, const Threads& threads) {
   const Mesh& mesh = solid.mesh().mesh;
   double area = 0;
   for (const Triangle& t : mesh.triangles) {
     area += 0.5 * length(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
   }
-  // Pieces whose longest side is between half of this and all of it have about that area on average.
-  const double longest = 2 * std::sqrt(area / static_cast<double>(pieces));
+  // Elements whose longest side is between half of this and all of it have about that area on average.
+  const double longest = 2 * std::sqrt(area / static_cast<double>(elements));
   for (const Triangle& t : mesh.triangles) {
     add_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], longest, 0);
   }
@@ -32,7 +32,7 @@ CoverPieces::CoverPieces(const Solid& solid, std::size_t pieces, const Threads& 
   arrange();
 }
 
-void CoverPieces::add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth) {
+void CoverElements::add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth) {
   const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
   const double most = std::max({ab, bc, ca});
   if (most <= longest || depth == kTriangleDepth) {
@@ -50,7 +50,7 @@ void CoverPieces::add_triangle(const Point& a, const Point& b, const Point& c, d
   }
 }
 
-void CoverPieces::add_cells(const Solid& solid, const Threads& threads) {
+void CoverElements::add_cells(const Solid& solid, const Threads& threads) {
   const MeshReport& report = solid.mesh().report;
   double side = 0;
   std::array<int, 3> count{};
@@ -82,7 +82,7 @@ void CoverPieces::add_cells(const Solid& solid, const Threads& threads) {
   }
 }
 
-void CoverPieces::add(std::span<const Point> points) {
+void CoverElements::add(std::span<const Point> points) {
   Point middle{};
   for (const Point& p : points) middle = middle + (1 / static_cast<double>(points.size())) * p;
   points_.insert(points_.end(), points.begin(), points.end());
@@ -94,7 +94,7 @@ void CoverPieces::add(std::span<const Point> points) {
   normal_.push_back(size > 0 ? (1 / size) * twice : Point{});
 }
 
-void CoverPieces::refine(const std::vector<bool>& which) {
+void CoverElements::refine(const std::vector<bool>& which) {
   const std::vector<Point> points = std::move(points_);
   const std::vector<std::uint32_t> first = std::move(first_);
   points_.clear();
@@ -102,9 +102,9 @@ void CoverPieces::refine(const std::vector<bool>& which) {
   middle_.clear();
   area_.clear();
   normal_.clear();
-  for (std::size_t piece = 0; piece + 1 < first.size(); ++piece) {
-    const std::span<const Point> p(points.data() + first[piece], first[piece + 1] - first[piece]);
-    if (!which[piece] || p.size() != 3) {
+  for (std::size_t element = 0; element + 1 < first.size(); ++element) {
+    const std::span<const Point> p(points.data() + first[element], first[element + 1] - first[element]);
+    if (!which[element] || p.size() != 3) {
       add(p);
       continue;
     }
@@ -117,7 +117,7 @@ void CoverPieces::refine(const std::vector<bool>& which) {
   arrange();
 }
 
-void CoverPieces::arrange() {
+void CoverElements::arrange() {
   order_.resize(size());
   std::iota(order_.begin(), order_.end(), 0u);
   boxes_.clear();
@@ -125,9 +125,9 @@ void CoverPieces::arrange() {
 }
 
 /// Recursive halves, by the middle along the longest side of the box.
-void CoverPieces::arrange(std::uint32_t first, std::uint32_t count) {
+void CoverElements::arrange(std::uint32_t first, std::uint32_t count) {
   const auto begin = order_.begin() + first, end = begin + count;
-  const std::size_t place = boxes_.size();
+  const std::size_t position = boxes_.size();
   Box box = {middle_[*begin], middle_[*begin], first, count, 0};
   for (auto at = begin; at != end; ++at) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -143,44 +143,44 @@ void CoverPieces::arrange(std::uint32_t first, std::uint32_t count) {
     std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
       return middle_[a][axis] != middle_[b][axis] ? middle_[a][axis] < middle_[b][axis] : a < b;
     });
-    boxes_[place].count = 0;
+    boxes_[position].count = 0;
     arrange(first, half);
     arrange(first + half, count - half);
   }
-  boxes_[place].next = static_cast<std::uint32_t>(boxes_.size());
+  boxes_[position].next = static_cast<std::uint32_t>(boxes_.size());
 }
 
-double CoverPieces::needed(const Point& centre, std::uint32_t piece) const {
+double CoverElements::needed(const Point& centre, std::uint32_t element) const {
   double squared = 0;
-  for (const Point& p : points(piece)) {
+  for (const Point& p : points(element)) {
     const Point d = p - centre;
     squared = std::max(squared, dot(d, d));
   }
   return std::sqrt(squared);
 }
 
-void CoverPieces::gather(const Ball& ball, std::vector<std::uint32_t>& found) const {
+void CoverElements::gather(const Ball& ball, std::vector<std::uint32_t>& found) const {
   found.clear();
   const double most = ball.radius * ball.radius;
-  const auto take = [&](std::uint32_t piece) {
-    const Point d = middle_[piece] - ball.centre;
-    if (dot(d, d) <= most) found.push_back(piece);
+  const auto take = [&](std::uint32_t element) {
+    const Point d = middle_[element] - ball.centre;
+    if (dot(d, d) <= most) found.push_back(element);
   };
-  for (std::size_t place = 0; place < boxes_.size();) {
-    const Box& box = boxes_[place];
+  for (std::size_t position = 0; position < boxes_.size();) {
+    const Box& box = boxes_[position];
     double away = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double out = std::max({box.lower[k] - ball.centre[k], ball.centre[k] - box.upper[k], 0.0});
       away += out * out;
     }
     if (away > most) {
-      place = box.next;
+      position = box.next;
       continue;
     }
     for (std::uint32_t k = box.first; k < box.first + box.count; ++k) take(order_[k]);
-    ++place;
+    ++position;
   }
-  for (auto piece = static_cast<std::uint32_t>(order_.size()); piece < size(); ++piece) take(piece);
+  for (auto element = static_cast<std::uint32_t>(order_.size()); element < size(); ++element) take(element);
 }
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-#include "sheets/grow_pieces.h"
+#include "sheets/grow_components.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,22 +20,22 @@ bool LinkTest::operator()(const MedialSphere& p, const MedialSphere& q) const {
   return turn >= crease_ || (turn > salient_ && cosine_of_normals(p, q) >= normals_);
 }
 
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& options) {
+std::vector<std::uint32_t> grow_components(const VoxelGraph& graph, double object_angle, const SheetOptions& options) {
   const LinkTest linked(object_angle, options);
   ConcurrentSets sets(graph.size());
   parallel_for(graph.size(), 1024, options.threads, [&](std::size_t i) {
-    const auto place = static_cast<std::uint32_t>(i);
-    for (const std::uint32_t other : graph.neighbours(place)) {
-      if (other > place && linked(graph.sphere(place), graph.sphere(other))) sets.join(place, other);
+    const auto position = static_cast<std::uint32_t>(i);
+    for (const std::uint32_t other : graph.neighbours(position)) {
+      if (other > position && linked(graph.sphere(position), graph.sphere(other))) sets.join(position, other);
     }
   });
-  std::vector<std::uint32_t> piece_of(graph.size());
-  std::uint32_t pieces = 0;
-  for (std::uint32_t place = 0; place < graph.size(); ++place) {
-    const std::uint32_t root = sets.root(place);  // never above `place`
-    piece_of[place] = root == place ? pieces++ : piece_of[root];
+  std::vector<std::uint32_t> component_of(graph.size());
+  std::uint32_t components = 0;
+  for (std::uint32_t position = 0; position < graph.size(); ++position) {
+    const std::uint32_t root = sets.root(position);  // never above `position`
+    component_of[position] = root == position ? components++ : component_of[root];
   }
-  return piece_of;
+  return component_of;
 }
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-#include "sheets/join_pieces.h"
+#include "sheets/join_components.h"
 
 #include <algorithm>
 #include <array>
@@ -32,11 +32,11 @@ constexpr double kUnit = 1e-6;
 /// The border of two components: the points of either with a point of the other beside them. A point beside several
 /// components counts for each, also after these have been joined.
 struct Border {
-  std::int64_t pull = 0;  // sum of the weights of the points, in kUnit degrees
+  std::int64_t weight = 0;  // sum of the weights of the points, in kUnit degrees
   std::uint64_t points = 0;
 
   void add(const Border& other) {
-    pull += other.pull;
+    weight += other.weight;
     points += other.points;
   }
 };
@@ -48,44 +48,46 @@ struct LeastTurn {
   float cosine;
 };
 
-void add_least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& piece_of, std::uint32_t place,
+void add_least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& component_of, std::uint32_t position,
                      std::vector<LeastTurn>& out) {
-  const std::uint32_t own = piece_of[place];
+  const std::uint32_t own = component_of[position];
   std::array<std::pair<std::uint32_t, float>, 26> others;  // components, and negated cosines
   std::size_t count = 0;
-  for (const std::uint32_t other : graph.neighbours(place)) {
-    if (piece_of[other] == own) continue;
-    const double cosine = cosine_of_turn(graph.sphere(place), graph.sphere(other));
-    others[count++] = {piece_of[other], static_cast<float>(-cosine)};
+  for (const std::uint32_t other : graph.neighbours(position)) {
+    if (component_of[other] == own) continue;
+    const double cosine = cosine_of_turn(graph.sphere(position), graph.sphere(other));
+    others[count++] = {component_of[other], static_cast<float>(-cosine)};
   }
   std::sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& [piece, cosine] = others[i];
-    if (i == 0 || piece != others[i - 1].first) out.push_back({std::min(own, piece), std::max(own, piece), -cosine});
+    const auto& [component, cosine] = others[i];
+    if (i == 0 || component != others[i - 1].first)
+      out.push_back({std::min(own, component), std::max(own, component), -cosine});
   }
 }
 
 /// Of all points, ascending by components.
-std::vector<LeastTurn> least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& piece_of) {
+std::vector<LeastTurn> least_turns(const VoxelGraph& graph, const std::vector<std::uint32_t>& component_of) {
   std::vector<LeastTurn> turns;
-  for (std::uint32_t place = 0; place < graph.size(); ++place) add_least_turns(graph, piece_of, place, turns);
+  for (std::uint32_t position = 0; position < graph.size(); ++position)
+    add_least_turns(graph, component_of, position, turns);
   std::ranges::sort(turns, {}, [](const LeastTurn& turn) { return std::pair(turn.first, turn.second); });
   return turns;
 }
 
 class Joining {
  public:
-  Joining(const VoxelGraph& graph, double limit, std::vector<std::uint32_t>& piece_of)
-      : piece_of_(piece_of), limit_(limit) {
-    for (const std::uint32_t piece : piece_of) {
-      if (piece >= points_.size()) points_.resize(piece + std::size_t{1}, 0);
-      ++points_[piece];
+  Joining(const VoxelGraph& graph, double limit, std::vector<std::uint32_t>& component_of)
+      : component_of_(component_of), limit_(limit) {
+    for (const std::uint32_t component : component_of) {
+      if (component >= points_.size()) points_.resize(component + std::size_t{1}, 0);
+      ++points_[component];
     }
     into_.resize(points_.size());
     std::iota(into_.begin(), into_.end(), 0u);
     first_ = into_;
     neighbours_.resize(points_.size());
-    const std::vector<LeastTurn> turns = least_turns(graph, piece_of);
+    const std::vector<LeastTurn> turns = least_turns(graph, component_of);
     for (const LeastTurn& turn : turns) enter(turn);
     for (std::uint32_t a = 0; a < neighbours_.size(); ++a) {
       for (const std::uint32_t b : neighbours_[a]) {
@@ -98,7 +100,7 @@ class Joining {
     while (!queue_.empty()) {
       const Join strongest = queue_.top();
       queue_.pop();
-      const auto& [a, b] = strongest.pieces;
+      const auto& [a, b] = strongest.components;
       const auto border = borders_.find(key(a, b));
       if (border == borders_.end()) continue;  // one of the two has been joined to another
       // A border that has changed was queued again. Other weights only decrease as components grow.
@@ -114,9 +116,9 @@ class Joining {
  private:
   /// The greater one comes first: by weight, of equals by the order of voxels.
   struct Join {
-    double pull;
+    double weight;
     std::pair<std::uint32_t, std::uint32_t> first_voxels;  // of first_, with all bits inverted
-    std::pair<std::uint32_t, std::uint32_t> pieces;
+    std::pair<std::uint32_t, std::uint32_t> components;
 
     auto operator<=>(const Join&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
   };
@@ -139,20 +141,20 @@ class Joining {
   }
 
   /// The weight in degrees times points, with the points missing to a border of the least length.
-  double pull_of_border(std::uint32_t a, std::uint32_t b, const Border& border) const {
+  double weight_of_border(std::uint32_t a, std::uint32_t b, const Border& border) const {
     const auto fewer = static_cast<double>(std::min(points_[a], points_[b]));
     const double missing = std::max(0.0, kLeastBorder * std::sqrt(fewer) - static_cast<double>(border.points));
-    return static_cast<double>(border.pull) * kUnit - missing * kClosed;
+    return static_cast<double>(border.weight) * kUnit - missing * kClosed;
   }
 
   Join join_of(std::uint32_t a, std::uint32_t b, const Border& border) const {
     const auto [first, second] = std::minmax(first_[a], first_[b]);
-    return {pull_of_border(a, b, border), {~first, ~second}, {a, b}};
+    return {weight_of_border(a, b, border), {~first, ~second}, {a, b}};
   }
 
   void queue(std::uint32_t a, std::uint32_t b, const Border& border) {
     const Join join = join_of(std::min(a, b), std::max(a, b), border);
-    if (join.pull >= 0) queue_.push(join);
+    if (join.weight >= 0) queue_.push(join);
   }
 
   /// The component with fewer neighbours is joined to the other, so that n log n entries are moved in total.
@@ -178,22 +180,22 @@ class Joining {
     }
   }
 
-  std::uint32_t root(std::uint32_t piece) {
-    while (into_[piece] != piece) piece = into_[piece] = into_[into_[piece]];
-    return piece;
+  std::uint32_t root(std::uint32_t component) {
+    while (into_[component] != component) component = into_[component] = into_[into_[component]];
+    return component;
   }
 
   void number_anew() {
     std::vector<std::uint32_t> number(into_.size(), kNone);
     std::uint32_t count = 0;
-    for (std::uint32_t& piece : piece_of_) {
-      std::uint32_t& now = number[root(piece)];
+    for (std::uint32_t& component : component_of_) {
+      std::uint32_t& now = number[root(component)];
       if (now == kNone) now = count++;
-      piece = now;
+      component = now;
     }
   }
 
-  std::vector<std::uint32_t>& piece_of_;
+  std::vector<std::uint32_t>& component_of_;
   double limit_;                                       // degrees
   std::vector<std::uint64_t> points_;                  // by component
   std::vector<std::uint32_t> into_;                    // by component: itself, or the one that it was joined to
@@ -206,9 +208,9 @@ class Joining {
 
 }  // namespace
 
-void join_pieces(const VoxelGraph& graph, const SheetOptions& options, std::vector<std::uint32_t>& piece_of) {
+void join_components(const VoxelGraph& graph, const SheetOptions& options, std::vector<std::uint32_t>& component_of) {
   if (options.crease == 0) return;
-  Joining(graph, options.border, piece_of).run();
+  Joining(graph, options.border, component_of).run();
 }
 
 }  // namespace medial_vk

@@ -14,16 +14,16 @@ namespace medial_vk::test::hooks {
 
 // The requirements of a call, before it is made: overloads for the relevant calls.
 template <class Tag, class... Args>
-void look_at(Tag, Args...) {}
+void check_call(Tag, Args...) {}
 
-inline void check(VulkanInterposer& self, const char* what, std::uint64_t asked, std::uint64_t limit) {
-  if (asked > limit)
-    self.violation(std::string(what) + ": " + std::to_string(asked) + " where " + std::to_string(limit) +
+inline void check(VulkanInterposer& self, const char* what, std::uint64_t required, std::uint64_t limit) {
+  if (required > limit)
+    self.violation(std::string(what) + ": " + std::to_string(required) + " where " + std::to_string(limit) +
                    " is allowed");
 }
 
-inline void look_at(vkCreateDescriptorSetLayoutTag, VkDevice, const VkDescriptorSetLayoutCreateInfo* info,
-                    const VkAllocationCallbacks*, VkDescriptorSetLayout*) {
+inline void check_call(vkCreateDescriptorSetLayoutTag, VkDevice, const VkDescriptorSetLayoutCreateInfo* info,
+                       const VkAllocationCallbacks*, VkDescriptorSetLayout*) {
   std::uint32_t storage = 0, texels = 0;
   for (std::uint32_t i = 0; i < info->bindingCount; ++i) {
     const bool is_storage = info->pBindings[i].descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -41,8 +41,8 @@ inline void look_at(vkCreateDescriptorSetLayoutTag, VkDevice, const VkDescriptor
   });
 }
 
-inline void look_at(vkCreatePipelineLayoutTag, VkDevice, const VkPipelineLayoutCreateInfo* info,
-                    const VkAllocationCallbacks*, VkPipelineLayout*) {
+inline void check_call(vkCreatePipelineLayoutTag, VkDevice, const VkPipelineLayoutCreateInfo* info,
+                       const VkAllocationCallbacks*, VkPipelineLayout*) {
   std::uint32_t bytes = 0;
   for (std::uint32_t i = 0; i < info->pushConstantRangeCount; ++i)
     bytes = std::max(bytes, info->pPushConstantRanges[i].offset + info->pPushConstantRanges[i].size);
@@ -55,8 +55,8 @@ inline void look_at(vkCreatePipelineLayoutTag, VkDevice, const VkPipelineLayoutC
   });
 }
 
-inline void look_at(vkCreateShaderModuleTag, VkDevice, const VkShaderModuleCreateInfo* info,
-                    const VkAllocationCallbacks*, VkShaderModule*) {
+inline void check_call(vkCreateShaderModuleTag, VkDevice, const VkShaderModuleCreateInfo* info,
+                       const VkAllocationCallbacks*, VkShaderModule*) {
   const std::uint32_t bytes = spirv_shared_bytes({info->pCode, info->codeSize / sizeof(std::uint32_t)});
   VulkanInterposer& self = VulkanInterposer::get();
   check(self, "bytes of shared memory", bytes, self.limits.maxComputeSharedMemorySize);
@@ -64,8 +64,8 @@ inline void look_at(vkCreateShaderModuleTag, VkDevice, const VkShaderModuleCreat
 }
 
 // The runtime's convention: the workgroup's size along x is specialization constant 0, and it is one high and deep.
-inline void look_at(vkCreateComputePipelinesTag, VkDevice, VkPipelineCache, std::uint32_t,
-                    const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*, VkPipeline*) {
+inline void check_call(vkCreateComputePipelinesTag, VkDevice, VkPipelineCache, std::uint32_t,
+                       const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*, VkPipeline*) {
   std::uint32_t size = 0;
   std::memcpy(&size, info->stage.pSpecializationInfo->pData, sizeof(size));
   VulkanInterposer& self = VulkanInterposer::get();
@@ -74,8 +74,8 @@ inline void look_at(vkCreateComputePipelinesTag, VkDevice, VkPipelineCache, std:
   self.use([&](Usage& u) { u.workgroup_size = std::max(u.workgroup_size, size); });
 }
 
-inline void look_at(vkCreateBufferViewTag, VkDevice, const VkBufferViewCreateInfo* info, const VkAllocationCallbacks*,
-                    VkBufferView*) {
+inline void check_call(vkCreateBufferViewTag, VkDevice, const VkBufferViewCreateInfo* info,
+                       const VkAllocationCallbacks*, VkBufferView*) {
   VulkanInterposer& self = VulkanInterposer::get();
   const std::lock_guard lock(self.buffers_mutex);
   const VkDeviceSize bytes =

@@ -21,6 +21,6 @@ class LinkTest {
 };
 
 /// By position: the number of its component. Numbers ascend from 0 in the order of first voxels.
-std::vector<std::uint32_t> grow_pieces(const VoxelGraph& graph, double object_angle, const SheetOptions& options);
+std::vector<std::uint32_t> grow_components(const VoxelGraph& graph, double object_angle, const SheetOptions& options);
 
 }  // namespace medial_vk
