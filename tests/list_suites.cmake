@@ -1,13 +1,32 @@
 # Script, run when a test program has been linked: writes OUTPUT, in which ctest finds one test for each suite of
 # PROGRAM, in the form that gtest_discover_tests() would write for each test.
-#   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D OUTPUT=FILE -P list_suites.cmake
+# The tests in SLOW are left out of their suites and are tests of their own, labelled `sanitized_full`, too.
+#   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D SLOW=Suite.Test,... -D OUTPUT=FILE
+#     -P list_suites.cmake
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n[^ \n][^ \n]*[.]" suites "\n${list}")  # other lines are indented or have spaces
+string(REPLACE "," ";" slow "${SLOW}")
 set(text "")
+# add(NAME FILTER LABELS)
+function(add name filter labels)
+  string(APPEND text "add_test([==[${PREFIX}${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==])\n"
+    "set_tests_properties([==[${PREFIX}${name}]==] PROPERTIES LABELS [==[${labels}]==] TIMEOUT ${TIMEOUT})\n")
+  set(text "${text}" PARENT_SCOPE)
+endfunction()
 foreach(suite ${suites})
   string(REGEX REPLACE "^\n(.*)[.]$" "\\1" suite "${suite}")
-  string(APPEND text "add_test([==[${PREFIX}${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==])\n"
-    "set_tests_properties([==[${PREFIX}${suite}]==] PROPERTIES LABELS [==[${LABEL}]==] TIMEOUT ${TIMEOUT})\n")
+  set(without ${slow})
+  list(FILTER without INCLUDE REGEX "^${suite}[.]")
+  string(JOIN "-" filter "${suite}.*" ${without})  # one per suite
+  add(${suite} "${filter}" "${LABEL}")
+endforeach()
+foreach(test ${slow})
+  string(REGEX REPLACE "^.*[.]" "  " name "${test}")
+  string(FIND "${list}" "${name}\n" position)
+  if(position EQUAL -1)
+    message(FATAL_ERROR "${PROGRAM} has no test ${test}")
+  endif()
+  add(${test} "${test}" "${LABEL};sanitized_full")
 endforeach()
 if(NOT text)
   message(FATAL_ERROR "${PROGRAM} lists no suites:\n${list}")

@@ -164,7 +164,7 @@ class Fitting {
     if (work_[number]) return {};
     Result<IndexedMesh> mesh = IndexedMesh::build(parts_[number].mesh, goals_.options.threads);
     if (!mesh) return mesh.error();
-    work_[number].emplace(std::move(mesh).value(), kept_extractions(extractor_));
+    work_[number].emplace(PartWork{std::move(mesh).value(), kept_extractions(extractor_)});
     return {};
   }
 

@@ -9,8 +9,8 @@
 
 namespace medial_vk {
 
-/// kOutOfMemory with the message "out of memory while `doing`" and, if given, "; `advice`", or a shorter one if there is
-/// no memory for it.
+/// kOutOfMemory with the message "out of memory while `doing`" and, if given, "; `advice`", or a shorter one if there
+/// is no memory for it.
 inline Error out_of_memory(const char* doing, const char* advice = "") noexcept {
   Error error;
   error.code = ErrorCode::kOutOfMemory;
