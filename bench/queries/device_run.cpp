@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/point_order.h"
-#include "commands/commands.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_tree.h"
 
 namespace medial_vk::bench {

@@ -18,8 +18,8 @@
 #include "medial_vk/prepare.h"
 #include "recall_count.h"
 #include "recall_table.h"
-#include "reference/reference_bridge.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_bridge.h"
+#include "reference_bridge/reference_extractor.h"
 #include "support/solids/solid_catalogue.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "solid/solid.h"
-#include "sphere_fits/measures/sphere_certificate.h"
+#include "sphere_fits/quality/sphere_certificate.h"
 #include "spheres_command.h"
 #include "support/indexed.h"
 

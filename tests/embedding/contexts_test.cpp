@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "commands/commands.h"
-#include "commands/memory.h"
-#include "commands/recorder.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/memory.h"
+#include "device_commands/recorder.h"
 #include "medial_vk/context.h"
 #include "support/device/device.h"
 

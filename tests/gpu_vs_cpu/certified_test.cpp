@@ -6,7 +6,7 @@
 #include <string>
 
 #include "mesh/winding_number.h"
-#include "reference/reference_bridge.h"
+#include "reference_bridge/reference_bridge.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"

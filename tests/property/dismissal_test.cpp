@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/reference_bridge.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_bridge.h"
+#include "reference_bridge/reference_extractor.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/indexed.h"

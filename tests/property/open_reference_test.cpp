@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_extractor.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
 #include "support/solids/solids.h"

@@ -8,10 +8,10 @@
 
 #include "base/point_ops.h"
 #include "cpu_reference/sphere_certificate.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_extractor.h"
 #include "sphere_fits/cover/cover_family.h"
-#include "sphere_fits/measures/envelope_distance.h"
 #include "sphere_fits/methods/dilation.h"
+#include "sphere_fits/quality/envelope_distance.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
 #include "support/reference_balls.h"

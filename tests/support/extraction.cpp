@@ -7,7 +7,7 @@
 
 #include "cpu_reference/certificate.h"
 #include "medial_vk/prepare.h"
-#include "reference/reference_bridge.h"
+#include "reference_bridge/reference_bridge.h"
 #include "support/indexed.h"
 
 namespace medial_vk::test {

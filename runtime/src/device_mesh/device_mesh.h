@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "commands/memory.h"
-#include "commands/uploads.h"
+#include "device_commands/memory.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/mesh_links.h"
 #include "device_mesh/unit_transform.h"
 #include "medial_vk/bvh.h"

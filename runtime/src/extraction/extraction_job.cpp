@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/host_memory.h"
-#include "commands/commands.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
 #include "device_mesh/device_mesh.h"
 #include "extraction/certified/certified_pipeline.h"
 #include "extraction/common/check_options.h"

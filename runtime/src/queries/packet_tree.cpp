@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/point_math.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/uploads.h"
 
 namespace medial_vk {
 namespace {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "commands/commands.h"
-#include "commands/memory.h"
+#include "device_commands/commands.h"
+#include "device_commands/memory.h"
 #include "device_mesh/device_tree.h"
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"

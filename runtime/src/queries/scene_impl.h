@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/host_memory.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_tree.h"
 #include "medial_vk/scene.h"
 #include "queries/packet_queries.h"

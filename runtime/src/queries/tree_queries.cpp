@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "commands/commands.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
 #include "tree_types.h"
 
 namespace medial_vk {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "commands/recorder.h"
+#include "device_commands/recorder.h"
 #include "device_mesh/device_mesh.h"
 
 namespace medial_vk {

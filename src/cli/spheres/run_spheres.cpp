@@ -19,14 +19,14 @@
 #include "cli/terminal/tables.h"
 #include "common/file_extension.h"
 #include "medial_vk/version.h"
+#include "output/atomic_files/atomic_file.h"
+#include "output/charts_and_tables/measures_output.h"
 #include "output/fit_reports/fits_picture.h"
 #include "output/fit_reports/fits_record.h"
 #include "output/fit_reports/fits_report.h"
-#include "output/measures/measures_output.h"
 #include "output/picture/picture.h"
-#include "output/whole_files/atomic_file.h"
-#include "reference/check_balls.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/check_balls.h"
+#include "reference_bridge/reference_extractor.h"
 #include "robots/model/read_urdf.h"
 
 namespace medial_vk::cli {

@@ -8,7 +8,7 @@
 
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
-#include "output/measures/measures_output.h"
+#include "output/charts_and_tables/measures_output.h"
 
 namespace medial_vk::cli {
 namespace {

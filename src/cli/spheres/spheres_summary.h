@@ -4,10 +4,10 @@
 #include <span>
 #include <string>
 
-#include "checks/check_report.h"
+#include "check_reports/check_report.h"
 #include "cli/options/spheres_options.h"
+#include "output/atomic_files/atomic_file.h"
 #include "output/fit_reports/fits_record.h"
-#include "output/whole_files/atomic_file.h"
 
 namespace medial_vk::cli {
 

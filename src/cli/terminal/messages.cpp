@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "output/whole_files/atomic_file.h"
+#include "output/atomic_files/atomic_file.h"
 
 namespace medial_vk::cli {
 namespace {

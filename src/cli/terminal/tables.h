@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "checks/check_report.h"
+#include "check_reports/check_report.h"
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"
-#include "output/report/run_record.h"
+#include "output/extraction_report/run_record.h"
 
 namespace medial_vk::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "checks/check_report.h"
+#include "check_reports/check_report.h"
 #include "common/backend.h"
 #include "medial_vk/context.h"
 #include "medial_vk/spheres.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "medial_vk/version.h"
-#include "output/measures/measures_output.h"
+#include "output/charts_and_tables/measures_output.h"
 
 namespace medial_vk {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/file_extension.h"
 #include "medial_vk/version.h"
-#include "output/whole_files/little_endian.h"
+#include "output/atomic_files/little_endian.h"
 
 namespace medial_vk {
 namespace {

@@ -34,7 +34,7 @@ enum class MedialFormat { kPly, kCsv, kNpz, kJson, kGlb };
 /// Determines the format by extension, in any case. Error kUsage, naming the known ones.
 Result<MedialFormat> medial_format_of(const std::string& path);
 
-/// Balls as triangles: the number of subdivisions of the icosahedron (output/formats/icosphere.h).
+/// Balls as triangles: the number of subdivisions of the icosahedron (output/medial_formats/icosphere.h).
 inline constexpr std::uint32_t kUsualSphereDetail = 2;
 inline constexpr std::uint32_t kGreatestSphereDetail = 5;
 

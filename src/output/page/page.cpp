@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "output/extraction_report/report_json.h"
 #include "output/page/base64.h"
 #include "output/page/embedded_page.h"
-#include "output/report/report_json.h"
 
 namespace medial_vk {
 namespace {

@@ -8,7 +8,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
-#include "output/report/run_record.h"
+#include "output/extraction_report/run_record.h"
 
 namespace medial_vk {
 

@@ -11,10 +11,10 @@
 #include <functional>
 #include <set>
 
-#include "commands/commands.h"
-#include "commands/recorder.h"
 #include "device/context_impl.h"
 #include "device/embedded_shaders.h"
+#include "device_commands/commands.h"
+#include "device_commands/recorder.h"
 #include "make_specials_spirv.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"

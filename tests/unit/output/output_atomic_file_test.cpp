@@ -9,7 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "output/whole_files/atomic_file.h"
+#include "output/atomic_files/atomic_file.h"
 
 namespace medial_vk {
 namespace {

@@ -1,5 +1,5 @@
 // Balls of triangles: the unit sphere, and the PLY of `--mesh-spheres`.
-#include "output/formats/ball_mesh.h"
+#include "output/medial_formats/ball_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "output/formats/icosphere.h"
+#include "output/medial_formats/icosphere.h"
 #include "support/medial_points.h"
 
 namespace medial_vk {

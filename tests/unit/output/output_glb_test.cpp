@@ -1,5 +1,5 @@
 // GLB: the container byte by byte, and the three ways to place balls.
-#include "output/formats/encode_glb.h"
+#include "output/medial_formats/encode_glb.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "output/formats/glb_balls.h"
+#include "output/medial_formats/glb_balls.h"
 #include "support/medial_points.h"
 
 namespace medial_vk {

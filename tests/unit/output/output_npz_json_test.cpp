@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "output/formats/encode_json.h"
-#include "output/formats/encode_npz.h"
+#include "output/medial_formats/encode_json.h"
+#include "output/medial_formats/encode_npz.h"
 #include "support/medial_points.h"
 
 namespace medial_vk {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/shared/summary.h"
+#include "cli/extract/summary.h"
 #include "cli/terminal/tables.h"
-#include "output/report/report_json.h"
+#include "output/extraction_report/report_json.h"
 
 namespace medial_vk {
 namespace {

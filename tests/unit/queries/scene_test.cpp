@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "base/spiral.h"
-#include "commands/commands.h"
-#include "commands/stop_word.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/stop_word.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_tree.h"
 #include "medial_vk/scene.h"
 #include "queries/scene_impl.h"

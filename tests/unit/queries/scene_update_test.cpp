@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "base/spiral.h"
-#include "commands/commands.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_mesh.h"
 #include "device_mesh/device_tree.h"
 #include "medial_vk/scene.h"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "commands/commands.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_tree.h"
 #include "queries/packet_queries.h"
 #include "queries/tree_queries.h"

@@ -8,7 +8,7 @@
 
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_extractor.h"
 #include "robots/fit_parts.h"
 #include "support/solids/solids.h"
 

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "base/point_ops.h"
-#include "checks/check_sheets.h"
+#include "check_reports/check_sheets.h"
 
 namespace medial_vk {
 namespace {

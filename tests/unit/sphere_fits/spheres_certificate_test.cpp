@@ -5,7 +5,7 @@
 
 #include "base/point_ops.h"
 #include "cpu_reference/sphere_certificate.h"
-#include "sphere_fits/measures/sphere_certificate.h"
+#include "sphere_fits/quality/sphere_certificate.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
 #include "support/reference_balls.h"

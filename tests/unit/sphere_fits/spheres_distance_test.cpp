@@ -6,8 +6,8 @@
 
 #include "base/point_ops.h"
 #include "sphere_fits/cover/smallest_ball.h"
-#include "sphere_fits/measures/envelope_distance.h"
-#include "sphere_fits/measures/surface_samples.h"
+#include "sphere_fits/quality/envelope_distance.h"
+#include "sphere_fits/quality/surface_samples.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
 #include "support/solids/ball_families.h"

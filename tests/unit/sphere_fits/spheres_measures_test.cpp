@@ -1,6 +1,6 @@
 // The reported measures of a set of balls: where a formula gives them, and their output.
-#include "output/measures/measures_output.h"
-#include "sphere_fits/measures/measures.h"
+#include "output/charts_and_tables/measures_output.h"
+#include "sphere_fits/quality/measures.h"
 
 #include <gtest/gtest.h>
 

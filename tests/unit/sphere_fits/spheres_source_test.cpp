@@ -8,7 +8,7 @@
 #include "base/point_ops.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/prepare.h"
-#include "reference/reference_extractor.h"
+#include "reference_bridge/reference_extractor.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/methods/sphere_set.h"

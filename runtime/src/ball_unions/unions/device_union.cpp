@@ -9,9 +9,9 @@
 #include "ball_unions/unions/unit_balls.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
-#include "commands/commands.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/commands.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
 #include "device_mesh/device_mesh.h"
 #include "extraction/certified/certified_pipeline.h"
 #include "extraction/common/extraction_result.h"

@@ -1,8 +1,8 @@
 // Medial spheres by the certified mode, on the device.
 #pragma once
 
-#include "commands/stop_word.h"
 #include "device/context_impl.h"
+#include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
 #include "medial_vk/extraction.h"
 

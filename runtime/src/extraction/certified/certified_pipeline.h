@@ -16,9 +16,9 @@
 #include <initializer_list>
 #include <vector>
 
-#include "commands/dispatch_arguments.h"
-#include "commands/recorder.h"
-#include "commands/stop_word.h"
+#include "device_commands/dispatch_arguments.h"
+#include "device_commands/recorder.h"
+#include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
 #include "gpu_types.h"
 #include "medial_vk/extraction.h"

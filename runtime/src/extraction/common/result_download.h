@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "commands/commands.h"
-#include "commands/memory.h"
+#include "device_commands/commands.h"
+#include "device_commands/memory.h"
 #include "gpu_types.h"
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"

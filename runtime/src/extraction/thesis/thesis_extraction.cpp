@@ -1,6 +1,6 @@
 #include "extraction/thesis/thesis_extraction.h"
 
-#include "commands/commands.h"
+#include "device_commands/commands.h"
 #include "extraction/common/extraction_result.h"
 #include "extraction/thesis/thesis_pipeline.h"
 

@@ -1,8 +1,8 @@
 // Medial spheres by the method of Sections 2.3 and 2.4, on the device: the mode for comparisons with the source.
 #pragma once
 
-#include "commands/stop_word.h"
 #include "device/context_impl.h"
+#include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
 #include "medial_vk/extraction.h"
 

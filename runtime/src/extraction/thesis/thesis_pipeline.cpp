@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "base/spiral.h"
-#include "commands/commands.h"
-#include "commands/uploads.h"
 #include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
 #include "device_mesh/device_tree.h"
 
 namespace medial_vk {

@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "commands/stop_word.h"
+#include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
 #include "medial_vk/extraction.h"
 #include "queries/flux_sampler.h"

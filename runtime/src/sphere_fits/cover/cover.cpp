@@ -7,8 +7,8 @@
 
 #include "base/point_ops.h"
 #include "sphere_fits/cover/smallest_ball.h"
-#include "sphere_fits/measures/sphere_certificate.h"
-#include "sphere_fits/measures/surface_samples.h"
+#include "sphere_fits/quality/sphere_certificate.h"
+#include "sphere_fits/quality/surface_samples.h"
 
 namespace medial_vk {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "solid/solid.h"
 #include "sphere_fits/cover/cover_search.h"
-#include "sphere_fits/measures/envelope.h"
+#include "sphere_fits/quality/envelope.h"
 
 namespace medial_vk {
 

@@ -8,7 +8,7 @@
 
 #include "medial_vk/ball.h"
 #include "solid/solid.h"
-#include "sphere_fits/measures/threads.h"
+#include "sphere_fits/quality/threads.h"
 
 namespace medial_vk {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "medial_vk/ball_union.h"
-#include "sphere_fits/measures/branch_and_bound.h"
+#include "sphere_fits/quality/branch_and_bound.h"
 
 namespace medial_vk {
 

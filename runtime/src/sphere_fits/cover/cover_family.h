@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sphere_fits/cover/cover.h"
-#include "sphere_fits/measures/threads.h"
+#include "sphere_fits/quality/threads.h"
 
 namespace medial_vk {
 

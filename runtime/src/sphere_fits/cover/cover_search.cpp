@@ -6,7 +6,7 @@
 
 #include "sphere_fits/cover/cover_column.h"
 #include "sphere_fits/cover/smallest_ball.h"
-#include "sphere_fits/measures/nearest_ball_tree.h"
+#include "sphere_fits/quality/nearest_ball_tree.h"
 
 namespace medial_vk {
 

@@ -10,7 +10,7 @@
 #include "sphere_fits/cover/cover_column.h"
 #include "sphere_fits/cover/cover_search.h"
 #include "sphere_fits/cover/smallest_ball.h"
-#include "sphere_fits/measures/branch_and_bound.h"
+#include "sphere_fits/quality/branch_and_bound.h"
 
 namespace medial_vk {
 

@@ -12,9 +12,9 @@
 
 #include "base/point_ops.h"
 #include "sphere_fits/cover/cover_family.h"
-#include "sphere_fits/measures/envelope_distance.h"
-#include "sphere_fits/measures/measures.h"
 #include "sphere_fits/methods/prefixes.h"
+#include "sphere_fits/quality/envelope_distance.h"
+#include "sphere_fits/quality/measures.h"
 #include "sphere_fits/steps/ball_steps.h"
 #include "sphere_fits/steps/candidates.h"
 #include "sphere_fits/steps/gaps.h"

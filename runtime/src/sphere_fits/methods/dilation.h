@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "sphere_fits/measures/sphere_certificate.h"
 #include "sphere_fits/methods/sphere_set.h"
+#include "sphere_fits/quality/sphere_certificate.h"
 
 namespace medial_vk {
 
@@ -21,7 +21,7 @@ Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned thr
                               const SphereProgress& progress = {});
 
 /// A cover for each of the numbers. Larger numbers never give a larger volume, also between calls if their common
-/// starts are equal. The starts are, by cover_top() (spheres/cover_family.h), that many balls inside, or fewer for the
+/// starts are equal. The starts are, by cover_top() (sphere_fits/cover/cover_family.h), that many balls inside, or fewer for the
 /// greatest. Otherwise as cover_solid().
 Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
                                                const std::map<std::size_t, std::vector<Ball>>& starts,

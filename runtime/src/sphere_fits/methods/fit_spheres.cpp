@@ -9,9 +9,9 @@
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/spheres.h"
-#include "sphere_fits/measures/measures.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/prefixes.h"
+#include "sphere_fits/quality/measures.h"
 
 namespace medial_vk {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/point_ops.h"
-#include "sphere_fits/measures/surface_samples.h"
+#include "sphere_fits/quality/surface_samples.h"
 #include "sphere_fits/steps/ball_steps.h"
 #include "sphere_fits/steps/symmetric_difference.h"
 

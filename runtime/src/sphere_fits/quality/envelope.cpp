@@ -1,0 +1,148 @@
+#include "sphere_fits/quality/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/point_ops.h"
+
+namespace medial_vk {
+namespace {
+
+/// Largest coordinate or radius.
+double magnitude_of(std::span<const Ball> balls) {
+  double magnitude = 0;
+  for (const Ball& ball : balls) {
+    for (const double x : ball.centre) magnitude = std::max(magnitude, std::fabs(x) + ball.radius);
+  }
+  return magnitude;
+}
+
+}  // namespace
+
+std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, std::array<Point, 2>& points) {
+  // In the plane of the centres, relative to a: p.x = |x|^2 / 2 + (r_a^2 - r^2) / 2 for x = b - a and x = c - a.
+  const Point ab = b.centre - a.centre, ac = c.centre - a.centre;
+  const Point normal = cross(ab, ac);
+  const double area2 = dot(normal, normal);
+  if (area2 == 0) return 0;
+  const double kb = 0.5 * (dot(ab, ab) + (a.radius - b.radius) * (a.radius + b.radius));
+  const double kc = 0.5 * (dot(ac, ac) + (a.radius - c.radius) * (a.radius + c.radius));
+  const Point foot = (1 / area2) * ((kb * cross(ac, normal)) + (kc * cross(normal, ab)));
+  const double height2 = (a.radius - length(foot)) * (a.radius + length(foot));
+  const double scale = std::max({a.radius, b.radius, c.radius, tolerance});
+  if (height2 < -2 * tolerance * scale) return 0;
+  if (height2 <= 0) {
+    points[0] = a.centre + foot;
+    return 1;
+  }
+  const Point up = (std::sqrt(height2) / std::sqrt(area2)) * normal;
+  points[0] = a.centre + (foot + up);
+  points[1] = a.centre + (foot - up);
+  return 2;
+}
+
+Envelope::Envelope(std::span<const Ball> balls, BallUnion measured)
+    : tree_(balls), union_(std::move(measured)), tolerance_(1e-10 * magnitude_of(balls)) {
+  first_arc_.assign(balls.size() + 1, 0);
+  for (const auto& edge : union_.complex.edges) ++first_arc_[edge[0] + 1];
+  for (std::size_t i = 0; i < balls.size(); ++i) first_arc_[i + 1] += first_arc_[i];
+  // Triangles are in the order of their balls, and so are the vertices.
+  first_vertex_.assign(balls.size() + 1, 0);
+  for (const auto& triangle : union_.complex.triangles) add_vertices(triangle);
+  for (const EnvelopeVertex& vertex : vertices_) ++first_vertex_[vertex.balls[0] + 1];
+  for (std::size_t i = 0; i < balls.size(); ++i) first_vertex_[i + 1] += first_vertex_[i];
+}
+
+void Envelope::add_vertices(const std::array<std::uint32_t, 3>& balls) {
+  std::array<Point, 2> points;
+  const std::vector<Ball>& all = tree_.balls();
+  const std::size_t count = meet(all[balls[0]], all[balls[1]], all[balls[2]], tolerance_, points);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (is_exposed(points[k])) vertices_.push_back({points[k], balls});
+  }
+}
+
+Result<Envelope> Envelope::build(std::span<const Ball> balls, unsigned threads) {
+  Result<BallUnion> measured = measure_ball_union(balls, {threads, true});
+  if (!measured) return measured.error();
+  return Envelope(balls, std::move(measured).value());
+}
+
+void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const {
+  const Ball &a = tree_.balls()[ball], &b = tree_.balls()[other];
+  const Point between = b.centre - a.centre;
+  const double gap = length(between);
+  if (gap == 0) return;
+  const Point axis = (1 / gap) * between;
+  const double along = (gap * gap + (a.radius - b.radius) * (a.radius + b.radius)) / (2 * gap);
+  const double squared = (a.radius - along) * (a.radius + along);
+  if (squared < 0) return;
+  const Point middle = a.centre + along * axis;
+  const Point to = p - middle;
+  const Point across = to - dot(to, axis) * axis;
+  const double out = length(across);
+  // On the axis all points of the circle are equally near, also the ends of the arc, if it has any: any of them is
+  // valid.
+  const Point away = out > 0 ? (1 / out) * across : perpendicular_to(axis);
+  const Point near = middle + std::sqrt(squared) * away;
+  const double distance = length(p - near);
+  if (distance < best && is_exposed(near)) best = distance;
+}
+
+void Envelope::improve(std::uint32_t ball, const Point& p, double& best) const {
+  const Ball& a = tree_.balls()[ball];
+  const Point to = p - a.centre;
+  const double from_centre = length(to);
+  const double distance = std::fabs(from_centre - a.radius);
+  if (distance >= best) return;  // Nothing on this sphere is nearer.
+  const Point way = from_centre > 0 ? (1 / from_centre) * to : Point{0, 0, 1};
+  if (is_exposed(a.centre + a.radius * way)) {
+    best = distance;
+    return;
+  }
+  for (std::uint32_t k = first_arc_[ball]; k < first_arc_[ball + 1]; ++k) {
+    improve_on_arc(ball, union_.complex.edges[k][1], p, best);
+  }
+  for (std::uint32_t k = first_vertex_[ball]; k < first_vertex_[ball + 1]; ++k) {
+    best = std::min(best, length(p - vertices_[k].at));
+  }
+}
+
+double Envelope::distance(const Point& p, double enough) const {
+  const NearestBall outside = tree_.nearest(p);
+  if (outside.distance >= 0) return outside.distance;
+  // A point of the envelope lies on a sphere; boxes of centres and radii bound the distance to it.
+  struct Entry {
+    std::uint32_t node;
+    double bound;
+  };
+  const std::vector<NearestBallTree::Node>& nodes = tree_.nodes();
+  const auto bound_of = [&](std::uint32_t at) {
+    const NearestBallTree::Node& node = nodes[at];
+    return std::max(
+        {0.0, distance_to_box(node, p) - node.greatest_radius, node.least_radius - farthest_in_box(node, p)});
+  };
+  std::array<Entry, 64> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, bound_of(0)};
+  double best = std::numeric_limits<double>::infinity();
+  while (size > 0 && best > enough) {
+    const Entry entry = stack[--size];
+    if (entry.bound >= best) continue;
+    const NearestBallTree::Node& node = nodes[entry.node];
+    if (node.right != 0) {
+      Entry near = {entry.node + 1, bound_of(entry.node + 1)}, far = {node.right, bound_of(node.right)};
+      if (far.bound < near.bound) std::swap(near, far);
+      if (far.bound < best) stack[size++] = far;
+      if (near.bound < best) stack[size++] = near;
+      continue;
+    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) improve(tree_.order()[k], p, best);
+  }
+  return best;
+}
+
+double Envelope::signed_distance(const Point& p) const { return tree_.holds(p) ? -distance(p) : distance(p); }
+
+}  // namespace medial_vk

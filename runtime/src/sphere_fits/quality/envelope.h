@@ -1,0 +1,53 @@
+// The envelope of a union of balls as parts of spheres, arcs and points, and distances to it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial_vk/ball_union.h"
+#include "medial_vk/result.h"
+#include "sphere_fits/quality/nearest_ball_tree.h"
+
+namespace medial_vk {
+
+/// The envelope E of balls is the set f = 0 of f(p) = min |p - c_i| - r_i. (docs/theory.md, "Tight spheres")
+class Envelope {
+ public:
+  /// At least one ball. Errors: those of measure_ball_union().
+  static Result<Envelope> build(std::span<const Ball> balls, unsigned threads = 0);
+
+  const NearestBallTree& tree() const { return tree_; }
+  const BallUnion& measured() const { return union_; }
+  /// Common points of three spheres that lie in no ball by more than tolerance(); where more than three spheres meet
+  /// there may be several of them.
+  const std::vector<EnvelopeVertex>& vertices() const { return vertices_; }
+  /// The greatest depth in a ball at which a point still counts as one of the envelope.
+  double tolerance() const { return tolerance_; }
+
+  /// From a point to the envelope, on either side of it, within 4 tolerance(). If the exact answer is at most `enough`,
+  /// the result may be any number between it and `enough`.
+  double distance(const Point& p, double enough = 0) const;
+  /// The same as distance(), negative in the balls (Figure 8-2 has the opposite sign for the boundary).
+  double signed_distance(const Point& p) const;
+
+ private:
+  Envelope(std::span<const Ball> balls, BallUnion measured);
+  void improve(std::uint32_t ball, const Point& p, double& best) const;
+  void improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const;
+  bool is_exposed(const Point& p) const { return !tree_.holds(p, tolerance_); }
+  void add_vertices(const std::array<std::uint32_t, 3>& balls);
+
+  NearestBallTree tree_;
+  BallUnion union_;
+  double tolerance_;
+  std::vector<EnvelopeVertex> vertices_;
+  // Of ball i: arcs with greater balls and vertices of greater balls, [first[i], first[i + 1]).
+  std::vector<std::uint32_t> first_arc_, first_vertex_;
+};
+
+/// The common points of three spheres, up to two; one where they only touch, within `tolerance` of their radii.
+std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, std::array<Point, 2>& points);
+
+}  // namespace medial_vk

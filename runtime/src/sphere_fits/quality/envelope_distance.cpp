@@ -1,0 +1,271 @@
+#include "sphere_fits/quality/envelope_distance.h"
+
+#include <cmath>
+#include <new>
+
+#include "base/host_memory.h"
+#include "base/point_ops.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// A triangle or a part of one.
+struct Part {
+  std::array<Point, 3> corner;
+
+  Point middle() const { return (1.0 / 3) * (corner[0] + (corner[1] + corner[2])); }
+  double reach(const Point& from) const {
+    return std::max({length(corner[0] - from), length(corner[1] - from), length(corner[2] - from)});
+  }
+};
+
+void split_part(const Part& part, std::vector<Part>& parts) {
+  const auto& [a, b, c] = part.corner;
+  const Point ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+  parts.insert(parts.end(), {{{a, ab, ca}}, {{ab, b, bc}}, {{ca, bc, c}}, {{ab, bc, ca}}});
+}
+
+struct Cube {
+  Point centre;
+  double half;  ///< Of its side.
+
+  double reach() const { return half * 1.7320508075688775; }
+  /// The greatest distance of its points from p.
+  double farthest(const Point& p) const {
+    Point out;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = std::fabs(p[k] - centre[k]) + half;
+    return length(out);
+  }
+};
+
+void split_cube(const Cube& cube, std::vector<Cube>& parts) {
+  const double h = cube.half / 2;
+  for (int k = 0; k < 8; ++k) {
+    parts.push_back(
+        {{cube.centre[0] + (k & 1 ? h : -h), cube.centre[1] + (k & 2 ? h : -h), cube.centre[2] + (k & 4 ? h : -h)}, h});
+  }
+}
+
+Cube cube_around(const Point& lower, const Point& upper) {
+  double half = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) half = std::max(half, (upper[axis] - lower[axis]) / 2);
+  return {0.5 * (lower + upper), half * (1 + 1e-12)};
+}
+
+Cube cube_around(const std::vector<Ball>& balls) {
+  Point lower = balls.front().centre, upper = lower;
+  for (const Ball& ball : balls) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], ball.centre[axis] - ball.radius);
+      upper[axis] = std::max(upper[axis], ball.centre[axis] + ball.radius);
+    }
+  }
+  return cube_around(lower, upper);
+}
+
+/// The point of a ball's sphere that is nearest to p.
+Point on_sphere(const Ball& ball, const Point& p) {
+  const Point to = p - ball.centre;
+  const double distance = length(to);
+  return ball.centre + (ball.radius / distance) * to;
+}
+
+class Measure {
+ public:
+  Measure(const Solid& solid, const Envelope& envelope, const DistanceOptions& options)
+      : solid_(solid), envelope_(envelope), tree_(envelope.tree()), options_(options) {
+    // Distances here are lengths of differences: like those of the solid, they have errors of some units of roundoff of
+    // the coordinates; those to the envelope, errors of its tolerance.
+    const Cube box = cube_around(tree_.balls());
+    slack_ = solid.rounding() + 8 * 0x1p-53 * (length(box.centre) + 2 * box.half);
+    limits_.tolerance = options.tolerance * solid.diagonal();
+    limits_.cells = options.cells;
+    limits_.threads = options.threads;
+    const PreparedMesh& mesh = solid.mesh();
+    parts_.reserve(mesh.mesh.triangles.size());
+    for (const Triangle& t : mesh.mesh.triangles) {
+      parts_.push_back({{mesh.mesh.vertices[t[0]], mesh.mesh.vertices[t[1]], mesh.mesh.vertices[t[2]]}});
+    }
+  }
+
+  EnvelopeDistances all() {
+    EnvelopeDistances d;
+    if (!options_.known_cover) {
+      d.boundary_to_balls = boundary_to_balls();
+      d.solid_to_balls = solid_to_balls(d.boundary_to_balls.lower);
+    }
+    if (!options_.known_inside) d.balls_to_solid = balls_to_solid();
+    // No point of the boundary lies in the interior of balls that are inside.
+    d.boundary_to_envelope =
+        options_.known_inside ? d.boundary_to_balls : boundary_to_envelope(d.boundary_to_balls.lower);
+    d.envelope_to_boundary = envelope_to_boundary();
+    return d;
+  }
+
+  Bounds boundary_to_balls() const {
+    const auto evaluate = [&](const Part& part, double) -> CellBounds {
+      const Point middle = part.middle();
+      const NearestBall nearest = tree_.nearest(middle);
+      return {nearest.distance, bound_over(part, middle, nearest)};
+    };
+    return rounded(bound_supremum(parts_, 0, limits_, evaluate, split_part), slack_);
+  }
+
+ private:
+  Bounds rounded(const Bounds& bounds, double slack) const {
+    return {std::max(0.0, bounds.lower - slack), bounds.upper + slack};
+  }
+
+  /// A ball's |p - c| - r is convex: in the part, it is at most the greatest of its values at corners.
+  double bound_over(const Part& part, const Point& middle, const NearestBall& nearest) const {
+    const Ball& ball = tree_.balls()[nearest.ball];
+    return std::min(nearest.distance + part.reach(middle), part.reach(ball.centre) - ball.radius);
+  }
+
+  Bounds solid_to_balls(double lower) const {
+    const MeshReport& report = solid_.mesh().report;
+    const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
+      const double reach = cube.reach();
+      const double distance = tree_.nearest(cube.centre).distance;
+      if (distance + reach <= known + limits_.tolerance) return {kNone, distance + reach};
+      const bool is_inside = solid_.contains(cube.centre);
+      if (!is_inside && solid_.mesh().report.closed && !solid_.bvh().any_within(cube.centre, reach + slack_)) return {};
+      return {is_inside ? distance : kNone, distance + reach};
+    };
+    return rounded(bound_supremum(std::vector<Cube>{cube_around(report.lower, report.upper)}, lower, limits_, evaluate,
+                                  split_cube),
+                   slack_);
+  }
+
+  /// Only of points in balls not proved to be inside by themselves; points of the others are at distance 0.
+  Bounds balls_to_solid() const {
+    std::vector<Ball> others;
+    for (const Ball& ball : tree_.balls()) {
+      limits_.threads.check();
+      if (ball.radius > solid_.distance(ball.centre) || !solid_.contains(ball.centre)) others.push_back(ball);
+    }
+    if (others.empty()) return {};
+    const NearestBallTree tree(others);
+    const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
+      const double reach = cube.reach();
+      const NearestBall nearest = tree.nearest(cube.centre);
+      if (nearest.distance > reach + slack_) return {};
+      const BvhHit hit = solid_.closest(cube.centre);
+      const double distance = std::sqrt(hit.squared_distance);
+      // No point of the cube is farther from the boundary than from this point of it.
+      const double bound = cube.farthest(hit.point);
+      if (bound <= known + limits_.tolerance) return {kNone, bound};
+      const double sign = solid_.contains(cube.centre) ? -1 : 1;
+      if (sign < 0 && distance > reach + slack_) return {};
+      const Point reached = nearest.distance > 0 ? on_sphere(others[nearest.ball], cube.centre) : cube.centre;
+      const double value = solid_.distance(reached);
+      if (value <= known || solid_.contains(reached)) return {kNone, sign > 0 ? bound : reach - distance};
+      return {value, sign > 0 ? bound : reach - distance};
+    };
+    // The greatest distances usually are at the vertices of the envelope, which belong to the balls.
+    const double lower =
+        greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
+    return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube),
+                   slack_ + 4 * envelope_.tolerance());
+  }
+
+  template <class Distance>
+  double greatest_at_vertices(Distance distance) const {
+    const std::vector<EnvelopeVertex>& vertices = envelope_.vertices();
+    std::vector<double> distances(vertices.size());
+    for_all(vertices.size(), 16, limits_.threads, [&](std::size_t i) { distances[i] = distance(vertices[i].at); });
+    double greatest = 0;
+    for (const double here : distances) greatest = std::max(greatest, here);
+    return greatest;
+  }
+
+  Bounds boundary_to_envelope(double lower) const {
+    lower = std::max(lower,
+                     greatest_at_vertices([&](const Point& p) { return envelope_.distance(solid_.closest(p).point); }));
+    const auto evaluate = [&](const Part& part, double known) -> CellBounds {
+      const Point middle = part.middle();
+      const double reach = part.reach(middle);
+      const NearestBall nearest = tree_.nearest(middle);
+      if (nearest.distance >= 0) {
+        // The part outside of the balls, if any; points in them are at most `reach` deep.
+        return {nearest.distance, nearest.distance + reach};
+      }
+      const double enough = known + limits_.tolerance - reach;
+      const double distance = envelope_.distance(middle, enough);
+      return {distance > enough ? distance : kNone, distance + reach};
+    };
+    return rounded(bound_supremum(parts_, lower, limits_, evaluate, split_part), slack_ + 4 * envelope_.tolerance());
+  }
+
+  Bounds envelope_to_boundary() const {
+    const double lower = greatest_at_vertices([&](const Point& p) { return solid_.distance(p); });
+    const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
+      const double reach = cube.reach();
+      const NearestBall nearest = tree_.nearest(cube.centre);
+      if (std::fabs(nearest.distance) > reach + slack_) return {};
+      const BvhHit hit = solid_.closest(cube.centre);
+      const double distance = std::sqrt(hit.squared_distance);
+      CellBounds cell = {kNone, cube.farthest(hit.point)};
+      if (distance + std::fabs(nearest.distance) <= known) return cell;
+      const Ball& ball = tree_.balls()[nearest.ball];
+      if (nearest.distance == -ball.radius) return cell;  // Its centre: no direction.
+      const Point reached = on_sphere(ball, cube.centre);
+      if (!tree_.holds(reached, envelope_.tolerance())) cell.value = solid_.distance(reached);
+      return cell;
+    };
+    return rounded(bound_supremum(std::vector<Cube>{cube_around(tree_.balls())}, lower, limits_, evaluate, split_cube),
+                   slack_ + 4 * envelope_.tolerance());
+  }
+
+  const Solid& solid_;
+  const Envelope& envelope_;
+  const NearestBallTree& tree_;
+  const DistanceOptions& options_;
+  double slack_;
+  SearchLimits limits_;
+  std::vector<Part> parts_;
+};
+
+Bounds greater(const Bounds& a, const Bounds& b) { return {std::max(a.lower, b.lower), std::max(a.upper, b.upper)}; }
+
+}  // namespace
+
+Bounds EnvelopeDistances::between_sets() const { return greater(solid_to_balls, balls_to_solid); }
+
+Bounds EnvelopeDistances::between_surfaces() const { return greater(boundary_to_envelope, envelope_to_boundary); }
+
+namespace {
+
+Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
+
+Error no_memory() { return out_of_memory("measuring the distance of the balls from the solid"); }
+
+}  // namespace
+
+Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
+                                            const DistanceOptions& options) {
+  if (envelope.tree().balls().empty()) return Error{ErrorCode::kUsage, "no balls to measure the distance of"};
+  try {
+    return Measure(solid, envelope, options).all();
+  } catch (const Stopped&) {
+    return stopped();
+  } catch (const std::bad_alloc&) {
+    return no_memory();
+  }
+}
+
+Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const DistanceOptions& options) {
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
+  if (!envelope) return envelope.error();
+  try {
+    return Measure(solid, envelope.value(), options).boundary_to_balls();
+  } catch (const Stopped&) {
+    return stopped();
+  } catch (const std::bad_alloc&) {
+    return no_memory();
+  }
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,124 @@
+// The sequence of all steps from an indexed mesh to the analysis of its medial surface.
+#include "medial_vk/analysis.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "base/host_memory.h"
+#include "base/stopwatch.h"
+#include "mesh/inspect_mesh.h"
+#include "whole_analysis/measure_sheets.h"
+#include "whole_analysis/simplify.h"
+
+namespace medial_vk {
+namespace {
+
+class AnalysisRun {
+ public:
+  AnalysisRun(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
+              const StageProgress& progress, const std::stop_token& stop)
+      : mesh_(mesh), options_(options), extractor_(extractor), progress_(progress), stop_(stop) {
+    options_.extraction.threads = options_.threads;
+    if (options_.sheets) options_.sheets->threads = options_.threads;
+  }
+
+  Result<Analysis> run() {
+    if (!options_.sheets && (measures() || options_.medial_mesh)) {
+      return Error{ErrorCode::kUsage, "`volumes`, `keep_volume`, `removal_orders` and `medial_mesh` require `sheets`"};
+    }
+    if (Status status = extract(); !status) return status.error();
+    if (Status status = reached("simplify"); !status) return status.error();
+    simplify();
+    group();
+    if (Status status = measure(); !status) return status.error();
+    if (Status status = connect(); !status) return status.error();
+    if (stop_.stop_requested()) return Error{ErrorCode::kInterrupted, "interrupted"};
+    return std::move(out_);
+  }
+
+ private:
+  Status reached(const char* stage) const {
+    if (progress_) progress_(stage, 0);
+    return stop_.stop_requested() ? Status(Error{ErrorCode::kInterrupted, "interrupted"}) : Status();
+  }
+
+  Status extract() {
+    Result<CertifiedExtraction> found = extract_and_certify(mesh_, options_.extraction, extractor_, progress_, stop_);
+    if (!found) return found.error();
+    Extraction& extraction = found.value().extraction;
+    out_.grid = extraction.grid;
+    out_.spheres = std::move(extraction.spheres);
+    out_.undecided = std::move(extraction.undecided);
+    out_.measurements = std::move(extraction.measurements);
+    out_.certificate = found.value().certificate;
+    out_.host_times = std::move(found.value().host_times);
+    return {};
+  }
+
+  double epsilon() const { return options_.extraction.epsilon * out_.grid.voxel_size; }
+
+  void simplify() {
+    if (options_.simplify) out_.simplified = simplify_spheres(epsilon(), out_.spheres);
+  }
+
+  void group() {
+    if (!options_.sheets) return;
+    Stopwatch stopwatch;
+    out_.sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets,
+                              measures() ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
+    for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
+    out_.host_times.push_back({"sheets", stopwatch.lap()});
+  }
+
+  bool measures() const { return options_.volumes || options_.keep_volume > 0 || options_.removal_orders; }
+
+  Status measure() {
+    if (!measures()) return {};
+    if (Status status = reached("volume"); !status) return status;
+    Stopwatch stopwatch;
+    if (Status status = measure_sheets(options_, progress_, stop_, out_); !status) return status;
+    out_.host_times.push_back({"volumes", stopwatch.lap()});
+    return {};
+  }
+
+  Status connect() {
+    if (!options_.medial_mesh) return {};
+    if (Status status = reached("medial mesh"); !status) return status;
+    Stopwatch stopwatch;
+    Result<MedialMesh> joined =
+        make_medial_mesh(out_.spheres, out_.sheets, {out_.grid.voxel_size, epsilon(), options_.threads});
+    if (!joined) return joined.error();
+    out_.medial_mesh = std::move(joined).value();
+    out_.euler_characteristic = euler_characteristic_of_solid(mesh_.prepared());
+    out_.host_times.push_back({"medial mesh", stopwatch.lap()});
+    return {};
+  }
+
+  const IndexedMesh& mesh_;
+  AnalysisOptions options_;
+  const Extractor& extractor_;
+  const StageProgress& progress_;
+  const std::stop_token& stop_;
+  Analysis out_;
+};
+
+}  // namespace
+
+Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
+                         const StageProgress& progress, const std::stop_token& stop) {
+  try {
+    return AnalysisRun(mesh, options, extractor, progress, stop).run();
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("analysing", "try a lower `resolution`");
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, error.what()};
+  }
+}
+
+Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options, Context& context,
+                         const StageProgress& progress, const std::stop_token& stop) {
+  return analyse(mesh, options, device_extractor(context), progress, stop);
+}
+
+}  // namespace medial_vk

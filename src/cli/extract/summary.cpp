@@ -1,0 +1,143 @@
+#include "cli/extract/summary.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
+
+namespace medial_vk::cli {
+namespace {
+
+std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
+
+std::string mesh_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+std::string describe_mesh(const MeshReport& mesh) {
+  return fmt::format("{}, {}, longest side", counted(mesh.triangles, "triangle", "triangles"),
+                     mesh.closed ? "closed" : "not closed");
+}
+
+std::string where(const RunRecord& record) {
+  if (record.backend == Backend::kCpu) return "CPU reference, double precision, one thread";
+  if (!record.device) return "Vulkan";
+  return fmt::format("{} ({}), {}", record.device->name, record.device->type, record.device->driver);
+}
+
+std::string describe_voxels(const RunRecord& record) {
+  const ExtractionCounters& counters = record.counters;
+  std::string text = fmt::format("{} found", grouped(counters.found));
+  if (record.parameters.mode == Mode::kCertified || counters.undecided > 0) {
+    text += fmt::format(", {} undecided", grouped(counters.undecided));
+  }
+  if (record.certify.rejected > 0) {
+    text += fmt::format(" ({} of them rejected by the certificate)", grouped(record.certify.rejected));
+  }
+  return text;
+}
+
+std::string describe_points(const RunRecord& record) {
+  std::string text = grouped(record.points);
+  if (record.points == 0) text += " (none above the thresholds; another --resolution, or --perturb, may find some)";
+  if (record.simplified > 0) text += fmt::format(" ({} removed by --simplify)", grouped(record.simplified));
+  return text;
+}
+
+std::string describe_sheets(const Sheets& sheets) {
+  std::string text = grouped(sheets.sheets.size());
+  if (sheets.fragments > 0) {
+    text += fmt::format(" ({} of them with fewer than {} points)", grouped(sheets.fragments), kFragmentPoints);
+  }
+  return text;
+}
+
+std::string describe(const BettiNumbers& betti) {
+  return fmt::format("{}, {}, {}", counted(betti.components, "component", "components"),
+                     counted(betti.tunnels, "tunnel", "tunnels"), counted(betti.cavities, "cavity", "cavities"));
+}
+
+std::string describe_union(const RunRecord& record) {
+  const UnionRecord& whole = *record.ball_union;
+  std::string text = fmt::format("{:.6g}", whole.volume);
+  // An open mesh has no volume to compare with.
+  if (record.mesh.closed && record.mesh.signed_volume > 0) {
+    text += fmt::format(", {:.2f} % of the solid", 100 * whole.volume / record.mesh.signed_volume);
+  }
+  return fmt::format("{}; {}", text, describe(whole.topology));
+}
+
+std::string describe_removal(const SheetRemoval& removal) {
+  const double left = removal.volume_left.empty() ? 1 : removal.volume_left.back();
+  return fmt::format("{} of {} sheets, {:.2f} % of the volume", grouped(removal.kept.size()),
+                     grouped(removal.kept.size() + removal.sheets.size()), 100 * left);
+}
+
+/// Both sides of the comparison, which shows whether the topology was kept.
+std::string describe_medial_mesh(const RunRecord& record) {
+  std::string text = fmt::format("{}, Euler characteristic {}", describe(record.medial_mesh->betti),
+                                 record.medial_mesh->euler_characteristic);
+  if (record.euler_characteristic) text += fmt::format(" (of the solid: {})", *record.euler_characteristic);
+  return text;
+}
+
+/// Total first, then the significant stages: those of at least a hundredth of it.
+std::string describe_times(const std::vector<StageTime>& times) {
+  const double total = std::accumulate(times.begin(), times.end(), 0.0,
+                                       [](double sum, const StageTime& time) { return sum + time.seconds; });
+  std::string stages;
+  for (const StageTime& time : times) {
+    if (time.seconds < 0.01 * total) continue;
+    stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", time.stage, duration(time.seconds));
+  }
+  return fmt::format("{} ({})", duration(total), stages);
+}
+
+std::string range_text(const std::optional<Range>& range) {
+  return range ? fmt::format("{:.5g} to {:.5g}", range->least, range->greatest) : "none";
+}
+
+}  // namespace
+
+std::string opening(const RunRecord& record) {
+  std::string text =
+      fmt::format("{}: {} {:.5g}\n", mesh_name(record.input), describe_mesh(record.mesh), record.longest_side);
+  for (const std::string& assumption : record.mesh.assumptions) text += line("note", assumption);
+  text += line("device", where(record));
+  if (record.backend == Backend::kVulkan) {
+    text += line("memory", fmt::format("at most {} of the device's {}", memory_size(record.parameters.memory_budget),
+                                       record.device ? memory_size(record.device->memory_bytes) : "memory"));
+  }
+  return text;
+}
+
+std::string summary(const RunRecord& record, std::span<const OutputFile> files) {
+  std::string text = line("points", describe_points(record));
+  text += line("voxels", describe_voxels(record));
+  if (record.points > 0) text += line("sheets", describe_sheets(record.sheets));
+  if (record.ball_union) text += line("volume", describe_union(record));
+  if (record.removal) text += line("kept", describe_removal(*record.removal));
+  if (record.medial_mesh) text += line("mesh", describe_medial_mesh(record));
+  text += line("radius", range_text(record.radii));
+  text += line("time", describe_times(record.host_times));
+  for (const OutputFile& file : files) {
+    const std::string where = file.path == "-" ? "standard output" : file.path;
+    text += line("written", fmt::format("{} ({})", where, byte_size(file.bytes.size())));
+  }
+  return text;
+}
+
+std::string details(const RunRecord& record) {
+  std::string text = line("angle", range_text(record.object_angles) + " rad");
+  text += line("grid", fmt::format("{} x {} x {} voxels of {:.5g}", record.grid.size[0], record.grid.size[1],
+                                   record.grid.size[2], record.grid.voxel_size));
+  text += line("queries", grouped(record.counters.queries));
+  if (!record.picture_drawn_by.empty()) text += line("picture", "drawn by " + record.picture_drawn_by);
+  if (record.counters.retries > 0) text += line("retries", grouped(record.counters.retries));
+  for (const StageTime& time : record.device_times) {
+    text += line("on device", fmt::format("{:<24} {}", time.stage, duration(time.seconds)));
+  }
+  return text + level_table(record.counters);
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,75 @@
+// The data of one finished run, for the summary and the report.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check_reports/check_report.h"
+#include "common/backend.h"
+#include "medial_vk/certify.h"
+#include "medial_vk/context.h"
+#include "medial_vk/medial_mesh.h"
+#include "medial_vk/sheets.h"
+
+namespace medial_vk {
+
+struct Range {
+  double least = 0;
+  double greatest = 0;
+};
+
+/// The range of the radii; none without spheres.
+std::optional<Range> range_of_radii(std::span<const MedialSphere> spheres);
+/// The range of the object angles, in radians; none without spheres.
+std::optional<Range> range_of_object_angles(std::span<const MedialSphere> spheres);
+
+/// The union of the balls, before sheets were removed.
+struct UnionRecord {
+  double volume = 0;
+  double area = 0;
+  BettiNumbers topology;
+};
+
+struct RunRecord {
+  std::string input;
+  std::string output;
+  ExtractionOptions parameters;
+  Backend backend = Backend::kVulkan;
+  std::uint64_t seed = 0;
+  double perturb = 0;  ///< Amplitude as a fraction of the longest side; 0: off.
+  bool simplify = false;
+
+  MeshReport mesh;
+  double longest_side = 0;
+  VoxelGrid grid;
+  ExtractionCounters counters;
+  std::vector<UndecidedVoxel> undecided;
+  CertificateReport certify;
+  std::uint64_t points = 0;      ///< Written.
+  std::uint64_t simplified = 0;  ///< Removed by --simplify.
+  std::optional<Range> radii;
+  std::optional<Range> object_angles;
+
+  SheetOptions sheet_parameters;
+  Sheets sheets;
+  std::optional<UnionRecord> ball_union;         ///< None: no output depends on volumes.
+  std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
+  std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
+  double orders_end_at = 0;                      ///< Share of the volume at which both orders end.
+  std::optional<SheetRemoval> removal;           ///< Of --keep-volume: the first part of one of them.
+  double keep_volume = 0;
+  bool keep_topology = false;
+  std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.
+  std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
+
+  std::vector<StageTime> host_times;    ///< In the order of the run, by wall-clock time.
+  std::vector<StageTime> device_times;  ///< By timestamps of the device; part of the host's "extract".
+  std::optional<DeviceDescription> device;
+  std::string picture_drawn_by;      ///< Empty: no picture was drawn.
+  std::optional<CheckReport> check;  ///< Of --check.
+};
+
+}  // namespace medial_vk

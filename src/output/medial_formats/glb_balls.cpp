@@ -1,0 +1,57 @@
+#include "output/medial_formats/glb_balls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/medial_formats/ball_colours.h"
+
+namespace medial_vk {
+
+float shortened(double x) {
+  const auto rounded = static_cast<float>(x);
+  return std::abs(static_cast<double>(rounded)) > std::abs(x) ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+Point middle_of_centres(std::span<const MedialSphere> spheres) {
+  if (spheres.empty()) return {0, 0, 0};
+  Point middle;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto by_coordinate = [axis](const MedialSphere& a, const MedialSphere& b) {
+      return a.centre[axis] < b.centre[axis];
+    };
+    const auto [least, greatest] = std::minmax_element(spheres.begin(), spheres.end(), by_coordinate);
+    middle[axis] = static_cast<float>(least->centre[axis] + (greatest->centre[axis] - least->centre[axis]) / 2);
+  }
+  return middle;
+}
+
+// The radius is reduced by the motion of the centre: the distance of the rounded centre from the exact one, and the
+// error of that distance, from the difference of doubles (2^-53 of the largest) and some operations (2^-50 of the
+// result).
+GlbBall glb_ball(const MedialSphere& sphere, const Point& middle) {
+  GlbBall ball;
+  double moved = 0;
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from_middle = sphere.centre[axis] - middle[axis];
+    ball.centre[axis] = static_cast<float>(from_middle);
+    moved = std::hypot(moved, from_middle - static_cast<double>(ball.centre[axis]));
+    largest = std::max(largest, std::abs(from_middle));
+  }
+  const double radius = sphere.radius - moved * (1 + 0x1p-50) - 0x1p-51 * largest;
+  ball.radius = shortened(std::max(0.0, radius));
+  return ball;
+}
+
+std::array<std::vector<std::uint32_t>, kColourSteps> spheres_by_colour(std::span<const MedialSphere> spheres,
+                                                                       double least_angle) {
+  std::array<std::vector<std::uint32_t>, kColourSteps> by_colour;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const float position = colour_share(spheres[i].object_angle, least_angle) * static_cast<float>(kColourSteps);
+    by_colour[std::min(static_cast<std::uint32_t>(position), kColourSteps - 1)].push_back(
+        static_cast<std::uint32_t>(i));
+  }
+  return by_colour;
+}
+
+}  // namespace medial_vk
