@@ -31,7 +31,7 @@ room device
 tree cpu_reference/include
 room cpu_reference
   outer_doors *
-  used_by judge
+  used_by src/judge
 tree src product
 room judge
   uses cpu_reference
@@ -104,6 +104,12 @@ class CheckRooms(unittest.TestCase):
         self.check([("src/cli/run.cpp:1:", "which is not declared")],
                    files={"src/cli/run.cpp": '#include "cpu_reference/check.h"\n'})
 
+    def test_room_of_the_same_name_in_another_tree(self):
+        self.check([("cmake/rooms.txt:", "is not for runtime/src/judge")],
+                   files={"cmake/rooms.txt": ROOMS.replace("tree src product", "tree runtime/src library\nroom judge\n"
+                                                           "  uses cpu_reference\ntree src product"),
+                          "runtime/src/judge/a.h": ""})
+
     def test_public_header_with_a_private_one(self):
         self.check([("runtime/include/medial_vk/mesh.h:1:", "a public header includes runtime/src/base/clock.h")],
                    files={"runtime/include/medial_vk/mesh.h": '#include "base/clock.h"\n'})
@@ -132,6 +138,18 @@ class CheckRooms(unittest.TestCase):
         self.check(None, files={"tests/f.cpp": "void f() {\n  // long: a list.\n" + body + "}\n"})
         self.check(None, files={"tests/f.cpp": "void f() {\n" + "  x();\n" * 78 + "}\n"})
         self.check([("tests/f.py:1:", "f has 81 lines")], files={"tests/f.py": "def f():\n" + "    x()\n" * 80})
+        self.check([("src/page/f.js:2:", "f has 81 lines")],
+                   files={"src/page/f.js": "//\nexport function f(a) {\n" + "  if (a) {\n  }\n" * 39 + "  x();\n}\n"})
+
+    def test_sizes_of_scripts(self):
+        self.check([("bench/run:1:", "401 lines")], files={"bench/run": "#!/usr/bin/env python3\n" + "\n" * 400})
+        self.check([("bench/run:2:", "f has 81 lines")],
+                   files={"bench/run": "#!/usr/bin/env python3\ndef f():\n" + "    x()\n" * 80})
+        self.check([("scripts/run:2:", "f has 82 lines")],
+                   files={"scripts/run": "#!/usr/bin/env bash\nf() {\n" + "  x\n" * 80 + "}\n"})
+
+    def test_prose_is_no_reason(self):
+        self.check([("tests/big.h:1:", "402 lines")], files={"tests/big.h": "// It was too long: a pity.\n" + "\n" * 401})
 
 
 SCRIPT = sys.argv.pop(1)

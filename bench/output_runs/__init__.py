@@ -1,0 +1,1 @@
+"""The runs of bench/compare_outputs and their inputs."""
