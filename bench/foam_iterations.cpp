@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/mesh.h"

@@ -62,8 +62,8 @@ class Subject {
     Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value());
     if (!indexed.ok()) give_up(name_ + ": " + indexed.error().message);
     mesh_.emplace(std::move(indexed).value());
-    parameters_.resolution = resolution;
-    parameters_.measurements.kernel_times = true;
+    options_.resolution = resolution;
+    options_.measurements.kernel_times = true;
     first_ = extract();
   }
 
@@ -76,7 +76,7 @@ class Subject {
 
  private:
   Run extract() {
-    const Result<Extraction> made = extract_medial_spheres(*context_, *mesh_, parameters_);
+    const Result<Extraction> made = extract_medial_spheres(*mesh_, options_, *context_);
     if (!made.ok()) give_up(name_ + ": " + made.error().message);
     Run run;
     for (const StageTime& stage : made.value().measurements.device_times) {
@@ -92,7 +92,7 @@ class Subject {
   Context* context_;
   std::string name_;
   std::optional<IndexedMesh> mesh_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
   Run first_;
   std::vector<Run> runs_;
 };

@@ -41,22 +41,21 @@ struct Latencies {
 };
 
 /// Seconds of a run, `most` at most.
-double time_run(Context& context, const IndexedMesh& mesh, const ExtractionOptions& parameters, double most) {
+double time_run(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options, double most) {
   const Clock::time_point begin = Clock::now();
   const auto seconds = [&] { return Seconds(Clock::now() - begin).count(); };
   std::stop_source stop;
   const auto on_progress = [&](double) {
     if (seconds() >= most) stop.request_stop();
   };
-  const Result<Extraction> ran = extract_medial_spheres(context, mesh, parameters, on_progress, stop.get_token());
+  const Result<Extraction> ran = extract_medial_spheres(mesh, options, context, on_progress, stop.get_token());
   if (!ran.ok() && ran.error().code != ErrorCode::kInterrupted) or_exit(ran);
   return std::min(seconds(), most);
 }
 
-Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOptions& parameters, int count,
-                  double most) {
+Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options, int count, double most) {
   Latencies out;
-  for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, parameters, most);  // the first run compiles
+  for (int i = 0; i < 2; ++i) out.run = time_run(context, mesh, options, most);  // the first run compiles
   for (int i = 0; i < count; ++i) {
     std::stop_source source;
     Clock::time_point requested;
@@ -67,7 +66,7 @@ Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOpt
       before = std::clock();
       source.request_stop();
     });
-    const Result<Extraction> stopped = extract_medial_spheres(context, mesh, parameters, {}, source.get_token());
+    const Result<Extraction> stopped = extract_medial_spheres(mesh, options, context, {}, source.get_token());
     const Clock::time_point returned = Clock::now();
     const std::clock_t after = std::clock();
     other.join();
@@ -85,13 +84,13 @@ Latencies measure(Context& context, const IndexedMesh& mesh, const ExtractionOpt
 int main(int argc, char** argv) {
   int count = 50;
   double seconds = 60;
-  ExtractionOptions parameters;
+  ExtractionOptions options;
   std::vector<std::string> meshes;
   CLI::App app("How long an extraction takes to stop");
   app.add_option("--stops", count, "stops for each mesh");
-  app.add_option("--resolution", parameters.resolution, "voxels along the longest side");
+  app.add_option("--resolution", options.resolution, "voxels along the longest side");
   const std::map<std::string, Mode> modes = {{"thesis", Mode::kThesis}, {"certified", Mode::kCertified}};
-  app.add_option("--mode", parameters.mode, "thesis or certified")->transform(CLI::CheckedTransformer(modes));
+  app.add_option("--mode", options.mode, "thesis or certified")->transform(CLI::CheckedTransformer(modes));
   app.add_option("--seconds", seconds, "of a run, at most");
   app.add_option("mesh", meshes, "OBJ, PLY, STL or OFF")->required();
   CLI11_PARSE(app, argc, argv);
@@ -102,7 +101,7 @@ int main(int argc, char** argv) {
       context.device().name, context.device().driver);
   for (const std::string& path : meshes) {
     const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(or_exit(read_mesh(path))))));
-    const Latencies l = measure(context, mesh, parameters, count, seconds);
+    const Latencies l = measure(context, mesh, options, count, seconds);
     if (l.stops.empty()) continue;
     fmt::print("| {} | {} | {:.2f} | {} | {:.0f} | {:.0f} | {:.0f} |\n", path.substr(path.find_last_of('/') + 1),
                mesh.view().triangles.size(), l.run, l.stops.size(), 1e3 * l.stops[l.stops.size() / 2],

@@ -1,5 +1,6 @@
 # Run by `cmake --install`: installs the documents that are for users. Those for contributors, and examples, are in the
-# source tree only: links to them become their text, and sections on the code are left out.
+# source tree only: links to them become their text; sections on the code, the glossary's section of words that are not
+# used and its rows of words for contributors are left out.
 # Needs: SOURCE_DIR, WORK_DIR (for the altered copies), DESTINATION (relative to the prefix)
 set(contributors architecture decisions performance testing)
 string(JOIN "|" names ${contributors})
@@ -9,6 +10,9 @@ function(user_document file)
   file(READ ${SOURCE_DIR}/${file} text)
   string(REGEX REPLACE "\n## (Working on the code|How a mesh flows through the program)\n(#?[^#]|##[#]*[^# ])*\n## " "\n## " text
          "${text}")
+  string(REGEX REPLACE "\n## Words that are not used\n.*" "" text "${text}")
+  string(REGEX REPLACE " Words that are not used are[ \n]\\[at the end\\]\\([^)]*\\)\\." "" text "${text}")
+  string(REGEX REPLACE "\n[|] (door|room) [|][^\n]*" "" text "${text}")
   string(REGEX REPLACE "\n[|] \\[(${names})\\.md\\][^\n]*" "" text "${text}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\((docs/)?(${names})\\.md[^)]*\\)" "\\1" text "${text}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\((\\.\\./)?examples/[^)]*\\)" "\\1" text "${text}")

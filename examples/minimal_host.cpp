@@ -125,13 +125,13 @@ int main() {
   check(vkCreateCommandPool(host.device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
   {
     medial_vk::Context context = take(medial_vk::Context::adopt(host));
-    medial_vk::ExtractionOptions parameters;
-    parameters.resolution = 40;
-    parameters.memory_budget = 256u << 20;
+    medial_vk::ExtractionOptions options;
+    options.resolution = 40;
+    options.memory_budget = 256u << 20;
     const auto indexed = take(medial_vk::IndexedMesh::build(mesh));
-    auto job = take(medial_vk::ExtractionJob::create(context, indexed, parameters));
+    auto job = take(medial_vk::ExtractionJob::create(context, indexed, options));
     const VkCommandBuffer commands = begin_commands(host.device, pool);
-    check(medial_vk::record(commands, job));
+    check(job.record(commands));
     run(host, commands);
     const medial_vk::RecordedCounts counts = job.counts();
     std::printf("%u medial spheres of a box, in a VkBuffer of %s\n", counts.spheres, context.device().name.c_str());

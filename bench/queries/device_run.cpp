@@ -11,7 +11,7 @@
 
 namespace medial_vk::bench {
 
-Result<std::unique_ptr<DeviceRun>> DeviceRun::create(Context::Impl& context, const MeshView& mesh,
+Result<std::unique_ptr<DeviceRun>> DeviceRun::create(ContextImpl& context, const MeshView& mesh,
                                                      std::span<const Point> spheres, std::uint32_t group_size,
                                                      std::span<const Point> scattered) {
   std::unique_ptr<DeviceRun> run(new DeviceRun(context));

@@ -13,7 +13,7 @@ namespace medial_vk::bench {
 class DeviceRun {
  public:
   /// Errors: those of DeviceMesh::create() and PacketQueries::create().
-  static Result<std::unique_ptr<DeviceRun>> create(Context::Impl& context, const MeshView& mesh,
+  static Result<std::unique_ptr<DeviceRun>> create(ContextImpl& context, const MeshView& mesh,
                                                    std::span<const Point> spheres, std::uint32_t group_size,
                                                    std::span<const Point> scattered);
   /// Each returns the device's seconds, by timestamps.
@@ -28,13 +28,13 @@ class DeviceRun {
     std::uint32_t groups = 0;
     std::uint32_t group_size = 0;
   };
-  explicit DeviceRun(Context::Impl& context) : context_(&context), arena_(context) {}
+  explicit DeviceRun(ContextImpl& context) : context_(&context), arena_(context) {}
   Result<Queries> upload_groups(std::span<const Point> points, std::uint32_t group_size,
                                 std::span<const std::uint32_t> slots);
   double packets(const Queries& queries);
   double one_by_one(const Queries& queries);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   Arena arena_;
   std::unique_ptr<DeviceMesh> mesh_;
   std::unique_ptr<PacketQueries> packets_;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "common/tool_errors.h"
 #include "input/read_mesh.h"
 #include "medial_vk/context.h"
 #include "medial_vk/prepare.h"
@@ -160,15 +161,15 @@ Status measure(const Subject& subject, const Options& options, Context* context,
          resolutions_for(subject, thesis ? options.thesis_resolutions : options.resolutions)) {
       for (const double angle : options.angles) {
         const auto start = std::chrono::steady_clock::now();
-        ExtractionOptions parameters;
-        parameters.mode = thesis ? Mode::kThesis : Mode::kCertified;
-        parameters.resolution = resolution;
-        parameters.object_angle = angle;
-        parameters.threads = options.threads;
+        ExtractionOptions extraction;
+        extraction.mode = thesis ? Mode::kThesis : Mode::kCertified;
+        extraction.resolution = resolution;
+        extraction.object_angle = angle;
+        extraction.threads = options.threads;
         const Extractor extractor = context != nullptr ? device_extractor(*context) : reference_extractor();
-        const auto result = extract_and_certify(indexed, parameters, extractor);
+        const auto result = extract_and_certify(indexed, extraction, extractor);
         if (!result.ok()) return result.error();
-        rows.push_back(bench::count_recall(subject.name, samples, parameters, result.value().extraction));
+        rows.push_back(bench::count_recall(subject.name, samples, extraction, result.value().extraction));
         log(rows.back(), seconds_since(start));
       }
     }
@@ -180,7 +181,7 @@ Status write(const std::string& file, const std::string& text) {
   std::ofstream out(file);
   out << text;
   out.close();
-  if (!out) return Error{ErrorCode::kCannotWrite, "cannot write " + file};
+  if (!out) return Error{kCannotWrite, "cannot write " + file};
   return {};
 }
 

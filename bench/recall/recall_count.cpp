@@ -37,11 +37,11 @@ void remember(std::vector<MedialSample>& first, const MedialSample& sample) {
   if (first.size() < kMostNamed) first.push_back(sample);
 }
 
-RecallRow describe(const ExtractionOptions& parameters, const Extraction& extraction) {
+RecallRow describe(const ExtractionOptions& options, const Extraction& extraction) {
   RecallRow row;
-  row.mode = parameters.mode;
-  row.resolution = parameters.resolution;
-  row.angle = parameters.object_angle;
+  row.mode = options.mode;
+  row.resolution = options.resolution;
+  row.angle = options.object_angle;
   const ExtractionCounters& c = extraction.measurements.counters;
   row.points = c.found;
   row.undecided = c.undecided;
@@ -67,8 +67,8 @@ Tally RecallRow::of(RadiusClass radius) const {
 }
 
 RecallRow count_recall(const std::string& mesh, const std::vector<MedialSample>& samples,
-                       const ExtractionOptions& parameters, const Extraction& extraction) {
-  RecallRow row = describe(parameters, extraction);
+                       const ExtractionOptions& options, const Extraction& extraction) {
+  RecallRow row = describe(options, extraction);
   row.mesh = mesh;
   std::set<Voxel> found, undecided;
   for (const MedialSphere& s : extraction.spheres) found.insert(s.voxel);

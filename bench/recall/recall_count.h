@@ -53,6 +53,6 @@ struct RecallRow {
 
 /// Computes all values that follow from samples and extraction.
 RecallRow count_recall(const std::string& mesh, const std::vector<test::MedialSample>& samples,
-                       const ExtractionOptions& parameters, const Extraction& extraction);
+                       const ExtractionOptions& options, const Extraction& extraction);
 
 }  // namespace medial_vk::bench

@@ -16,7 +16,7 @@
 
 #include "ball_files.h"
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk::bench {

@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
     if (!no_device) {
       DeviceBallUnion found;
       const double there =
-          time_of(repeats, [&] { found = or_exit(measure_ball_union(context[0], balls, {.threads = threads})); });
+          time_of(repeats, [&] { found = or_exit(measure_ball_union(balls, {.threads = threads}, context[0])); });
       fmt::print("| {:.3f} | {:.0f} | {} | {:.1e} | {:.1e} | {:.3f} ", there, size / there, found.redone.size(),
                  std::fabs(found.volume - exact.volume) / exact.volume, found.volume_bound / exact.volume,
                  largest_ratio(found.volumes, exact.volumes, found.volume_bounds));

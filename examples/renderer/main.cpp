@@ -83,7 +83,7 @@ class Renderer {
         torus_(kAround, kAlong),
         context_(take(medial_vk::Context::adopt(adopted()))),
         mesh_(take(medial_vk::IndexedMesh::build(torus_.view()))),
-        job_(take(medial_vk::ExtractionJob::create(context_, mesh_, parameters(), {kFramesInFlight, 4}))),
+        job_(take(medial_vk::ExtractionJob::create(context_, mesh_, options(), {kFramesInFlight, 4}))),
         pass_(host_, kSize, job_.buffers()) {
     auto pool = vulkan_struct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
@@ -139,7 +139,7 @@ class Renderer {
     return host;
   }
 
-  static medial_vk::ExtractionOptions parameters() {
+  static medial_vk::ExtractionOptions options() {
     medial_vk::ExtractionOptions p;
     p.resolution = kResolution;
     return p;
@@ -166,7 +166,7 @@ class Renderer {
     const auto moved = Clock::now();
     const auto begin = vulkan_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     ::check(vkBeginCommandBuffer(frame.commands, &begin), "vkBeginCommandBuffer");
-    check(medial_vk::record(frame.commands, job_));
+    check(job_.record(frame.commands));
     recording_ += Clock::now() - moved;
     moving_ += moved - start;
     pass_.record(frame.commands, camera(job_.placement()),

@@ -37,6 +37,6 @@ void main() {
   if (!w.complete || w.bound > 0.1) return;
   // Rounded up: the relative error of halves is 2^-11.
   float most = w.number + w.bound;
-  cells[index].level = packHalf2x16(vec2(most + 1e-3 * (1.0 + abs(most)), 1.001 * change + 1e-6));
+  cells[index].winding = packHalf2x16(vec2(most + 1e-3 * (1.0 + abs(most)), 1.001 * change + 1e-6));
   cells[index].flags = cell.flags | kCellMeasured;
 }

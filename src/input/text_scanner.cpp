@@ -59,14 +59,6 @@ Error file_error(const std::string& name, std::string_view what) {
   return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", name, what)};
 }
 
-std::string quoted(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
-  std::string text = "\"";
-  for (const char c : word.substr(0, kLongest)) text += c >= 0x20 && c < 0x7f ? c : '?';
-  if (word.size() > kLongest) text += "...";
-  return text + '"';
-}
-
 bool parse_coordinate(std::string_view word, double& value, std::string_view& why) {
   word = without_plus(word);
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);

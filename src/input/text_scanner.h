@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/quoted.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -13,8 +14,6 @@ namespace medial_vk {
 Error line_error(const std::string& name, std::uint64_t line, std::string_view what);
 /// kInvalidMesh with "name: what".
 Error file_error(const std::string& name, std::string_view what);
-/// A word of a file for a message: quoted, cut to a readable length, control characters replaced.
-std::string quoted(std::string_view word);
 
 /// Parses decimal or scientific notation, with an optional leading '+', to the nearest double. Too small for a double
 /// gives 0. False, with `why` set: not a number, beyond the range of a double, infinite or nan.

@@ -72,17 +72,17 @@ reference::Mesh to_reference(const PreparedMesh& mesh) {
   return out;
 }
 
-reference::Parameters to_reference(const ExtractionOptions& parameters) {
-  reference::Parameters out;
-  out.certified = parameters.mode == Mode::kCertified;
-  out.resolution = static_cast<int>(parameters.resolution);
-  out.object_angle = parameters.object_angle;
-  out.radius = parameters.radius;
-  out.deep_angle = parameters.deep_angle;
-  out.epsilon = parameters.epsilon;
-  out.extra_levels = static_cast<int>(parameters.extra_levels);
-  out.narrow_features = parameters.thesis.narrow_features;
-  for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = static_cast<int>(parameters.thesis.samples[i]);
+reference::Options to_reference(const ExtractionOptions& options) {
+  reference::Options out;
+  out.certified = options.mode == Mode::kCertified;
+  out.resolution = static_cast<int>(options.resolution);
+  out.object_angle = options.object_angle;
+  out.radius = options.radius;
+  out.deep_angle = options.deep_angle;
+  out.epsilon = options.epsilon;
+  out.extra_levels = static_cast<int>(options.extra_levels);
+  out.narrow_features = options.thesis.narrow_features;
+  for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = static_cast<int>(options.thesis.samples[i]);
   return out;
 }
 

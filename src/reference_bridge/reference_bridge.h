@@ -9,7 +9,7 @@
 namespace medial_vk {
 
 reference::Mesh to_reference(const PreparedMesh& mesh);
-reference::Parameters to_reference(const ExtractionOptions& parameters);
+reference::Options to_reference(const ExtractionOptions& options);
 /// Copies grid and spheres only, the input of `--check`.
 reference::Result to_reference(const VoxelGrid& grid, const std::vector<MedialSphere>& spheres);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -39,32 +38,34 @@ bool is_finite(const Mesh& mesh) {
 
 class PartLoader {
  public:
-  PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name)
-      : side_(side), places_(places), name_(name) {}
+  PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name, unsigned threads)
+      : side_(side), places_(places), name_(name), threads_(threads) {}
 
   Status add(const Link& link, const std::vector<Geometry>& geometries) {
     for (std::size_t i = 0; i < geometries.size(); ++i) {
       const Geometry& geometry = geometries[i];
       Part part;
+      PartOrigin origin;
       part.link = link.name;
       part.pose = geometry.origin;
       part.name = geometry.kind == GeometryKind::kMesh ? short_name(geometry.mesh) : fmt::format("primitive{}", i);
-      if (Status status = fill(geometry, part); !status) {
+      if (Status status = fill(geometry, part, origin); !status) {
         const Error& error = status.error();
         const auto line = static_cast<std::uint64_t>(std::max(geometry.line, 0));
         Error named = line_error(name_, line, fmt::format("link {}: {}", quoted(link.name), error.message));
         named.code = error.code;
         return named;
       }
-      parts.push_back(std::move(part));
+      loaded.parts.push_back(std::move(part));
+      loaded.origins.push_back(std::move(origin));
     }
     return {};
   }
 
-  std::vector<Part> parts;
+  RobotParts loaded;
 
  private:
-  Status fill(const Geometry& geometry, Part& part) {
+  Status fill(const Geometry& geometry, Part& part, PartOrigin& origin) {
     if (geometry.kind == GeometryKind::kSphere) {
       part.ball = Ball{{0, 0, 0}, geometry.size[0]};
       part.volume = primitive_volume(geometry);
@@ -72,17 +73,17 @@ class PartLoader {
     }
     Mesh mesh;
     if (geometry.kind == GeometryKind::kMesh) {
-      Result<const Mesh*> file = mesh_file(geometry.mesh, part.file);
+      Result<const Mesh*> file = mesh_file(geometry.mesh, origin.file);
       if (!file) return file.error();
       mesh = *file.value();
       scale_mesh(geometry.scale, mesh);
       if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
     } else {
       mesh = make_primitive(geometry, side_);
-      part.facet_share = facet_share(geometry.kind);
+      origin.facet_share = facet_share(geometry.kind);
       part.volume = primitive_volume(geometry);
     }
-    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh));
+    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads_);
     if (!prepared) {
       return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
     }
@@ -106,43 +107,23 @@ class PartLoader {
   FacetSide side_;
   const MeshPlaces& places_;
   const std::string& name_;
+  unsigned threads_;
   std::map<std::string, Mesh> files_;
 };
 
-double reach_of(const Ball& ball) {
-  return std::max({std::fabs(ball.centre[0]), std::fabs(ball.centre[1]), std::fabs(ball.centre[2])});
-}
-
 }  // namespace
 
-Result<std::vector<Part>> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
-                                     const std::string& name) {
-  PartLoader loader(side, places, name);
+Result<RobotParts> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
+                              const std::string& name, unsigned threads) {
+  PartLoader loader(side, places, name, threads);
   for (const Link& link : robot.links) {
     if (Status status = loader.add(link, visual ? link.visual : link.collision); !status) return status.error();
   }
-  if (loader.parts.empty()) {
+  if (loader.loaded.parts.empty()) {
     return file_error(name, fmt::format("no link has a <{}>; try {}", visual ? "visual" : "collision",
                                         visual ? "--collision" : "--visual"));
   }
-  return std::move(loader.parts);
-}
-
-Part single_part(std::string name, PreparedMesh mesh) {
-  Part part;
-  part.link = part.name = std::move(name);
-  part.mesh = std::move(mesh);
-  return part;
-}
-
-Ball place(const Part& part, const Ball& ball, int grow) {
-  const double rounding = placement_rounding(part.pose, reach_of(ball));
-  Ball placed = {part.pose * ball.centre, ball.radius};
-  if (rounding == 0 || grow == 0) return placed;
-  // The sum is rounded too.
-  placed.radius = std::nextafter(ball.radius + grow * rounding, grow > 0 ? std::numeric_limits<double>::infinity() : 0);
-  placed.radius = std::max(placed.radius, 0.0);
-  return placed;
+  return std::move(loader.loaded);
 }
 
 }  // namespace medial_vk

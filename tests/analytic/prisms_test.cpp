@@ -91,13 +91,13 @@ TEST_P(ExactPrism, EveryCrossedVoxelHasAPointOnTheMedialSurface) {
   const Matrix3d to_world = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 32;
-  parameters.object_angle = kObjectAngle;
+  ExtractionOptions options;
+  options.resolution = 32;
+  options.object_angle = kObjectAngle;
   const PreparedMesh mesh = test::prepare(prism.mesh);
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   SCOPED_TRACE(test::describe(result));
-  const double epsilon = parameters.epsilon * result.extraction.grid.voxel_size;
+  const double epsilon = options.epsilon * result.extraction.grid.voxel_size;
   EXPECT_EQ(result.certificate.rejected, 0u);
   expect_close_to_medial_surface(prism, to_world.transpose(), result.extraction, epsilon);
   expect_every_crossed_voxel_found(prism, to_world, result.extraction, epsilon);
@@ -112,10 +112,10 @@ TEST(ExactBox, ObjectAnglesAreThoseOfItsFaces) {
   Mesh solid = test::make_box({1, 0.7, 0.5});
   test::rotate(solid, {0.2, 0.9, 0.4}, 1.1);
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 24;
+  ExtractionOptions options;
+  options.resolution = 24;
   const PreparedMesh mesh = test::prepare(solid);
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   std::size_t neighbours = 0, opposite = 0;
   for (const MedialSphere& s : result.extraction.spheres) {
     const auto angle = static_cast<double>(s.object_angle);

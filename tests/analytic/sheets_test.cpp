@@ -126,10 +126,9 @@ std::string name_of(const KnownSolid& solid, const MedialSphere& s, const Matrix
   return a + " " + b;
 }
 
-MedialTopology topology_of_mesh(const Extraction& extraction, const Sheets& sheets,
-                                const ExtractionOptions& parameters) {
+MedialTopology topology_of_mesh(const Extraction& extraction, const Sheets& sheets, const ExtractionOptions& options) {
   const double voxel = extraction.grid.voxel_size;
-  return make_medial_mesh(extraction.spheres, sheets, {voxel, parameters.epsilon * voxel, 0}).value().topology;
+  return make_medial_mesh(extraction.spheres, sheets, {voxel, options.epsilon * voxel, 0}).value().topology;
 }
 
 class KnownSheets : public testing::TestWithParam<KnownSolid (*)()> {};
@@ -143,10 +142,10 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
   test::rotate(solid.mesh, {axis.x(), axis.y(), axis.z()}, angle);
   const Matrix3d to_body = Eigen::AngleAxisd(-angle, axis.normalized()).toRotationMatrix();
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 80;
-  const Extraction extraction = test::extract_on_device(context, test::prepare(solid.mesh), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
+  ExtractionOptions options;
+  options.resolution = 80;
+  const Extraction extraction = test::extract_on_device(context, test::prepare(solid.mesh), options).extraction;
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, options, SheetOptions()).value();
 
   std::vector<std::map<std::string, std::uint64_t>> names(sheets.sheets.size());
   for (std::size_t i = 0; i < extraction.spheres.size(); ++i) {
@@ -161,7 +160,7 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
     found.insert(most->first);
   }
   EXPECT_EQ(found, std::multiset<std::string>(solid.sheets.begin(), solid.sheets.end()));
-  const MedialTopology topology = topology_of_mesh(extraction, sheets, parameters);
+  const MedialTopology topology = topology_of_mesh(extraction, sheets, options);
   EXPECT_EQ(topology.betti, solid.betti);
   EXPECT_EQ(topology.bare_edges, 0u);
 }
@@ -176,10 +175,10 @@ TEST(KnownAreas, OfABox) {
   Mesh solid = test::make_box({1, 0.75, 0.5});
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 80;
-  const Extraction extraction = test::extract_on_device(context, test::prepare(solid), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
+  ExtractionOptions options;
+  options.resolution = 80;
+  const Extraction extraction = test::extract_on_device(context, test::prepare(solid), options).extraction;
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, options, SheetOptions()).value();
   double area = 0, exact = (1 - 0.5) * (0.75 - 0.5);
   for (const Sheet& sheet : sheets.sheets) area += sheet.area;
   for (const double edge : {1.0, 0.75, 0.5}) exact += 4 * (edge - 0.25) * 0.5 / std::sqrt(2.0);
@@ -198,12 +197,12 @@ TEST(KnownSheetsOfATorus, OneRing) {
   Mesh solid = test::make_torus(1, 0.4, 40, 80, 0.5);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 80;
-  const Extraction extraction = test::extract_on_device(context, test::prepare(solid), parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
+  ExtractionOptions options;
+  options.resolution = 80;
+  const Extraction extraction = test::extract_on_device(context, test::prepare(solid), options).extraction;
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, options, SheetOptions()).value();
   ASSERT_EQ(sheets.sheets.size(), 1u);
-  const MedialTopology topology = topology_of_mesh(extraction, sheets, parameters);
+  const MedialTopology topology = topology_of_mesh(extraction, sheets, options);
   EXPECT_EQ(topology.betti, (BettiNumbers{1, 1, 0}));
 }
 

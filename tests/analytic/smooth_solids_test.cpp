@@ -23,7 +23,7 @@ constexpr double kObjectAngle = 0.6;
 
 struct TurnedSolid {
   PreparedMesh mesh;
-  ExtractionOptions parameters;
+  ExtractionOptions options;
   CertifiedExtraction result;
   double epsilon = 0;
   Matrix3d to_world = Matrix3d::Identity();
@@ -38,11 +38,11 @@ TurnedSolid extract_turned(Mesh solid, std::uint32_t resolution) {
   test::rotate(solid, {axis.x(), axis.y(), axis.z()}, angle);
   out.to_world = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   out.mesh = test::prepare(std::move(solid));
-  out.parameters.resolution = resolution;
-  out.parameters.object_angle = kObjectAngle;
+  out.options.resolution = resolution;
+  out.options.object_angle = kObjectAngle;
   Context context = test::make_context();
-  out.result = test::extract_on_device(context, out.mesh, out.parameters);
-  out.epsilon = out.parameters.epsilon * out.result.extraction.grid.voxel_size;
+  out.result = test::extract_on_device(context, out.mesh, out.options);
+  out.epsilon = out.options.epsilon * out.result.extraction.grid.voxel_size;
   return out;
 }
 

@@ -57,10 +57,10 @@ class OnDevice : public testing::Test {
   void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
 
   static CertifiedExtraction extract(const PreparedMesh& mesh, double object_angle) {
-    ExtractionOptions parameters;
-    parameters.resolution = kResolution;
-    parameters.object_angle = object_angle;
-    return test::extract_on_device(*context_, mesh, parameters);
+    ExtractionOptions options;
+    options.resolution = kResolution;
+    options.object_angle = object_angle;
+    return test::extract_on_device(*context_, mesh, options);
   }
 
  private:

@@ -153,9 +153,9 @@ TEST(UnionByCgal, OfCosphericalCentres) {
 }
 
 std::vector<Ball> medial_balls(Mesh mesh, double resolution) {
-  ExtractionOptions parameters;
-  parameters.resolution = static_cast<decltype(parameters.resolution)>(resolution);
-  const reference::Result result = test::extract_with_reference(test::prepare(std::move(mesh)), parameters);
+  ExtractionOptions options;
+  options.resolution = static_cast<decltype(options.resolution)>(resolution);
+  const reference::Result result = test::extract_with_reference(test::prepare(std::move(mesh)), options);
   std::vector<Ball> balls;
   for (const auto& sphere : result.spheres) {
     balls.push_back({{sphere.centre.x(), sphere.centre.y(), sphere.centre.z()}, sphere.radius});

@@ -163,8 +163,10 @@ TEST_F(SpheresCommand, WrongUsageIs2) {
     EXPECT_THAT(result.err, HasSubstr("medial-vk: "));
     EXPECT_THAT(result.err, HasSubstr("Try medial-vk spheres --help."));
   }
-  EXPECT_THAT(spheres(robot_arguments("--total", "2")).err, HasSubstr("the robot has 3 geometries"));
-  EXPECT_THAT(spheres(robot_arguments("--count-per-link", "1")).err, HasSubstr("link \"a\" has 2 geometries"));
+  EXPECT_THAT(spheres(robot_arguments("--total", "2")).err,
+              HasSubstr("3 parts need a ball each; raise --total from 2"));
+  EXPECT_THAT(spheres(robot_arguments("--count-per-link", "1")).err,
+              HasSubstr("link \"a\" has 2 parts, which need a ball each; raise --count-per-link from 1"));
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "two.urdf"));
 }
 

@@ -31,9 +31,9 @@ medial_vk::Result<medial_vk::Bvh> __wrap__ZN9medial_vk3Bvh5buildERKNS_8MeshViewE
 }
 
 medial_vk::Result<medial_vk::DeviceMesh> __real__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(
-    medial_vk::Context::Impl& context, const medial_vk::IndexedMesh& mesh, bool with_links);
+    medial_vk::ContextImpl& context, const medial_vk::IndexedMesh& mesh, bool with_links);
 medial_vk::Result<medial_vk::DeviceMesh> __wrap__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(
-    medial_vk::Context::Impl& context, const medial_vk::IndexedMesh& mesh, bool with_links) {
+    medial_vk::ContextImpl& context, const medial_vk::IndexedMesh& mesh, bool with_links) {
   ++uploads;
   return __real__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(context, mesh, with_links);
 }
@@ -53,6 +53,16 @@ namespace {
 
 /// More triangles than a block of any loop, so that every loop has work for several threads.
 Mesh large_mesh() { return test::make_torus(1.0, 0.4, 260, 140, 0.5); }
+
+std::vector<Part> two_boxes(unsigned threads) {
+  std::vector<Part> parts(2);
+  parts[0].link = parts[0].name = "upper";
+  parts[0].mesh = prepare_mesh(test::make_box({1, 0.7, 0.45}), threads).value();
+  parts[1].link = parts[1].name = "lower";
+  parts[1].mesh = prepare_mesh(test::make_box({0.6, 0.5, 0.3}), threads).value();
+  parts[1].pose = make_pose({0, 0, -1}, {0.1, 0, 0});
+  return parts;
+}
 
 class WorkCounts : public testing::Test {
  protected:
@@ -102,6 +112,24 @@ TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
   }
 }
 
+// Balls that are distributed by need take two passes over the parts; the method source searches for other grids in
+// each.
+TEST_F(WorkCounts, AFitOfPartsBuildsOneTreeAndUploadsOncePerPart) {
+  const std::vector<Part> parts = two_boxes(1);
+  for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {
+    for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
+      trees = uploads = 0;
+      PartFitOptions options;
+      options.spheres.method = method;
+      options.spheres.contract = contract;
+      options.total = 90;
+      ASSERT_TRUE(fit_parts(parts, options, *context_).ok());
+      EXPECT_EQ(trees, 2);
+      EXPECT_EQ(uploads, 2);
+    }
+  }
+}
+
 // Vertices that move refit the tree.
 TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
   IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh()).value()).value();
@@ -130,6 +158,11 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   spheres.resolution = 16;
   spheres.threads = 1;
   ASSERT_TRUE(fit_spheres(mesh, spheres, *context_).ok());
+  PartFitOptions of_parts;
+  of_parts.spheres.resolution = 16;
+  of_parts.total = 20;
+  of_parts.threads = 1;
+  ASSERT_TRUE(fit_parts(two_boxes(1), of_parts, *context_).ok());
   EXPECT_EQ(threads, 0);
 }
 

@@ -50,7 +50,7 @@ std::int64_t resident_bytes() {
 /// Opens a device, makes a program and a buffer, fills the buffer on the device.
 void use_a_context() {
   Context context = make_context();
-  Context::Impl& impl = Internals::of(context);
+  ContextImpl& impl = Internals::of(context);
   const auto program = impl.program({"prepare_resolve", 1, 0, 0, 1, {}});
   ASSERT_TRUE(program.ok()) << program.error().message;
   Arena arena(impl);

@@ -36,7 +36,7 @@ class RecordingHost {
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     require(impl().vk.vkResetCommandBuffer(commands_, 0));
     require(impl().vk.vkBeginCommandBuffer(commands_, &begin));
-    const Status recorded = record(commands_, job);
+    const Status recorded = job.record(commands_);
     require(impl().vk.vkEndCommandBuffer(commands_));
     if (!recorded.ok()) return recorded;
     VkSubmitInfo info{};
@@ -49,7 +49,7 @@ class RecordingHost {
   }
 
  private:
-  Context::Impl& impl() { return Internals::of(owner_); }
+  ContextImpl& impl() { return Internals::of(owner_); }
   static void require(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("a call of Vulkan failed");
   }

@@ -53,11 +53,11 @@ Context make_context() {
 }
 
 ExtractionOptions small_job() {
-  ExtractionOptions parameters;
-  parameters.resolution = 8;
-  parameters.extra_levels = 1;
-  parameters.memory_budget = 32u << 20;
-  return parameters;
+  ExtractionOptions options;
+  options.resolution = 8;
+  options.extra_levels = 1;
+  options.memory_budget = 32u << 20;
+  return options;
 }
 
 template <class T>

@@ -70,11 +70,11 @@ TEST_P(CopyingQueue, ExtractsAlike) {
 // Points of one chunk are downloaded while the next is computed, finally into the same buffer.
 TEST_P(CopyingQueue, ExtractsChunkByChunk) {
   const PreparedMesh mesh = small_box();
-  const ExtractionOptions parameters = job_of_many_chunks();
+  const ExtractionOptions options = job_of_many_chunks();
   expect_same([&](Context& context) -> Answer {
     std::set<double> seen;
     const auto extraction =
-        test::extract_spheres(context, mesh.view(), parameters, [&](double done) { seen.insert(done); });
+        test::extract_spheres(context, mesh.view(), options, [&](double done) { seen.insert(done); });
     if (!extraction.ok()) return extraction.error();
     EXPECT_GT(seen.size(), 4u);  // chunks
     return answer_of(extraction.value());

@@ -43,22 +43,22 @@ inline PreparedMesh small_box() {
 }
 
 inline ExtractionOptions small_job(Mode mode) {
-  ExtractionOptions parameters;
-  parameters.mode = mode;
-  parameters.resolution = mode == Mode::kThesis ? 16 : 8;
-  parameters.extra_levels = 1;
-  parameters.thesis.samples = {60, 50, 40, 10};  // one round of retractions
-  parameters.memory_budget = 48u << 20;
-  return parameters;
+  ExtractionOptions options;
+  options.mode = mode;
+  options.resolution = mode == Mode::kThesis ? 16 : 8;
+  options.extra_levels = 1;
+  options.thesis.samples = {60, 50, 40, 10};  // one round of retractions
+  options.memory_budget = 48u << 20;
+  return options;
 }
 
 /// The box is searched in chunks: points of one are downloaded while the next is computed.
 inline ExtractionOptions job_of_many_chunks() {
-  ExtractionOptions parameters = small_job(Mode::kCertified);
-  parameters.resolution = 64;
-  parameters.extra_levels = 0;
-  parameters.memory_budget = 16u << 20;
-  return parameters;
+  ExtractionOptions options = small_job(Mode::kCertified);
+  options.resolution = 64;
+  options.extra_levels = 0;
+  options.memory_budget = 16u << 20;
+  return options;
 }
 
 /// All results for the solid, as bytes.

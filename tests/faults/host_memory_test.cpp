@@ -54,7 +54,7 @@ TEST_F(HostMemory, RunsOutWhileOpeningADevice) {
   fail_every_allocation("opening a device", [&]() -> Answer {
     Result<Context> context = open();
     if (!context.ok()) return context.error();
-    Context::Impl& impl = Internals::of(context.value());
+    ContextImpl& impl = Internals::of(context.value());
     const auto program =
         in_runtime([&] { return catch_out_of_memory("making a program", [&] { return impl.program(key); }); });
     if (!program.ok()) return program.error();

@@ -38,7 +38,7 @@ class LentDevice {
 
   /// The counts of the job, once it has been recorded and run. Calls of the host itself do not fail.
   Answer record_and_run(ExtractionJob& job) {
-    const Status recorded = in_runtime([&] { return record(commands_, job); });
+    const Status recorded = in_runtime([&] { return job.record(commands_); });
     VulkanInterposer::get().stop_failing();
     if (recorded.ok()) submit();
     begin();
@@ -52,7 +52,7 @@ class LentDevice {
   }
 
  private:
-  Context::Impl& impl() { return Internals::of(owner_); }
+  ContextImpl& impl() { return Internals::of(owner_); }
 
   void begin() {
     EXPECT_EQ(impl().vk.vkResetCommandBuffer(commands_, 0), VK_SUCCESS);

@@ -17,18 +17,18 @@ class MemoryBudget : public FaultTest {
     SCOPED_TRACE(testing::Message() << mebibytes << " MiB, resolution " << resolution);
     Result<Context> context = open();
     ASSERT_TRUE(context.ok()) << context.error().message;
-    ExtractionOptions parameters;
-    parameters.mode = mode;
-    parameters.resolution = resolution;
-    parameters.memory_budget = mebibytes << 20;
+    ExtractionOptions options;
+    options.mode = mode;
+    options.resolution = resolution;
+    options.memory_budget = mebibytes << 20;
     vulkan().clear_usage();
-    const auto extraction = test::extract_spheres(context.value(), mesh.view(), parameters);
+    const auto extraction = test::extract_spheres(context.value(), mesh.view(), options);
     ASSERT_TRUE(extraction.ok()) << extraction.error().message;
     EXPECT_GT(extraction.value().spheres.size(), 200u);
-    EXPECT_LE(vulkan().usage().memory_bytes, parameters.memory_budget);
+    EXPECT_LE(vulkan().usage().memory_bytes, options.memory_budget);
     // The budget is used: a search in smaller chunks than memory allows would take longer.
     if (mode == Mode::kCertified) {
-      EXPECT_GE(vulkan().usage().memory_bytes, parameters.memory_budget * 3 / 4);
+      EXPECT_GE(vulkan().usage().memory_bytes, options.memory_budget * 3 / 4);
     }
   }
 };

@@ -9,7 +9,7 @@ namespace medial_vk::fuzz {
 namespace {
 
 void require_in_range(const cli::Options& options) {
-  const ExtractionOptions& p = options.parameters;
+  const ExtractionOptions& p = options.extraction;
   require(p.resolution >= 1 && p.resolution <= 4096, "--resolution keeps its range");
   require(p.object_angle > 0 && p.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
   require(p.radius >= 0 && p.radius <= 1, "--radius keeps its range");

@@ -22,7 +22,7 @@ constexpr double kPi = std::numbers::pi;
 class BallUnionOnDevice : public test::DeviceTest {
  protected:
   DeviceBallUnion measure(const std::vector<Ball>& balls, const DeviceBallUnionOptions& options = {}) {
-    auto result = measure_ball_union(*context_, balls, options);
+    auto result = measure_ball_union(balls, options, *context_);
     EXPECT_TRUE(result.ok()) << result.error().message;
     return std::move(result).value();
   }
@@ -202,9 +202,9 @@ TEST_F(BallUnionOnDevice, OfMedialBalls) {
   Mesh torus = test::make_torus(1, 0.3, 60, 30);
   test::rotate(torus, {1, 2, 3}, 0.7);
   for (const Mesh& solid : {test::make_box({1, 0.8, 0.5}), torus, test::make_l_shape(2, 0.5, 1)}) {
-    ExtractionOptions parameters;
-    parameters.resolution = 40;
-    const Extraction found = test::extract_on_device(*context_, test::prepare(solid), parameters).extraction;
+    ExtractionOptions options;
+    options.resolution = 40;
+    const Extraction found = test::extract_on_device(*context_, test::prepare(solid), options).extraction;
     std::vector<Ball> balls;
     for (const MedialSphere& sphere : found.spheres) balls.push_back({sphere.centre, sphere.radius});
     ASSERT_GT(balls.size(), 100u);
@@ -231,8 +231,8 @@ TEST_F(BallUnionOnDevice, HostMeasuresWhatIsNotGoodEnough) {
 }
 
 TEST_F(BallUnionOnDevice, RefusesWhatCannotBeMeasured) {
-  EXPECT_EQ(measure_ball_union(*context_, std::vector<Ball>{{{0, 0, 0}, -1}}).error().code, ErrorCode::kUsage);
-  EXPECT_EQ(measure_ball_union(*context_, std::vector<Ball>{{{0, 0, 0}, 1}}, {.tolerance = 0}).error().code,
+  EXPECT_EQ(measure_ball_union(std::vector<Ball>{{{0, 0, 0}, -1}}, {}, *context_).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(measure_ball_union(std::vector<Ball>{{{0, 0, 0}, 1}}, {.tolerance = 0}, *context_).error().code,
             ErrorCode::kUsage);
 }
 

@@ -31,11 +31,11 @@ std::vector<Eigen::Vector3d> golden_spiral() {
 void expect_flux_agrees(Mesh solid, std::uint32_t resolution = 33, std::uint64_t memory_budget = 1ull << 30) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
-  parameters.memory_budget = memory_budget;
+  ExtractionOptions options;
+  options.resolution = resolution;
+  options.memory_budget = memory_budget;
   Context context = test::make_context();
-  const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
+  const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
   ASSERT_FALSE(extraction.spheres.empty());
   const reference::Tree tree(test::to_reference(mesh.mesh));
   const std::vector<Eigen::Vector3d> directions = golden_spiral();

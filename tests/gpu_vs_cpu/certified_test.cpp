@@ -49,15 +49,15 @@ struct Missing {
 
 // A point may represent a medial point within epsilon of it (Lemma 2.3), which may lie in the next voxel or have an
 // angle below the threshold. The others are firm.
-Missing missing_from(const Extraction& there, const Extraction& here, const ExtractionOptions& parameters) {
+Missing missing_from(const Extraction& there, const Extraction& here, const ExtractionOptions& options) {
   const test::SphereByVoxel found = test::spheres_by_voxel(there);
   Missing missing;
   for (const auto& [voxel, index] : test::spheres_by_voxel(here)) {
     if (found.contains(voxel)) continue;
     const MedialSphere& s = here.spheres[index];
-    const bool salient = static_cast<double>(s.object_angle) >= parameters.object_angle + 0.05;
+    const bool salient = static_cast<double>(s.object_angle) >= options.object_angle + 0.05;
     const double depth = test::depth_in_voxel(here.grid, test::to_eigen(s.centre));
-    missing.firm += salient && depth > parameters.epsilon;
+    missing.firm += salient && depth > options.epsilon;
     missing.clear += salient && depth >= 0.05;
   }
   return missing;
@@ -118,15 +118,15 @@ class CertifiedOnDevice : public testing::TestWithParam<Solid> {};
 
 CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t resolution) {
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
+  ExtractionOptions options;
+  options.resolution = resolution;
   Context context = test::make_context();
-  CertifiedExtraction device = test::extract_on_device(context, mesh, parameters);
-  const Extraction reference = from_reference(test::extract_with_reference(mesh, parameters));
+  CertifiedExtraction device = test::extract_on_device(context, mesh, options);
+  const Extraction reference = from_reference(test::extract_with_reference(mesh, options));
   SCOPED_TRACE(test::describe(device));
   EXPECT_FALSE(device.extraction.spheres.empty());
-  EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, parameters));
-  EXPECT_TRUE(test::passes_certificate(mesh, reference, parameters));
+  EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, options));
+  EXPECT_TRUE(test::passes_certificate(mesh, reference, options));
   EXPECT_EQ(device.extraction.grid.size, reference.grid.size);
   // Balls that the device accepted and double precision rejected are rare, since only rounding causes them.
   EXPECT_LE(device.certificate.rejected, device.extraction.spheres.size() / 100);
@@ -134,15 +134,15 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   const std::size_t points = reference.spheres.size();
   {
     SCOPED_TRACE("found by the reference only");
-    expect_explained(missing_from(device.extraction, reference, parameters),
+    expect_explained(missing_from(device.extraction, reference, options),
                      device.extraction.measurements.counters.undecided, points);
   }
   {
     SCOPED_TRACE("found by the device only");
-    expect_explained(missing_from(reference, device.extraction, parameters), reference.measurements.counters.undecided,
+    expect_explained(missing_from(reference, device.extraction, options), reference.measurements.counters.undecided,
                      points);
   }
-  expect_consistent(device, parameters.extra_levels, mesh.report.closed);
+  expect_consistent(device, options.extra_levels, mesh.report.closed);
   return device;
 }
 
@@ -180,21 +180,21 @@ TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
     std::size_t levels;  // below the finest that are visited, at most
   };
   for (const Case& c : {Case{0.15, 0, 1}, Case{0.3, 0, 1}, Case{0.6, 0, 1}, Case{1.0, 0.05, 2}}) {
-    ExtractionOptions parameters;
-    parameters.resolution = 32;
-    parameters.object_angle = c.angle;
-    parameters.radius = c.radius;
-    const CertifiedExtraction device = test::extract_on_device(context, mesh, parameters);
-    const Extraction reference = from_reference(test::extract_with_reference(mesh, parameters));
+    ExtractionOptions options;
+    options.resolution = 32;
+    options.object_angle = c.angle;
+    options.radius = c.radius;
+    const CertifiedExtraction device = test::extract_on_device(context, mesh, options);
+    const Extraction reference = from_reference(test::extract_with_reference(mesh, options));
     SCOPED_TRACE(test::describe(device));
-    EXPECT_EQ(missing_from(reference, device.extraction, parameters).firm, 0u);
-    EXPECT_EQ(missing_from(device.extraction, reference, parameters).firm, 0u);
+    EXPECT_EQ(missing_from(reference, device.extraction, options).firm, 0u);
+    EXPECT_EQ(missing_from(device.extraction, reference, options).firm, 0u);
     const ExtractionCounters& counters = device.extraction.measurements.counters;
     EXPECT_EQ(counters.undecided, 0u);
     EXPECT_EQ(counters.found, reference.spheres.size());
-    const std::size_t finest = counters.levels.size() - 1 - parameters.extra_levels;
+    const std::size_t finest = counters.levels.size() - 1 - options.extra_levels;
     EXPECT_EQ(counters.levels[finest + 1 + c.levels].visited, 0u);
-    EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, parameters));
+    EXPECT_TRUE(test::passes_certificate(mesh, device.extraction, options));
     // The middle sheet is at the height of 4 voxels: as many points below as above.
     const auto in_layer = [&](std::uint32_t z) {
       return std::ranges::count_if(device.extraction.spheres, [z](const MedialSphere& s) { return s.voxel[2] == z; });
@@ -229,10 +229,10 @@ TEST(CertifiedOpen, CrossingBoxesAgreeWithTheReference) {
 void expect_points_inside(Mesh open, std::uint32_t resolution) {
   const PreparedMesh mesh = test::prepare(std::move(open));
   ASSERT_FALSE(mesh.report.closed);
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
+  ExtractionOptions options;
+  options.resolution = resolution;
   Context context = test::make_context();
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   EXPECT_GT(result.extraction.spheres.size(), 50u);
   for (const MedialSphere& s : result.extraction.spheres) EXPECT_GE(exact_winding_number(mesh.mesh, s.centre), 0.5);
 }
@@ -268,18 +268,18 @@ TEST(CertifiedRadius, DeepPointsPassTheCertificate) {
   Mesh solid = test::make_l_shape(1, 0.35, 0.4);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionOptions parameters;
-  parameters.resolution = 24;
-  parameters.object_angle = 1.2;  // above the bisectors of right angles: those come in by their radius only
+  ExtractionOptions options;
+  options.resolution = 24;
+  options.object_angle = 1.2;  // above the bisectors of right angles: those come in by their radius only
   Context context = test::make_context();
-  const CertifiedExtraction by_angle = test::extract_on_device(context, mesh, parameters);
-  parameters.radius = 0.05;
-  const CertifiedExtraction by_both = test::extract_on_device(context, mesh, parameters);
-  EXPECT_TRUE(test::passes_certificate(mesh, by_both.extraction, parameters));
-  const double least = parameters.radius * mesh.report.longest_side();
+  const CertifiedExtraction by_angle = test::extract_on_device(context, mesh, options);
+  options.radius = 0.05;
+  const CertifiedExtraction by_both = test::extract_on_device(context, mesh, options);
+  EXPECT_TRUE(test::passes_certificate(mesh, by_both.extraction, options));
+  const double least = options.radius * mesh.report.longest_side();
   std::size_t deep = 0;
   for (const MedialSphere& s : by_both.extraction.spheres) {
-    if (static_cast<double>(s.object_angle) >= parameters.object_angle) continue;
+    if (static_cast<double>(s.object_angle) >= options.object_angle) continue;
     ++deep;
     EXPECT_GE(s.radius, least * (1 - 1e-9));
   }

@@ -45,19 +45,19 @@ std::vector<Solid> solids() {
   return all;
 }
 
-ExtractionOptions thesis_parameters() {
-  ExtractionOptions parameters;
-  parameters.mode = Mode::kThesis;
-  parameters.resolution = kResolution;
-  return parameters;
+ExtractionOptions thesis_options() {
+  ExtractionOptions options;
+  options.mode = Mode::kThesis;
+  options.resolution = kResolution;
+  return options;
 }
 
-reference::Result extract_with_reference(const Mesh& mesh, const ExtractionOptions& parameters) {
-  reference::Parameters p;
+reference::Result extract_with_reference(const Mesh& mesh, const ExtractionOptions& options) {
+  reference::Options p;
   p.certified = false;
-  p.resolution = static_cast<int>(parameters.resolution);
-  p.radius = parameters.radius;
-  p.narrow_features = parameters.thesis.narrow_features;
+  p.resolution = static_cast<int>(options.resolution);
+  p.radius = options.radius;
+  p.narrow_features = options.thesis.narrow_features;
   return reference::extract(test::to_reference(mesh), p);
 }
 
@@ -87,33 +87,33 @@ void expect_same_levels(const Extraction& device, const reference::Result& truth
   }
 }
 
-CertificateReport certify(const Solid& solid, const ExtractionOptions& parameters, Extraction& extraction) {
-  return certify_spheres(test::indexed(solid.view()), parameters, extraction);
+CertificateReport certify(const Solid& solid, const ExtractionOptions& options, Extraction& extraction) {
+  return certify_spheres(test::indexed(solid.view()), options, extraction).value();
 }
 
 TEST_F(TreeThesisTest, FindsWhatTheReferenceFinds) {
   for (const Solid& solid : solids()) {
     SCOPED_TRACE(solid.name);
-    const ExtractionOptions parameters = thesis_parameters();
-    auto device = test::extract_spheres(*context_, solid.view(), parameters);
+    const ExtractionOptions options = thesis_options();
+    auto device = test::extract_spheres(*context_, solid.view(), options);
     ASSERT_TRUE(device.ok()) << device.error().message;
     Extraction& found = device.value();
-    const reference::Result truth = extract_with_reference(solid.mesh, parameters);
+    const reference::Result truth = extract_with_reference(solid.mesh, options);
     ASSERT_GT(truth.spheres.size(), 100u);
     expect_same_levels(found, truth);
     // A point within epsilon of a face of its voxel may be found on the other side of it: 3 pairs of faces, 2 epsilon.
     EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
-    const CertificateReport report = certify(solid, parameters, found);
+    const CertificateReport report = certify(solid, options, found);
     EXPECT_LE(report.rejected, found.spheres.size() / 200);
   }
 }
 
 TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
   const Solid solid = solids()[0];
-  ExtractionOptions parameters = thesis_parameters();
-  parameters.thesis.narrow_features = false;
-  const auto found = test::extract_spheres(*context_, solid.view(), parameters).value();
-  const reference::Result truth = extract_with_reference(solid.mesh, parameters);
+  ExtractionOptions options = thesis_options();
+  options.thesis.narrow_features = false;
+  const auto found = test::extract_spheres(*context_, solid.view(), options).value();
+  const reference::Result truth = extract_with_reference(solid.mesh, options);
   expect_same_levels(found, truth);
   EXPECT_LE(voxels_apart(found, truth), static_cast<int>(truth.spheres.size()) / 50 + 1);
   // 2.4.3: no sphere smaller than (1 - sqrt(3)/2) voxels is found.
@@ -122,18 +122,18 @@ TEST_F(TreeThesisTest, WithoutNarrowFeatures) {
 
 TEST_F(TreeThesisTest, RadiusThreshold) {
   const Solid solid = solids()[3];
-  ExtractionOptions parameters = thesis_parameters();
-  const std::size_t by_angle = test::extract_spheres(*context_, solid.view(), parameters).value().spheres.size();
-  parameters.radius = 0.11;
-  auto found = test::extract_spheres(*context_, solid.view(), parameters).value();
+  ExtractionOptions options = thesis_options();
+  const std::size_t by_angle = test::extract_spheres(*context_, solid.view(), options).value().spheres.size();
+  options.radius = 0.11;
+  auto found = test::extract_spheres(*context_, solid.view(), options).value();
   EXPECT_GE(found.spheres.size(), by_angle);
-  EXPECT_LE(certify(solid, parameters, found).rejected, found.spheres.size() / 200);
+  EXPECT_LE(certify(solid, options, found).rejected, found.spheres.size() / 200);
 }
 
 TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
   const Solid solid = solids()[1];
-  const auto first = test::extract_spheres(*context_, solid.view(), thesis_parameters()).value();
-  const auto second = test::extract_spheres(*context_, solid.view(), thesis_parameters()).value();
+  const auto first = test::extract_spheres(*context_, solid.view(), thesis_options()).value();
+  const auto second = test::extract_spheres(*context_, solid.view(), thesis_options()).value();
   ASSERT_EQ(first.spheres.size(), second.spheres.size());
   std::array<std::uint32_t, 3> last = {};
   for (std::size_t i = 0; i < first.spheres.size(); ++i) {
@@ -150,10 +150,10 @@ TEST_F(TreeThesisTest, PointsAreSortedAndTheSameEveryTime) {
 // A small budget cuts the grid into many chunks; the points are the same.
 TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
   const Solid solid = solids()[2];
-  ExtractionOptions parameters = thesis_parameters();
-  const auto whole = test::extract_spheres(*context_, solid.view(), parameters).value();
-  parameters.memory_budget = 8u << 20;
-  const auto parts = test::extract_spheres(*context_, solid.view(), parameters).value();
+  ExtractionOptions options = thesis_options();
+  const auto whole = test::extract_spheres(*context_, solid.view(), options).value();
+  options.memory_budget = 8u << 20;
+  const auto parts = test::extract_spheres(*context_, solid.view(), options).value();
   ASSERT_EQ(whole.spheres.size(), parts.spheres.size());
   for (std::size_t i = 0; i < whole.spheres.size(); ++i) EXPECT_EQ(whole.spheres[i].centre, parts.spheres[i].centre);
   EXPECT_EQ(whole.measurements.counters.queries, parts.measurements.counters.queries);
@@ -167,27 +167,27 @@ TEST_F(TreeThesisTest, ChunksDoNotChangeTheResult) {
     EXPECT_GE(one.node_tests, 2 * one.visited) << "level " << level;
     EXPECT_GE(one.triangle_tests, one.visited) << "level " << level;
   }
-  parameters.memory_budget = 1u << 10;
-  EXPECT_EQ(test::extract_spheres(*context_, solid.view(), parameters).error().code, ErrorCode::kOutOfMemory);
+  options.memory_budget = 1u << 10;
+  EXPECT_EQ(test::extract_spheres(*context_, solid.view(), options).error().code, ErrorCode::kOutOfMemory);
 }
 
 TEST_F(TreeThesisTest, CanBeInterrupted) {
   const Solid solid = solids()[0];
   std::stop_source stop;
   const auto stopped = test::extract_spheres(
-      *context_, solid.view(), thesis_parameters(), [&](double) { stop.request_stop(); }, stop.get_token());
+      *context_, solid.view(), thesis_options(), [&](double) { stop.request_stop(); }, stop.get_token());
   EXPECT_EQ(stopped.error().code, ErrorCode::kInterrupted);
 }
 
 TEST_F(TreeThesisTest, CoarseGridsHaveFewerLevels) {
   const Solid solid = solids()[0];
-  ExtractionOptions parameters = thesis_parameters();
+  ExtractionOptions options = thesis_options();
   for (const std::uint32_t resolution : {1u, 2u, 3u, 5u, 9u}) {
-    parameters.resolution = resolution;
-    auto found = test::extract_spheres(*context_, solid.view(), parameters);
+    options.resolution = resolution;
+    auto found = test::extract_spheres(*context_, solid.view(), options);
     ASSERT_TRUE(found.ok()) << found.error().message;
-    expect_same_levels(found.value(), extract_with_reference(solid.mesh, parameters));
-    EXPECT_EQ(certify(solid, parameters, found.value()).rejected, 0u);
+    expect_same_levels(found.value(), extract_with_reference(solid.mesh, options));
+    EXPECT_EQ(certify(solid, options, found.value()).rejected, 0u);
   }
 }
 
@@ -198,7 +198,7 @@ TEST_F(TreeThesisTest, OpenMesh) {
   solid.flags.assign(solid.mesh.triangles.size(), 0);
   MeshView view = solid.view();
   view.closed = false;
-  const auto found = test::extract_spheres(*context_, view, thesis_parameters());
+  const auto found = test::extract_spheres(*context_, view, thesis_options());
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_GT(found.value().spheres.size(), 100u);
 }

@@ -83,18 +83,18 @@ TEST(HostAllocator, IsUsedForEverythingAndGetsItBack) {
   VulkanHost vulkan;
   HostDevice host = lend(vulkan);
   host.allocation_callbacks = allocator.callbacks();
-  ExtractionOptions parameters;
-  parameters.resolution = 20;
-  parameters.memory_budget = 256u << 20;
+  ExtractionOptions options;
+  options.resolution = 20;
+  options.memory_budget = 256u << 20;
   {
     Result<Context> context = Context::adopt(host);
     ASSERT_TRUE(context.ok()) << context.error().message;
     const DeformingTorus torus(16, 24);
     const std::size_t before = allocator.made();
-    const auto job = test::make_job(context.value(), torus.view(), parameters);
+    const auto job = test::make_job(context.value(), torus.view(), options);
     ASSERT_TRUE(job.ok()) << job.error().message;
     EXPECT_GT(allocator.made(), before);
-    EXPECT_TRUE(test::extract_spheres(context.value(), torus.view(), parameters).ok());
+    EXPECT_TRUE(test::extract_spheres(context.value(), torus.view(), options).ok());
   }
   EXPECT_GT(allocator.made(), 100u);
   EXPECT_EQ(allocator.foreign(), 0u);

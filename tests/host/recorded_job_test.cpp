@@ -25,7 +25,7 @@ namespace {
 
 using Voxel = std::array<std::uint32_t, 3>;
 
-ExtractionOptions parameters_for(std::uint32_t resolution) {
+ExtractionOptions options_for(std::uint32_t resolution) {
   ExtractionOptions p;
   p.resolution = resolution;
   p.memory_budget = 256u << 20;
@@ -108,7 +108,7 @@ class RecordedJob : public testing::Test {
   /// Records, submits and waits, and compares the counts that the job reports.
   Recorded run(ExtractionJob& job) {
     const VkCommandBuffer commands = begin();
-    const Status status = record(commands, job);
+    const Status status = job.record(commands);
     EXPECT_TRUE(status.ok()) << status.error().message;
     const JobBuffers buffers = job.buffers();
     HostBuffer counts = copy_of(commands, buffers.counts, sizeof(RecordedCounts));
@@ -129,9 +129,9 @@ class RecordedJob : public testing::Test {
   }
 
   /// The same spheres as those of a separate extraction, to the rounding of the change of units.
-  void expect_same(Context& context, const MeshView& mesh, const ExtractionOptions& parameters,
-                   const Recorded& recorded, const Placement& placement) {
-    const Result<Extraction> direct = test::extract_spheres(context, mesh, parameters);
+  void expect_same(Context& context, const MeshView& mesh, const ExtractionOptions& options, const Recorded& recorded,
+                   const Placement& placement) {
+    const Result<Extraction> direct = test::extract_spheres(context, mesh, options);
     ASSERT_TRUE(direct.ok()) << direct.error().message;
     EXPECT_EQ(recorded.counts.complete, 1u);
     EXPECT_EQ(recorded.counts.undecided, direct.value().undecided.size());
@@ -159,7 +159,7 @@ class RecordedJob : public testing::Test {
   }
 
   template <class Meshes>
-  void expect_followed(const Meshes& meshes, const ExtractionOptions& parameters);
+  void expect_followed(const Meshes& meshes, const ExtractionOptions& options);
 
   std::unique_ptr<VulkanHost> vulkan_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
@@ -168,14 +168,14 @@ class RecordedJob : public testing::Test {
 TEST_F(RecordedJob, FindsTheSpheresOfADirectExtraction) {
   Context context = adopt();
   const DeformingTorus torus(24, 48);
-  const ExtractionOptions parameters = parameters_for(48);
-  auto job = test::make_job(context, torus.view(), parameters, {1, 6});
+  const ExtractionOptions options = options_for(48);
+  auto job = test::make_job(context, torus.view(), options, {1, 6});
   ASSERT_TRUE(job.ok()) << job.error().message;
   const Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.vertices, 6u);
   EXPECT_EQ(recorded.counts.first_vertex, 0u);
   EXPECT_EQ(recorded.counts.first_instance, 0u);
-  expect_same(context, torus.view(), parameters, recorded, job.value().placement());
+  expect_same(context, torus.view(), options, recorded, job.value().placement());
 }
 
 /// Centres inside and radii that are distances, as measured by a scene of the mesh, which has a tree of its own: the
@@ -203,10 +203,10 @@ void expect_medial(Context& context, const MeshView& mesh, const Recorded& recor
 /// Earlier recordings make no difference: the last mesh of a sequence gives the same results as by itself. (A mesh that
 /// was moved has the tree of the previous one, so its spheres are not those of a new one to the last bit.)
 template <class Meshes>
-void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions& parameters) {
+void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions& options) {
   Context context = adopt();
   const IndexedMesh first = test::indexed(meshes.front().view());
-  const auto create = [&] { return ExtractionJob::create(context, first, parameters).value(); };
+  const auto create = [&] { return ExtractionJob::create(context, first, options).value(); };
   IndexedMesh indexed = first;
   ExtractionJob job = create();
   for (const auto& mesh : meshes) {
@@ -227,25 +227,25 @@ void RecordedJob::expect_followed(const Meshes& meshes, const ExtractionOptions&
 TEST_F(RecordedJob, FollowsAMeshThatMoves) {
   std::vector<DeformingTorus> meshes;
   for (const double phase : {0.2, 0.6, 0.6, 0.9}) meshes.emplace_back(24, 48).deform(phase);
-  expect_followed(meshes, parameters_for(40));
+  expect_followed(meshes, options_for(40));
 }
 
 TEST_F(RecordedJob, FollowsABoxOfAnotherShape) {
   std::vector<Box> meshes;
   for (const double height : {0.3, 1.0, 5.0, 0.5}) meshes.emplace_back(height);
-  expect_followed(meshes, parameters_for(30));
+  expect_followed(meshes, options_for(30));
 }
 
 TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
   Context context = adopt();
-  const ExtractionOptions parameters = parameters_for(30);
+  const ExtractionOptions options = options_for(30);
   IndexedMesh indexed = test::indexed(Box(1).view());
-  auto job = ExtractionJob::create(context, indexed, parameters, {2, 4});
+  auto job = ExtractionJob::create(context, indexed, options, {2, 4});
   ASSERT_TRUE(job.ok()) << job.error().message;
   std::array<RecordedCounts, 2> expected;
   const std::array<double, 2> heights = {0.5, 2.0};
   for (int i = 0; i < 2; ++i) {
-    const auto direct = test::extract_spheres(context, Box(heights[i]).view(), parameters);
+    const auto direct = test::extract_spheres(context, Box(heights[i]).view(), options);
     ASSERT_TRUE(direct.ok());
     expected[i].spheres = static_cast<std::uint32_t>(direct.value().spheres.size());
   }
@@ -253,7 +253,7 @@ TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
   for (const double height : heights) {
     ASSERT_TRUE(test::move(job.value(), indexed, Box(height).view()).ok());
     const VkCommandBuffer commands = begin();
-    ASSERT_TRUE(record(commands, job.value()).ok());
+    ASSERT_TRUE(job.value().record(commands).ok());
     end_and_submit(commands);
   }
   ASSERT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
@@ -262,9 +262,9 @@ TEST_F(RecordedJob, TwoFramesInFlightHaveTheirOwnMeshes) {
 
 TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
   Context context = adopt();
-  ExtractionOptions parameters = parameters_for(160);
-  parameters.memory_budget = 8u << 20;
-  auto job = test::make_job(context, Box(1).view(), parameters);
+  ExtractionOptions options = options_for(160);
+  options.memory_budget = 8u << 20;
+  auto job = test::make_job(context, Box(1).view(), options);
   ASSERT_TRUE(job.ok()) << job.error().message;
   const Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.complete, 0u);
@@ -275,49 +275,49 @@ TEST_F(RecordedJob, SaysThatItsMemoryIsTooSmall) {
 TEST_F(RecordedJob, TakesMoreRoundsForLongerLists) {
   Context context = adopt();
   const DeformingTorus torus(200, 300);
-  const ExtractionOptions parameters = parameters_for(2);  // every voxel meets nearly all 120,000 triangles
-  auto job = test::make_job(context, torus.view(), parameters);
+  const ExtractionOptions options = options_for(2);  // every voxel meets nearly all 120,000 triangles
+  auto job = test::make_job(context, torus.view(), options);
   ASSERT_TRUE(job.ok()) << job.error().message;
   Recorded recorded = run(job.value());
   EXPECT_EQ(recorded.counts.complete, 0u);
   for (int tries = 0; tries < 3 && recorded.counts.complete == 0; ++tries) recorded = run(job.value());
-  expect_same(context, torus.view(), parameters, recorded, job.value().placement());
+  expect_same(context, torus.view(), options, recorded, job.value().placement());
 }
 
 TEST_F(RecordedJob, RefusesWhatCannotBeRecorded) {
   Context context = adopt();
   const Box box(1);
-  ExtractionOptions parameters = parameters_for(20);
-  parameters.mode = Mode::kThesis;
-  EXPECT_EQ(test::make_job(context, box.view(), parameters).error().code, ErrorCode::kUsage);
-  parameters.mode = Mode::kCertified;
-  EXPECT_EQ(test::make_job(context, box.view(), parameters, {0, 4}).error().code, ErrorCode::kUsage);
+  ExtractionOptions options = options_for(20);
+  options.mode = Mode::kThesis;
+  EXPECT_EQ(test::make_job(context, box.view(), options).error().code, ErrorCode::kUsage);
+  options.mode = Mode::kCertified;
+  EXPECT_EQ(test::make_job(context, box.view(), options, {0, 4}).error().code, ErrorCode::kUsage);
   IndexedMesh indexed = test::indexed(box.view());
-  auto job = ExtractionJob::create(context, indexed, parameters);
+  auto job = ExtractionJob::create(context, indexed, options);
   ASSERT_TRUE(job.ok());
   // Flat in all directions.
   std::vector<Point> together(8, Point{1, 1, 1});
   MeshView collapsed = box.view();
   collapsed.vertices = together;
   EXPECT_EQ(test::move(job.value(), indexed, collapsed).error().code, ErrorCode::kInvalidMesh);
-  EXPECT_EQ(record(begin(), job.value()).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(job.value().record(begin()).error().code, ErrorCode::kInvalidMesh);
   ASSERT_TRUE(test::move(job.value(), indexed, box.view()).ok());
   EXPECT_EQ(test::move(job.value(), indexed, box.view()).error().code, ErrorCode::kUsage);
   const Recorded recorded = run(job.value());
-  expect_same(context, box.view(), parameters, recorded, job.value().placement());
+  expect_same(context, box.view(), options, recorded, job.value().placement());
 }
 
 TEST_F(RecordedJob, TheDeviceOutlivesItsContexts) {
   const Box box(1);
   for (int i = 0; i < 3; ++i) {
     Context context = adopt();
-    auto job = test::make_job(context, box.view(), parameters_for(20));
+    auto job = test::make_job(context, box.view(), options_for(20));
     ASSERT_TRUE(job.ok());
     EXPECT_EQ(run(job.value()).counts.complete, 1u);
     // And one of its own beside it.
     Result<Context> own = Context::create({.device = "", .validation = false, .cache_folder = "/dev/null"});
     ASSERT_TRUE(own.ok());
-    EXPECT_TRUE(test::extract_spheres(own.value(), box.view(), parameters_for(20)).ok());
+    EXPECT_TRUE(test::extract_spheres(own.value(), box.view(), options_for(20)).ok());
   }
 }
 

@@ -41,8 +41,8 @@ class BothModes : public testing::TestWithParam<Mode> {
  protected:
   void SetUp() override {
     MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-    parameters_.mode = GetParam();
-    parameters_.resolution = 24;
+    options_.mode = GetParam();
+    options_.resolution = 24;
   }
 
   static PreparedMesh solid() {
@@ -51,32 +51,32 @@ class BothModes : public testing::TestWithParam<Mode> {
     return test::prepare(std::move(mesh));
   }
 
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
 };
 
 TEST_P(BothModes, TwiceTheSameBytes) {
   const PreparedMesh mesh = solid();
   Context context = test::make_context();
-  const CertifiedExtraction first = test::extract_on_device(context, mesh, parameters_);
-  const CertifiedExtraction second = test::extract_on_device(context, mesh, parameters_);
+  const CertifiedExtraction first = test::extract_on_device(context, mesh, options_);
+  const CertifiedExtraction second = test::extract_on_device(context, mesh, options_);
   EXPECT_GT(first.extraction.spheres.size(), 100u);
   expect_same_bytes(first.extraction, second.extraction);
-  EXPECT_TRUE(test::passes_certificate(mesh, first.extraction, parameters_));
+  EXPECT_TRUE(test::passes_certificate(mesh, first.extraction, options_));
 }
 
 TEST_P(BothModes, MemoryOnlyCutsTheWork) {
   const PreparedMesh mesh = solid();
   Context context = test::make_context();
-  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, parameters_);
-  parameters_.memory_budget = 64ull << 20;
-  const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters_);
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, options_);
+  options_.memory_budget = 64ull << 20;
+  const CertifiedExtraction tight = test::extract_on_device(context, mesh, options_);
   expect_same_bytes(roomy.extraction, tight.extraction);
   // The budget falls until chunks overflow and are run again in parts (mode thesis chooses chunks that fit).
   std::uint64_t retries = 0;
   for (std::uint64_t budget = 16ull << 20; retries == 0; budget = budget * 3 / 4) {
     ASSERT_GE(budget, 4ull << 20) << "no chunk has overflowed";
-    parameters_.memory_budget = budget;
-    const CertifiedExtraction cut = test::extract_on_device(context, mesh, parameters_);
+    options_.memory_budget = budget;
+    const CertifiedExtraction cut = test::extract_on_device(context, mesh, options_);
     expect_same_bytes(roomy.extraction, cut.extraction);
     if (GetParam() == Mode::kThesis) break;
     retries = cut.extraction.measurements.counters.retries;
@@ -91,11 +91,11 @@ TEST(Determinism, SmallChunksGiveTheSame) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
   Context context = test::make_context();
-  ExtractionOptions parameters;
-  parameters.resolution = 100;
-  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, parameters);
-  parameters.memory_budget = 6ull << 20;
-  const CertifiedExtraction tight = test::extract_on_device(context, mesh, parameters);
+  ExtractionOptions options;
+  options.resolution = 100;
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, options);
+  options.memory_budget = 6ull << 20;
+  const CertifiedExtraction tight = test::extract_on_device(context, mesh, options);
   expect_same_bytes(roomy.extraction, tight.extraction);
 }
 
@@ -104,9 +104,9 @@ TEST_P(BothModes, NoValidationMessages) {
   Mesh box = test::make_box({1, 0.7, 0.5});
   test::rotate(box, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(box));
-  parameters_.resolution = 12;
+  options_.resolution = 12;
   Context context = test::make_context(true);
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters_);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options_);
   EXPECT_GT(result.extraction.spheres.size(), 50u);
   EXPECT_EQ(context.validation_messages(), 0u);
 }

@@ -61,9 +61,9 @@ void expect_none_lost(const std::vector<MedialSample>& samples, const Extraction
 }
 
 void expect_none_lost_by_the_reference(const std::vector<MedialSample>& samples, const PreparedMesh& mesh,
-                                       const ExtractionOptions& parameters) {
+                                       const ExtractionOptions& options) {
   SCOPED_TRACE("the reference");
-  const auto result = extract_and_certify(test::indexed(mesh), parameters, reference_extractor());
+  const auto result = extract_and_certify(test::indexed(mesh), options, reference_extractor());
   ASSERT_TRUE(result.ok()) << result.error().message;
   expect_none_lost(samples, result.value().extraction);
 }
@@ -93,14 +93,14 @@ TEST_P(DismissalOfSolids, LosesNoSalientSample) {
   const PreparedMesh mesh = test::prepare(solid->make());
   const std::vector<MedialSample> samples = draw(mesh, object_angle, wanted);
   ASSERT_EQ(samples.size(), wanted);
-  ExtractionOptions parameters;
-  parameters.object_angle = object_angle;
-  parameters.resolution = 40;
-  expect_none_lost_by_the_reference(samples, mesh, parameters);
+  ExtractionOptions options;
+  options.object_angle = object_angle;
+  options.resolution = 40;
+  expect_none_lost_by_the_reference(samples, mesh, options);
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   SCOPED_TRACE("the device");
   Context context = test::make_context();
-  expect_none_lost(samples, test::extract_on_device(context, mesh, parameters).extraction);
+  expect_none_lost(samples, test::extract_on_device(context, mesh, options).extraction);
 }
 
 std::string test_name(const testing::TestParamInfo<DismissalCase>& info) {
@@ -135,13 +135,13 @@ TEST(Dismissal, OfAMessLosesNoSalientSample) {
   ASSERT_GT(mesh.report.intersecting_faces, 0u);
   const std::vector<MedialSample> samples = draw(mesh, 0.6, 4000);
   ASSERT_GT(samples.size(), 1000u);
-  ExtractionOptions parameters;
-  parameters.resolution = 40;
-  expect_none_lost_by_the_reference(samples, mesh, parameters);
+  ExtractionOptions options;
+  options.resolution = 40;
+  expect_none_lost_by_the_reference(samples, mesh, options);
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   SCOPED_TRACE("the device");
   Context context = test::make_context();
-  const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
+  const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
   expect_none_lost(samples, extraction);
   const std::uint64_t visited = extraction.measurements.counters.found + extraction.measurements.counters.undecided +
                                 extraction.measurements.counters.proved_empty;
@@ -211,10 +211,10 @@ TEST(Dismissal, AtFinsAndFansLosesNoSalientSample) {
     for (const double angle : {0.4, 0.9}) {
       const std::vector<MedialSample> samples = draw(mesh, angle, 1500);
       ASSERT_EQ(samples.size(), 1500u);
-      ExtractionOptions parameters;
-      parameters.object_angle = angle;
-      parameters.resolution = 40;
-      const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
+      ExtractionOptions options;
+      options.object_angle = angle;
+      options.resolution = 40;
+      const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
       expect_none_lost(samples, extraction);
       const ExtractionCounters& c = extraction.measurements.counters;
       EXPECT_LT(100 * c.undecided, c.found + c.undecided + c.proved_empty) << c.undecided;

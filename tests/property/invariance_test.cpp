@@ -21,8 +21,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Clearly salient, clearly inside its voxel: neither rounding nor the order of the search decides about it.
-bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionOptions& parameters) {
-  return static_cast<double>(s.object_angle) >= parameters.object_angle + 0.05 &&
+bool is_clear(const Extraction& e, const MedialSphere& s, const ExtractionOptions& options) {
+  return static_cast<double>(s.object_angle) >= options.object_angle + 0.05 &&
          test::depth_in_voxel(e.grid, test::to_eigen(s.centre)) >= 0.05;
 }
 
@@ -30,11 +30,11 @@ using VoxelMap = std::function<test::Voxel(const test::Voxel&)>;
 
 /// The number of clear points of `from` without a point of `to` in their mapped voxel.
 std::size_t clear_points_without_partner(const Extraction& from, const Extraction& to, const VoxelMap& map,
-                                         const ExtractionOptions& parameters) {
+                                         const ExtractionOptions& options) {
   const test::SphereByVoxel found = test::spheres_by_voxel(to);
   std::size_t missing = 0;
   for (const auto& [voxel, index] : test::spheres_by_voxel(from)) {
-    missing += !found.contains(map(voxel)) && is_clear(from, from.spheres[index], parameters);
+    missing += !found.contains(map(voxel)) && is_clear(from, from.spheres[index], options);
   }
   return missing;
 }
@@ -57,7 +57,7 @@ class Invariance : public testing::Test {
   void SetUp() override {
     MEDIAL_VK_SKIP_WITHOUT_DEVICE();
     context_ = std::make_unique<Context>(test::make_context());
-    parameters_.resolution = 24;
+    options_.resolution = 24;
     solid_ = test::make_cup(1, 0.25, 1.2, 32);
     test::rotate(solid_, {0.3, 0.5, 0.8}, 0.7);
     // Corners with few binary digits: 2^-20 is far below a voxel, and the changes below are exact.
@@ -68,7 +68,7 @@ class Invariance : public testing::Test {
   }
 
   Extraction extract(const Mesh& solid) {
-    const CertifiedExtraction result = test::extract_on_device(*context_, test::prepare(solid), parameters_);
+    const CertifiedExtraction result = test::extract_on_device(*context_, test::prepare(solid), options_);
     EXPECT_GT(result.extraction.spheres.size(), 500u);
     return result.extraction;
   }
@@ -76,12 +76,12 @@ class Invariance : public testing::Test {
   /// At most one clear point in 200 may differ: a voxel that one search leaves undecided.
   void expect_clear_points_agree(const Extraction& other, const VoxelMap& map, const VoxelMap& back) {
     const std::size_t most = 1 + base_.spheres.size() / 200;
-    EXPECT_LE(clear_points_without_partner(base_, other, map, parameters_), most);
-    EXPECT_LE(clear_points_without_partner(other, base_, back, parameters_), most);
+    EXPECT_LE(clear_points_without_partner(base_, other, map, options_), most);
+    EXPECT_LE(clear_points_without_partner(other, base_, back, options_), most);
   }
 
   std::unique_ptr<Context> context_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
   Mesh solid_;
   Extraction base_;
 };
@@ -144,8 +144,8 @@ TEST_F(Invariance, FacesInAnotherOrder) {
 TEST_F(Invariance, QuarterTurnOfTheGrid) {
   int along = 0;
   for (int k = 1; k < 3; ++k) along = base_.grid.size[k] > base_.grid.size[along] ? k : along;
-  ASSERT_EQ(base_.grid.size[along], parameters_.resolution);
-  const int other = (along + 1) % 3, last = static_cast<int>(parameters_.resolution) - 1;
+  ASSERT_EQ(base_.grid.size[along], options_.resolution);
+  const int other = (along + 1) % 3, last = static_cast<int>(options_.resolution) - 1;
   Mesh turned = solid_;
   for (Point& p : turned.vertices) {
     std::swap(p[along], p[other]);
@@ -175,7 +175,7 @@ TEST_F(Invariance, GenericRotation) {
   const auto expect_partners = [&](const Extraction& from, const Extraction& to, const Matrix3d& map) {
     const double reach = 2 * std::max(from.grid.voxel_size, to.grid.voxel_size);
     for (const MedialSphere& s : from.spheres) {
-      if (!is_clear(from, s, parameters_)) continue;
+      if (!is_clear(from, s, options_)) continue;
       const Vector3d p = map * test::to_eigen(s.centre);
       const bool has_partner = std::any_of(to.spheres.begin(), to.spheres.end(), [&](const MedialSphere& t) {
         return (test::to_eigen(t.centre) - p).norm() <= reach;

@@ -22,13 +22,13 @@ TEST(OpenReference, ATorusWithAHoleKeepsItsCircleElsewhere) {
   });
   const PreparedMesh prepared = test::prepare(mesh);
   ASSERT_FALSE(prepared.report.closed);
-  ExtractionOptions parameters;
-  parameters.resolution = 16;
-  parameters.extra_levels = 2;
-  const auto result = extract_and_certify(test::indexed(prepared), parameters, reference_extractor());
+  ExtractionOptions options;
+  options.resolution = 16;
+  options.extra_levels = 2;
+  const auto result = extract_and_certify(test::indexed(prepared), options, reference_extractor());
   ASSERT_TRUE(result.ok()) << result.error().message;
   const Extraction& extraction = result.value().extraction;
-  EXPECT_TRUE(test::passes_certificate(prepared, extraction, parameters));
+  EXPECT_TRUE(test::passes_certificate(prepared, extraction, options));
   // Away from the hole the medial surface is the circle as before: it crosses more voxels than fit its half.
   std::size_t on_circle = 0;
   for (const MedialSphere& s : extraction.spheres) {

@@ -25,10 +25,10 @@ using namespace test;
 
 /// Medial balls, first the largest that do not hold each other's centres.
 std::vector<Ball> spread_balls(const PreparedMesh& mesh, std::size_t count) {
-  ExtractionOptions parameters;
-  parameters.resolution = 14;
-  parameters.extra_levels = 1;
-  const CertifiedExtraction found = extract_and_certify(test::indexed(mesh), parameters, reference_extractor()).value();
+  ExtractionOptions options;
+  options.resolution = 14;
+  options.extra_levels = 1;
+  const CertifiedExtraction found = extract_and_certify(test::indexed(mesh), options, reference_extractor()).value();
   std::vector<Ball> all, chosen;
   for (const MedialSphere& sphere : found.extraction.spheres) all.push_back({sphere.centre, sphere.radius});
   while (chosen.size() < count && !all.empty()) {

@@ -26,9 +26,9 @@ PreparedMesh read_torus(std::uint32_t around, std::uint32_t along) {
 }
 
 /// Finds that the medial surface is the circle in its middle. The certified points.
-CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionOptions& parameters) {
+CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionOptions& options) {
   Context context = test::make_context();
-  CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   EXPECT_EQ(result.certificate.rejected, 0u);
   // Its length over the diagonal of a voxel: it crosses more than that.
   const VoxelGrid& grid = result.extraction.grid;
@@ -44,10 +44,10 @@ CertifiedExtraction expect_circle(const PreparedMesh& mesh, const ExtractionOpti
 TEST(LargeMesh, TheCircleInATorusOfHalfAMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const PreparedMesh mesh = read_torus(350, 716);
-  ExtractionOptions parameters;
-  parameters.resolution = 20;
-  const CertifiedExtraction result = expect_circle(mesh, parameters);
-  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  ExtractionOptions options;
+  options.resolution = 20;
+  const CertifiedExtraction result = expect_circle(mesh, options);
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, options));
 }
 
 // Everything but the extraction, so that it can run with all other tests: bytes, preparation, tree, queries.
@@ -76,9 +76,9 @@ TEST(LargeMesh, DistancesToATorusOfFiveMillionTriangles) {
 // More than a minute: scripts/soak runs it. (At a low resolution the lists of triangles are long: slower, not faster.)
 TEST(LargeMesh, DISABLED_TheCircleInATorusOfFiveMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  ExtractionOptions parameters;
-  parameters.resolution = 80;
-  expect_circle(read_torus(1250, 2000), parameters);
+  ExtractionOptions options;
+  options.resolution = 80;
+  expect_circle(read_torus(1250, 2000), options);
 }
 
 }  // namespace

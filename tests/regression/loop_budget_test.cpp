@@ -22,20 +22,20 @@ constexpr std::uint64_t kLoopBudget = 65535;
 void expect_centre_found(std::uint32_t resolution, std::uint32_t triangles, CertifiedExtraction& result) {
   const PreparedMesh mesh = test::prepare(test::make_sphere(1, triangles));
   ASSERT_GT(mesh.mesh.triangles.size(), 3 * kLoopBudget);
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
-  parameters.object_angle = 0.6;
+  ExtractionOptions options;
+  options.resolution = resolution;
+  options.object_angle = 0.6;
   Context context = test::make_context();
-  result = test::extract_on_device(context, mesh, parameters);
+  result = test::extract_on_device(context, mesh, options);
   SCOPED_TRACE(test::describe(result));
   ASSERT_EQ(result.extraction.spheres.size(), resolution % 2 == 1 ? 1u : 8u);
-  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, options));
   EXPECT_EQ(result.extraction.measurements.counters.undecided, 0u);
   EXPECT_EQ(result.certificate.rejected, 0u);
   // Frequency 100 or more: edges up to 0.02, facets up to edge^2 / 5 = 8e-5 below the sphere, their normals turned by
   // 0.02 at most. A point that passes as salient lies within (2 epsilon + 2 * 8e-5) / (cos 0.02 - cos 0.6) of the
   // centre: see salient_reach() in tests/analytic/smooth_solids_test.cpp.
-  const double epsilon = parameters.epsilon * result.extraction.grid.voxel_size;
+  const double epsilon = options.epsilon * result.extraction.grid.voxel_size;
   const double reach = (2 * epsilon + 2 * 8e-5) / (std::cos(0.02) - std::cos(0.6));
   for (const MedialSphere& s : result.extraction.spheres) {
     for (std::uint32_t coordinate : s.voxel) {

@@ -18,16 +18,16 @@ TEST(MendedBall, VoxelNextToAReflexEdgeKeepsItsPoint) {
   const auto solid = std::find_if(solids.begin(), solids.end(), [](const auto& s) { return s.name == "l-shape"; });
   ASSERT_NE(solid, solids.end());
   const PreparedMesh mesh = test::prepare(solid->make());
-  ExtractionOptions parameters;
-  parameters.resolution = 160;
-  parameters.object_angle = 0.9;
+  ExtractionOptions options;
+  options.resolution = 160;
+  options.object_angle = 0.9;
   Context context = test::make_context();
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   EXPECT_EQ(result.certificate.rejected, 0u);
   const std::array<std::uint32_t, 3> voxel = {61, 44, 59};
   const auto& spheres = result.extraction.spheres;
   EXPECT_TRUE(std::any_of(spheres.begin(), spheres.end(), [&](const MedialSphere& s) { return s.voxel == voxel; }));
-  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, options));
 }
 
 }  // namespace

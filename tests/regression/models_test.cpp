@@ -44,17 +44,17 @@ TEST_P(RealModel, IsExtractedAndPassesTheCertificate) {
   if (!GetParam().closed) {
     EXPECT_FALSE(mesh.report.assumptions.empty()) << "an open mesh is never accepted without a message";
   }
-  ExtractionOptions parameters;
+  ExtractionOptions options;
   // Next to open edges little can be dismissed, and voxels are subdivided to the end: several times slower.
-  parameters.resolution = GetParam().closed ? 160 : 80;
+  options.resolution = GetParam().closed ? 160 : 80;
   Context context = test::make_context();
-  const CertifiedExtraction result = test::extract_on_device(context, mesh, parameters);
+  const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   std::cout << GetParam().name << ": " << test::describe(result) << "\n";
   const ExtractionCounters& c = result.extraction.measurements.counters;
   EXPECT_GT(c.found, 500u);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
-  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, parameters));
-  const std::size_t finest = c.levels.size() - 1 - parameters.extra_levels;
+  EXPECT_TRUE(test::passes_certificate(mesh, result.extraction, options));
+  const std::size_t finest = c.levels.size() - 1 - options.extra_levels;
   const double visited = static_cast<double>(c.levels[finest].visited);
   const auto& undecided = result.extraction.undecided;
   ASSERT_EQ(undecided.size(), c.undecided);
@@ -78,14 +78,14 @@ TEST_P(RealTopology, IsThatOfTheMedialMesh) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   if (!std::filesystem::exists(file_of(GetParam().name))) GTEST_SKIP() << kNoModels;
   const PreparedMesh mesh = test::prepare(read_mesh(file_of(GetParam().name)).value());
-  ExtractionOptions parameters;
-  parameters.resolution = 120;
+  ExtractionOptions options;
+  options.resolution = 120;
   Context context = test::make_context();
-  const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
+  const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, options, SheetOptions()).value();
   const double voxel = extraction.grid.voxel_size;
   const Result<MedialMesh> medial_mesh =
-      make_medial_mesh(extraction.spheres, sheets, {voxel, parameters.epsilon * voxel, 0});
+      make_medial_mesh(extraction.spheres, sheets, {voxel, options.epsilon * voxel, 0});
   ASSERT_TRUE(medial_mesh.ok());
   EXPECT_EQ(medial_mesh.value().topology.betti, (BettiNumbers{1, GetParam().tunnels, 0}));
   // The mesh is a surface and has no layers: it has little more than two triangles and three edges per point.
@@ -102,10 +102,10 @@ struct Weighed {
 };
 
 Weighed weigh_sheets(Context& context, const PreparedMesh& mesh, std::uint32_t resolution) {
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
-  const Extraction extraction = test::extract_on_device(context, mesh, parameters).extraction;
-  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, parameters, SheetOptions());
+  ExtractionOptions options;
+  options.resolution = resolution;
+  const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
+  const Sheets sheets = find_sheets(extraction.spheres, extraction.grid, options, SheetOptions()).value();
   std::vector<Ball> balls;
   for (const MedialSphere& s : extraction.spheres) balls.push_back({s.centre, s.radius});
   const VoxelGraph graph(extraction.spheres);

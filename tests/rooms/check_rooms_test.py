@@ -129,6 +129,9 @@ class CheckRooms(unittest.TestCase):
     def test_sizes(self):
         many = {f"tests/many/a{i}.h": "" for i in range(26)}
         self.check([("tests/many:1:", "26 sources")], files=many)
+        many = {f"src/cli/a{i}.h": "" for i in range(25)}
+        self.check([("src/cli:1:", "26 sources")], files=many)
+        self.check(None, files={**many, "cmake/rooms.txt": ROOMS + "  many one for each option\n"})
         self.check([("tests/big.h:1:", "401 lines")], files={"tests/big.h": "\n" * 401})
         self.check(None, files={"tests/big.h": "// long: a table.\n" + "\n" * 401})
         body = "  x();\n" * 79

@@ -36,25 +36,24 @@ Context make_context(bool validation) {
   return value_or_throw(Context::create({.device = "", .validation = validation, .cache_folder = "/dev/null"}));
 }
 
-CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& parameters) {
-  ExtractionOptions on_one_thread = parameters;
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& options) {
+  ExtractionOptions on_one_thread = options;
   on_one_thread.threads = 1;
-  CertifiedExtraction result =
-      value_or_throw(extract_and_certify(indexed(mesh), on_one_thread, device_extractor(context)));
+  CertifiedExtraction result = value_or_throw(extract_and_certify(indexed(mesh), on_one_thread, context));
   check(result.extraction);
   return result;
 }
 
-reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& parameters) {
-  return reference::extract(medial_vk::to_reference(mesh), medial_vk::to_reference(parameters));
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& options) {
+  return reference::extract(medial_vk::to_reference(mesh), medial_vk::to_reference(options));
 }
 
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
-                                            const ExtractionOptions& parameters) {
+                                            const ExtractionOptions& options) {
   const VoxelGrid& grid = extraction.grid;
   const reference::Certificate certificate = reference::check(
       medial_vk::to_reference(mesh), medial_vk::to_reference(grid, extraction.spheres),
-      parameters.epsilon * grid.voxel_size, parameters.object_angle, parameters.radius * mesh.report.longest_side());
+      options.epsilon * grid.voxel_size, options.object_angle, options.radius * mesh.report.longest_side());
   if (certificate.passed()) return testing::AssertionSuccess();
   testing::AssertionResult failure = testing::AssertionFailure();
   for (const reference::CertificateLine& line : certificate.lines) {

@@ -24,15 +24,15 @@ Context make_context(bool validation = false);
 
 /// extract_and_certify() on the device, on one host thread; throws with the error's message, or if two points share a
 /// voxel or counts contradict each other.
-CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& parameters);
+CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& options);
 
-/// The independent reference with the same parameters: double precision, certified inside.
-reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& parameters);
+/// The independent reference with the same options: double precision, certified inside.
+reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& options);
 
 /// Whether every sphere passes every condition of the certificate, recomputed by the reference. The message names the
 /// conditions that fail and the first sphere of each.
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
-                                            const ExtractionOptions& parameters);
+                                            const ExtractionOptions& options);
 
 /// Counters and times in one line, for the messages of failed tests.
 std::string describe(const CertifiedExtraction& result);

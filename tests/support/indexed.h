@@ -28,7 +28,7 @@ inline Result<Extraction> extract_spheres(Context& context, const MeshView& mesh
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {}) {
   Result<IndexedMesh> made = IndexedMesh::build(mesh, options.threads);
   if (!made.ok()) return made.error();
-  return extract_medial_spheres(context, made.value(), options, progress, stop);
+  return extract_medial_spheres(made.value(), options, context, progress, stop);
 }
 
 /// Scene::create() of a mesh that is indexed for it.

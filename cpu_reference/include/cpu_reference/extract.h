@@ -12,7 +12,7 @@
 
 namespace medial_vk::reference {
 
-struct Parameters {
+struct Options {
   bool certified = true;
   int resolution = 160;                              // voxels along the longest side of the bounding box
   double object_angle = 0.6;                         // radians
@@ -70,6 +70,6 @@ struct Result {
 
 /// The method of Sections 2.3 to 2.4 as published, or the certified method; every ball of both passes check()
 /// (certificate.h). `progress` receives the completed share and returns false to stop.
-Result extract(const Mesh& mesh, const Parameters& parameters, const std::function<bool(double)>& progress = {});
+Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress = {});
 
 }  // namespace medial_vk::reference

@@ -47,10 +47,10 @@ Vector3i child_of(const Vector3i& cell, int k) { return 2 * cell + Vector3i(k & 
 
 double circumradius(double side) { return side * std::sqrt(0.75); }
 
-Thresholds::Thresholds(const Parameters& parameters, const Grid& grid, double longest_side)
-    : epsilon(parameters.epsilon * grid.voxel_size),
-      object_angle(parameters.object_angle),
-      radius(parameters.radius * longest_side),
-      deep_angle(std::min(parameters.object_angle, parameters.deep_angle)) {}
+Thresholds::Thresholds(const Options& options, const Grid& grid, double longest_side)
+    : epsilon(options.epsilon * grid.voxel_size),
+      object_angle(options.object_angle),
+      radius(options.radius * longest_side),
+      deep_angle(std::min(options.object_angle, options.deep_angle)) {}
 
 }  // namespace medial_vk::reference

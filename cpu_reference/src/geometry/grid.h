@@ -37,14 +37,14 @@ Eigen::Vector3i child_of(const Eigen::Vector3i& cell, int k);
 /// Half the diagonal of a cube with this side.
 double circumradius(double side);
 
-/// Lengths and angles for both modes, computed from the fractions in the parameters.
+/// Lengths and angles for both modes, computed from the fractions in the options.
 struct Thresholds {
   double epsilon;       // length
   double object_angle;  // theta
   double radius;        // length, 0: off
   double deep_angle;    // theta for points with radius >= `radius`
 
-  Thresholds(const Parameters& parameters, const Grid& grid, double longest_side);
+  Thresholds(const Options& options, const Grid& grid, double longest_side);
 
   /// The object angle required of a point at this distance from the boundary to be salient.
   double angle_at(double distance) const { return radius > 0 && distance >= radius ? deep_angle : object_angle; }

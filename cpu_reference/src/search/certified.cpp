@@ -19,13 +19,13 @@ class Certified {
  public:
   /// The trusted triangles of the mesh must be those of `cones`.
   Certified(const Mesh& mesh, const Tree& tree, const SpokeCones& cones, const Grid& grid, const Thresholds& thresholds,
-            const Parameters& parameters, Result& result)
+            const Options& options, Result& result)
       : mesh_(mesh),
         tree_(tree),
         grid_(grid),
         thresholds_(thresholds),
         sides_(mesh, tree),
-        search_(tree, cones, sides_, grid, thresholds, parameters.extra_levels, result),
+        search_(tree, cones, sides_, grid, thresholds, options.extra_levels, result),
         spiral_(spiral_points(kFluxSamples)),
         result_(result) {}
 
@@ -113,13 +113,13 @@ class Certified {
 
 }  // namespace
 
-void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
+void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options,
                        const CellLoop& loop, Result& result) {
-  const Thresholds thresholds(parameters, grid, tree.longest_side());
+  const Thresholds thresholds(options, grid, tree.longest_side());
   const SpokeCones cones(mesh, tree);
   Mesh careful = mesh;
   careful.trusted = cones.trusted();
-  Certified certified(careful, tree, cones, grid, thresholds, parameters, result);
+  Certified certified(careful, tree, cones, grid, thresholds, options, result);
   loop([&](const Vector3i& cell) { certified.run_top(cell); });
 }
 

@@ -8,14 +8,14 @@ namespace medial_vk::reference {
 
 using Eigen::Vector3i;
 
-Result extract(const Mesh& mesh, const Parameters& parameters, const std::function<bool(double)>& progress) {
+Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress) {
   const Tree tree(mesh);
-  const Grid grid(tree, parameters.resolution);
+  const Grid grid(tree, options.resolution);
   Result result;
   result.grid_origin = grid.origin;
   result.voxel_size = grid.voxel_size;
   result.grid_size = grid.size;
-  const int levels = grid.levels + (parameters.certified ? parameters.extra_levels : 0);
+  const int levels = grid.levels + (options.certified ? options.extra_levels : 0);
   for (int level = 0; level < levels; ++level) {
     result.levels.push_back({std::ldexp(grid.cell_size(0), -level), 0, 0, 0, 0});
   }
@@ -35,7 +35,7 @@ Result extract(const Mesh& mesh, const Parameters& parameters, const std::functi
       }
     }
   };
-  (parameters.certified ? extract_certified : extract_thesis)(mesh, tree, grid, parameters, loop, result);
+  (options.certified ? extract_certified : extract_thesis)(mesh, tree, grid, options, loop, result);
   sort_by_voxel(result.spheres);
   sort_by_voxel(result.undecided_voxels);
   return result;

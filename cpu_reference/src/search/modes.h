@@ -13,9 +13,9 @@ namespace medial_vk::reference {
 /// Runs a function for every top-level cell, with progress and interruption.
 using CellLoop = std::function<void(const std::function<void(const Eigen::Vector3i&)>&)>;
 
-void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
+void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options,
                        const CellLoop& loop, Result& result);
-void extract_thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
-                    const CellLoop& loop, Result& result);
+void extract_thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options, const CellLoop& loop,
+                    Result& result);
 
 }  // namespace medial_vk::reference

@@ -23,16 +23,16 @@ using Eigen::Vector3i;
 
 class Thesis {
  public:
-  Thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters, Result& result)
+  Thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options, Result& result)
       : tree_(tree),
         grid_(grid),
-        parameters_(parameters),
-        thresholds_(parameters, grid, tree.longest_side()),
+        options_(options),
+        thresholds_(options, grid, tree.longest_side()),
         sides_(mesh, tree),
         result_(result),
         same_contact_(1e-9 * tree.longest_side()) {
     for (int level = 0; level < grid.levels; ++level) {
-      spirals_.push_back(spiral_points(parameters.samples[4 - grid.levels + level]));
+      spirals_.push_back(spiral_points(options.samples[4 - grid.levels + level]));
     }
     closest_ = [this](const Vector3d& p) {
       ++result_.queries;
@@ -61,7 +61,7 @@ class Thesis {
 
  private:
   void visit_voxel(const Vector3i& voxel, const Vector3d& centre, bool sphere_inside) {
-    if (!sphere_inside && !parameters_.narrow_features) return;
+    if (!sphere_inside && !options_.narrow_features) return;
     const double side = grid_.voxel_size;
     const Flux flux = outward_flux(closest_, centre, side, spirals_.back());
     if (sphere_inside && !preselected(flux)) return;
@@ -109,7 +109,7 @@ class Thesis {
 
   const Tree& tree_;
   const Grid& grid_;
-  const Parameters& parameters_;
+  const Options& options_;
   const Thresholds thresholds_;
   const Sides sides_;
   Result& result_;
@@ -120,9 +120,9 @@ class Thesis {
 
 }  // namespace
 
-void extract_thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Parameters& parameters,
-                    const CellLoop& loop, Result& result) {
-  Thesis thesis(mesh, tree, grid, parameters, result);
+void extract_thesis(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options, const CellLoop& loop,
+                    Result& result) {
+  Thesis thesis(mesh, tree, grid, options, result);
   loop([&](const Vector3i& cell) { thesis.visit(cell, 0); });
 }
 

@@ -10,10 +10,14 @@
 #include "medial_vk/certify.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/measurements.h"
 #include "medial_vk/medial_mesh.h"
+#include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 
 namespace medial_vk {
+
+class Context;
 
 /// The parts of an analysis; only those requested are computed.
 struct AnalysisOptions {
@@ -60,10 +64,10 @@ struct Analysis {
 };
 
 /// Analyses a mesh with the medial spheres that `extractor` finds. `progress` is called with the stages "extract",
-/// "certify", "simplify", "volume", "sheets", "topology" and "medial mesh" and the finished share of each; a request to
-/// `stop`, from any thread, the callback included, ends the call within the stages "extract", "certify" and "topology",
-/// and after the current one otherwise. Does not throw. Errors: kUsage (an option out of
-/// range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal.
+/// "certify", "simplify" (with the grouping into sheets), "volume", "sheets" and "topology" (the orders of removal) and
+/// "medial mesh", and the finished share of each; a request to `stop`, from any thread, the callback included, ends the
+/// call within the stages "extract", "sheets" and "topology", and at the end of any other. Does not throw. Errors:
+/// kUsage (an option out of range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal.
 Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
                          const StageProgress& progress = {}, const std::stop_token& stop = {});
 

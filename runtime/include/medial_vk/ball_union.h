@@ -102,7 +102,7 @@ struct DeviceBallUnion {
 /// measured by the host, so the result is valid for all. On one device, the result is the same to the byte for any
 /// `threads`. Errors: kUsage (names the ball; a tolerance that is not positive), kOutOfMemory (of the host or of the
 /// device), kInternal (device lost).
-Result<DeviceBallUnion> measure_ball_union(Context& context, std::span<const Ball> balls,
-                                           const DeviceBallUnionOptions& options = {});
+Result<DeviceBallUnion> measure_ball_union(std::span<const Ball> balls, const DeviceBallUnionOptions& options,
+                                           Context& context);
 
 }  // namespace medial_vk

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "medial_vk/mesh_view.h"
@@ -42,8 +44,7 @@ class Bvh {
 
   /// The same tree with its leaves split further, for scattered queries on the host. It equals the tree that build()
   /// makes of the same triangles for `leaf_size`, if none has moved since and kMaxDepth does not matter, but without a
-  /// second sort; leaves that are smaller stay as they are. Errors:
-  /// kOutOfMemory.
+  /// second sort; leaves that are smaller stay as they are. Errors: kOutOfMemory.
   Result<Bvh> refined(std::uint32_t leaf_size) const;
 
   /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
@@ -62,9 +63,10 @@ class Bvh {
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
   /// Prepares several closest-point queries near one another: leaf positions of all triangles within `radius` of
   /// `centre`, and of some triangles beyond it, replace `positions`; closest_of() and find_within() then test no
-  /// others.
+  /// others. Throws std::bad_alloc.
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
-  /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`.
+  /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`. Throws
+  /// std::bad_alloc.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
   /// As closest(), among the triangles at these leaf positions and `best`, the best hit of other triangles.
   BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {}) const;

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <stop_token>
 #include <vector>
 
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/measurements.h"
+#include "medial_vk/result.h"
 
 namespace medial_vk {
+
+class Context;
 
 struct CertificateReport {
   std::uint64_t passed = 0;
@@ -21,8 +24,9 @@ struct CertificateReport {
 /// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and
 /// has no other sphere (of several the first stays). Spheres that fail are dropped; in mode certified their voxels are
 /// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as an
-/// extraction returns them. Throws std::bad_alloc.
-CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction);
+/// extraction returns them. Error: kOutOfMemory; `extraction` is then undefined.
+Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                          Extraction& extraction);
 
 /// The result of extract_and_certify(): every sphere satisfies the certificate.
 struct CertifiedExtraction {
@@ -34,6 +38,11 @@ struct CertifiedExtraction {
 /// Finds medial spheres and certifies them. Does not throw. Errors: those of the extractor; kOutOfMemory; kInterrupted.
 Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const ExtractionOptions& options,
                                                 const Extractor& extractor, const StageProgress& progress = {},
+                                                const std::stop_token& stop = {});
+
+/// The same on the device of `context`.
+Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                Context& context, const StageProgress& progress = {},
                                                 const std::stop_token& stop = {});
 
 }  // namespace medial_vk

@@ -64,10 +64,9 @@ class Context {
   /// Messages of the validation layer (warnings and errors) since creation; 0 without validation.
   std::uint64_t validation_messages() const;
 
-  class Impl;
-
  private:
   friend struct Internals;
+  class Impl;
   explicit Context(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include "medial_vk/indexed_mesh.h"
@@ -117,7 +116,7 @@ using StageProgress = std::function<void(const char* stage, double done)>;
 /// from any thread, the callback included: the device then finishes its current dispatch, and the context is as before.
 /// The spheres are exact to float; certify_spheres() (certify.h) gives the guarantee in double precision. Errors:
 /// kUsage (an option out of range), kInvalidMesh (no extent), kOutOfMemory, kInterrupted, kInternal (device lost).
-Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+Result<Extraction> extract_medial_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Context& context,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
 /// The same for a mesh that is on the device already, for repeated extractions without another upload.
@@ -130,7 +129,8 @@ using Extractor = std::function<Result<Extraction>(const IndexedMesh& mesh, cons
                                                    const ProgressCallback& progress, const std::stop_token& stop)>;
 
 /// An extractor on the device of `context`, which outlives it. The mesh of the last extraction stays on the device, so
-/// that its next extraction requires no upload. For one thread at a time. Throws std::bad_alloc.
+/// that its next extraction requires no upload. For one thread at a time. Does not throw: if there is no memory for it,
+/// its calls return kOutOfMemory.
 Extractor device_extractor(Context& context);
 
 }  // namespace medial_vk

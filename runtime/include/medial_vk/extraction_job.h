@@ -5,7 +5,7 @@
 //   for every frame:
 //     mesh.move_vertices(positions);        // if they have moved
 //     job.update(mesh);
-//     record(commands, job);                // outside of a render pass
+//     job.record(commands);                 // outside of a render pass
 //     ... barriers are recorded: commands that follow, or wait for these, may read job.buffers() ...
 //
 // The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may stick out of the
@@ -105,7 +105,5 @@ class ExtractionJob {
   explicit ExtractionJob(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
-
-inline Status record(VkCommandBuffer commands, ExtractionJob& job) { return job.record(commands); }
 
 }  // namespace medial_vk

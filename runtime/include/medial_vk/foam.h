@@ -16,9 +16,9 @@
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
-#include "medial_vk/scene.h"
 
 namespace medial_vk {
 
@@ -75,10 +75,10 @@ class Foam {
 
   /// An upper bound of the width of medial points in the hull at this depth or more (3.4). It is within about 5 % of
   /// the largest distance that the foam allows between two contacts, one of them at a site, unless that takes too many
-  /// parts.
+  /// parts. Throws std::bad_alloc.
   double width_bound(double depth = 0) const;
   /// Every medial point inside the sphere that is wider than `width` lies within this distance of the sphere (3.4). At
-  /// most the sphere's radius, which is the trivial bound; found to 1/256 of the radius.
+  /// most the sphere's radius, which is the trivial bound; found to 1/256 of the radius. Throws std::bad_alloc.
   double depth_bound(double width) const;
   /// The greatest depth of points in the sphere outside the hull.
   double uncovered_depth() const;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/context.h"
+#include "medial_vk/context.h"  // for Context::adopt()
 #include "medial_vk/result.h"
 
 namespace medial_vk {

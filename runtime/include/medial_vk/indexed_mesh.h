@@ -46,10 +46,9 @@ class IndexedMesh {
   /// coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
   Status move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags = {}, unsigned threads = 0);
 
-  struct Impl;
-
  private:
   friend struct Internals;
+  struct Impl;
   explicit IndexedMesh(std::shared_ptr<const Impl> impl);
   std::shared_ptr<const Impl> impl_;
 };

@@ -8,6 +8,7 @@
 
 #include "medial_vk/ball_union.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 

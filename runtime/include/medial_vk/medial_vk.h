@@ -16,6 +16,8 @@
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/mesh_view.h"
+#include "medial_vk/part_fits.h"
+#include "medial_vk/pose.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/result.h"
 #include "medial_vk/scene.h"

@@ -1,4 +1,5 @@
-// Errors without exceptions: every fallible call of the library returns a Result or a Status.
+// Errors without exceptions: every fallible call of the library returns a Result or a Status. A call whose comment
+// states that it throws std::bad_alloc returns its answer directly, and can fail only where the host has no memory.
 #pragma once
 
 #include <cassert>
@@ -8,15 +9,14 @@
 
 namespace medial_vk {
 
-/// The kind of an error.
+/// The kind of an error. The library has no values from 1000 on: they are free for a program, whose own Extractor may
+/// return them through the library.
 enum class ErrorCode : int {
   kInternal,     ///< A defect of the library, or a device that was lost.
   kUsage,        ///< An argument that the call does not accept; the message names it.
-  kInvalidMesh,  ///< A mesh that cannot be read, or that encloses nothing.
+  kInvalidMesh,  ///< An index out of range, a coordinate that is not finite, no extent, or nothing enclosed.
   kNoDevice,     ///< No usable Vulkan device.
   kOutOfMemory,  ///< Of the host or of the device.
-  kCannotWrite,  ///< A file that cannot be written.
-  kCheckFailed,  ///< Results that did not pass a check.
   kInterrupted,  ///< Stopped on request.
 };
 

@@ -2,7 +2,6 @@
 // results with the CPU reference, kernel by kernel.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -68,10 +67,9 @@ class Scene {
   /// 60,000.
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
 
-  class Impl;
-
  private:
   friend struct Internals;
+  class Impl;
   explicit Scene(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -8,6 +8,7 @@
 
 #include "medial_vk/ball_union.h"
 #include "medial_vk/extraction.h"
+#include "medial_vk/result.h"
 
 namespace medial_vk {
 
@@ -70,8 +71,10 @@ enum class SheetAreas { kMeasured, kLeftOut };
 
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` gives the object angle and epsilon of the points. Precondition: at most one point per voxel of `grid`.
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
-                   const SheetOptions& options, SheetAreas areas = SheetAreas::kMeasured);
+/// Error: kOutOfMemory.
+Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
+                           const ExtractionOptions& extraction, const SheetOptions& options,
+                           SheetAreas areas = SheetAreas::kMeasured);
 
 // The share of the volume that each sheet accounts for, and the order in which sheets are removed (Chapter 6).
 // docs/theory.md, "Significance".

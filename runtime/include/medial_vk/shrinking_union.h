@@ -5,7 +5,9 @@
 #include <memory>
 #include <span>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/ball_union.h"
+#include "medial_vk/result.h"
 
 namespace medial_vk {
 

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
-#include "medial_vk/certify.h"
-#include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/result.h"
 #include "medial_vk/sphere_measures.h"
 
 namespace medial_vk {
+
+class Context;
 
 /// The proved property of the balls (docs/theory.md, "Tight spheres").
 enum class SphereContract {
@@ -84,5 +85,9 @@ struct CoverageCurve {
 Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
                                              const Extractor& extractor, const StageProgress& progress = {},
                                              const std::stop_token& stop = {});
+
+/// The same on the device of `context`.
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+                                             const StageProgress& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace medial_vk

@@ -17,16 +17,23 @@ inline Point cross(const Point& a, const Point& b) {
 }
 inline double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
+inline Point least(const Point& a, const Point& b) {
+  return {std::min(a[0], b[0]), std::min(a[1], b[1]), std::min(a[2], b[2])};
+}
+inline Point greatest(const Point& a, const Point& b) {
+  return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
+}
+
 /// A unit vector perpendicular to `axis`, in the plane of `axis` and the coordinate axis closest to perpendicular to
 /// it.
 inline Point perpendicular_to(const Point& axis) {
-  std::size_t least = 0;
+  std::size_t along = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (std::fabs(axis[k]) < std::fabs(axis[least])) least = k;
+    if (std::fabs(axis[k]) < std::fabs(axis[along])) along = k;
   }
   Point across{};
-  across[least] = 1;
-  across = across - axis[least] * axis;
+  across[along] = 1;
+  across = across - axis[along] * axis;
   return (1 / length(across)) * across;
 }
 

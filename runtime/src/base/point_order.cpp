@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/host_memory.h"
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "bvh/bvh_boxes.h"
 #include "bvh/bvh_builder.h"
 #include "bvh/triangle_distance.h"

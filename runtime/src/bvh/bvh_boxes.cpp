@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

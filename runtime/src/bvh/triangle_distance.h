@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/mesh_view.h"
 
 namespace medial_vk {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <span>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "base/host_memory.h"
 #include "base/parallel.h"
 #include "certificate/near_triangles.h"
 #include "solid/solid.h"
@@ -249,7 +251,8 @@ void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extractio
 
 }  // namespace
 
-CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Extraction& extraction) {
+Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                          Extraction& extraction) try {
   std::vector<MedialSphere>& spheres = extraction.spheres;
   const Certifier certifier(mesh.bvh(), options, mesh.longest_side(), extraction.grid);
   std::vector<std::uint8_t> passed = first_of_voxels(spheres);
@@ -277,6 +280,8 @@ CertificateReport certify_spheres(const IndexedMesh& mesh, const ExtractionOptio
   extraction.measurements.counters.found -= report.rejected;
   extraction.measurements.counters.undecided += report.rejected;
   return report;
+} catch (const std::bad_alloc&) {
+  return out_of_memory("certifying medial spheres", "try a lower `resolution`");
 }
 
 }  // namespace medial_vk

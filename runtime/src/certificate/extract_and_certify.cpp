@@ -25,7 +25,9 @@ Result<CertifiedExtraction> run_stages(const IndexedMesh& mesh, const Extraction
 
   if (progress) progress("certify", 0.0);
   if (stop.stop_requested()) return interrupted();
-  out.certificate = certify_spheres(mesh, options, out.extraction);
+  Result<CertificateReport> certificate = certify_spheres(mesh, options, out.extraction);
+  if (!certificate) return certificate.error();
+  out.certificate = certificate.value();
   out.host_times.push_back({"certify", stopwatch.lap()});
   if (progress) progress("certify", 1.0);
   if (stop.stop_requested()) return interrupted();
@@ -44,6 +46,12 @@ Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const E
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, error.what()};
   }
+}
+
+Result<CertifiedExtraction> extract_and_certify(const IndexedMesh& mesh, const ExtractionOptions& options,
+                                                Context& context, const StageProgress& progress,
+                                                const std::stop_token& stop) {
+  return extract_and_certify(mesh, options, device_extractor(context), progress, stop);
 }
 
 }  // namespace medial_vk

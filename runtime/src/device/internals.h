@@ -1,6 +1,8 @@
 // The only access from a public handle to its Impl, for the parts of the library and its tests.
 #pragma once
 
+#include "medial_vk/context.h"
+
 namespace medial_vk {
 
 /// A friend of every public handle; callers include the header that defines the handle's Impl.
@@ -9,6 +11,14 @@ struct Internals {
   static auto& of(Handle& handle) {
     return *handle.impl_;
   }
+
+  /// The type of the Impl, whose name is private.
+  template <class Handle>
+  struct ImplOf {
+    using Type = typename Handle::Impl;
+  };
 };
+
+using ContextImpl = Internals::ImplOf<Context>::Type;
 
 }  // namespace medial_vk

@@ -47,7 +47,7 @@ Status check_limits(const VkPhysicalDeviceLimits& limits, const ProgramKey& key)
   return {};
 }
 
-VkResult create_set_layout(const Context::Impl& context, Program& program) {
+VkResult create_set_layout(const ContextImpl& context, Program& program) {
   std::vector<VkDescriptorSetLayoutBinding> bindings(program.key.storage_buffers + program.key.texel_buffers);
   for (std::uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i].binding = i;
@@ -64,7 +64,7 @@ VkResult create_set_layout(const Context::Impl& context, Program& program) {
                                                 &program.set_layout);
 }
 
-VkResult create_layout(const Context::Impl& context, Program& program) {
+VkResult create_layout(const ContextImpl& context, Program& program) {
   VkPushConstantRange range{};
   range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
   range.size = program.key.push_constant_bytes;
@@ -77,7 +77,7 @@ VkResult create_layout(const Context::Impl& context, Program& program) {
   return context.vk.vkCreatePipelineLayout(context.device, &info, context.allocation_callbacks, &program.layout);
 }
 
-VkResult create_pipeline(const Context::Impl& context, VkPipelineCache cache, VkShaderModule module, Program& program) {
+VkResult create_pipeline(const ContextImpl& context, VkPipelineCache cache, VkShaderModule module, Program& program) {
   // Constant 0 is the workgroup size, the caller's follow. Those that a shader does not declare are ignored.
   std::vector<std::uint32_t> values = {program.key.workgroup_size};
   values.insert(values.end(), program.key.constants.begin(), program.key.constants.end());
@@ -102,8 +102,7 @@ VkResult create_pipeline(const Context::Impl& context, VkPipelineCache cache, Vk
 }
 
 /// Fills the handles of `program`; on error some of them may be set.
-Status make_program(const Context::Impl& context, VkPipelineCache cache, const EmbeddedShader& shader,
-                    Program& program) {
+Status make_program(const ContextImpl& context, VkPipelineCache cache, const EmbeddedShader& shader, Program& program) {
   const auto failed = [&program](const char* call, VkResult result) {
     Error error = vulkan_error(call, result);
     error.message = "shader " + program.key.shader + ": " + error.message;

@@ -8,7 +8,7 @@
 namespace medial_vk {
 namespace {
 
-Error submission_error(const Context::Impl& context, const char* call, VkResult result) {
+Error submission_error(const ContextImpl& context, const char* call, VkResult result) {
   if (result != VK_ERROR_DEVICE_LOST) return vulkan_error(call, result);
   return {ErrorCode::kInternal, "the device \"" + context.description.name + "\" was lost while it computed (" + call +
                                     "): its driver crashed, or stopped a dispatch that took too long; choose "
@@ -29,7 +29,7 @@ Status Semaphore::prepare() {
 
 Semaphore::~Semaphore() { context_->vk.vkDestroySemaphore(context_->device, handle_, context_->allocation_callbacks); }
 
-Commands::Queue Commands::queue_for_transfers(const Context::Impl& context) {
+Commands::Queue Commands::queue_for_transfers(const ContextImpl& context) {
   return context.transfer_queue != VK_NULL_HANDLE ? Queue::kTransfer : Queue::kCompute;
 }
 
@@ -151,13 +151,13 @@ Status Commands::wait(const std::function<void()>& while_waiting) {
   return submission_error(*context_, "vkWaitForFences", result);
 }
 
-Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record) {
+Status make_programs(ContextImpl& context, const std::function<Status(Recorder&)>& record) {
   Recorder rehearsal(context);
   if (Status s = record(rehearsal); !s.ok()) return s;
   return context.make_programs(rehearsal.programs());
 }
 
-Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
+Result<std::vector<StageTime>> run_commands(ContextImpl& context, const std::function<Status(Recorder&)>& record,
                                             const std::function<void()>& while_waiting) {
   Commands commands(context);
   if (const Status begun = commands.begin(); !begun.ok()) return begun.error();

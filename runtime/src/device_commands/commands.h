@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "device/internals.h"
 #include "device_commands/recorder.h"
-#include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 
@@ -19,7 +19,7 @@ namespace medial_vk {
 /// semaphore can only be destroyed. Created by the first call of prepare().
 class Semaphore {
  public:
-  explicit Semaphore(Context::Impl& context) : context_(&context) {}
+  explicit Semaphore(ContextImpl& context) : context_(&context) {}
   Semaphore(const Semaphore&) = delete;
   Semaphore& operator=(const Semaphore&) = delete;
   ~Semaphore();
@@ -28,7 +28,7 @@ class Semaphore {
   VkSemaphore handle() const { return handle_; }
 
  private:
-  Context::Impl* context_;
+  ContextImpl* context_;
   VkSemaphore handle_ = VK_NULL_HANDLE;
 };
 
@@ -38,11 +38,11 @@ class Commands {
  public:
   enum class Queue {
     kCompute,
-    kTransfer,  // of the family that only copies; Context::Impl::transfer_queue is not null
+    kTransfer,  // of the family that only copies; ContextImpl::transfer_queue is not null
   };
   /// For copies beside kernels: the latter queue if there is one.
-  static Queue queue_for_transfers(const Context::Impl& context);
-  explicit Commands(Context::Impl& context, Queue queue = Queue::kCompute) : context_(&context), queue_(queue) {}
+  static Queue queue_for_transfers(const ContextImpl& context);
+  explicit Commands(ContextImpl& context, Queue queue = Queue::kCompute) : context_(&context), queue_(queue) {}
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
   ~Commands();
@@ -63,7 +63,7 @@ class Commands {
   Status create();
   void call_while_busy(const std::function<void()>& callback);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   Queue queue_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer buffer_ = VK_NULL_HANDLE;
@@ -75,11 +75,11 @@ class Commands {
 /// Compiles the missing programs that `record` needs, on the threads of the context: to compile them one by one at
 /// their first use would take longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`,
 /// and of the programs.
-Status make_programs(Context::Impl& context, const std::function<Status(Recorder&)>& record);
+Status make_programs(ContextImpl& context, const std::function<Status(Recorder&)>& record);
 
 /// Records with `record`, submits, waits; returns seconds per stage. `while_waiting` is called every ten milliseconds
 /// until the device is done. Errors: device lost (kInternal), kOutOfMemory, and those of `record`.
-Result<std::vector<StageTime>> run_commands(Context::Impl& context, const std::function<Status(Recorder&)>& record,
+Result<std::vector<StageTime>> run_commands(ContextImpl& context, const std::function<Status(Recorder&)>& record,
                                             const std::function<void()>& while_waiting = {});
 
 }  // namespace medial_vk

@@ -59,7 +59,7 @@ int suitability(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
 
 /// The most suitable of the types in `allowed`; among equals the first, since drivers list the faster ones first.
 /// -1: none.
-int find_memory_type(const Context::Impl& context, std::uint32_t allowed, MemoryKind kind) {
+int find_memory_type(const ContextImpl& context, std::uint32_t allowed, MemoryKind kind) {
   const bool unified = context.description.type == "cpu" || context.description.type == "integrated";
   int best = -1;
   int best_suitability = 0;
@@ -97,7 +97,7 @@ struct Requirements {
   bool dedicated = false;
 };
 
-Requirements requirements_of(const Context::Impl& context, VkBuffer buffer) {
+Requirements requirements_of(const ContextImpl& context, VkBuffer buffer) {
   VkMemoryDedicatedRequirements dedicated{};
   dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS;
   VkMemoryRequirements2 requirements{};
@@ -112,7 +112,7 @@ Requirements requirements_of(const Context::Impl& context, VkBuffer buffer) {
           dedicated.requiresDedicatedAllocation == VK_TRUE || dedicated.prefersDedicatedAllocation == VK_TRUE};
 }
 
-VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer* handle) {
+VkResult create_handle(const ContextImpl& context, VkDeviceSize size, VkBuffer* handle) {
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size;
@@ -134,7 +134,7 @@ VkResult create_handle(const Context::Impl& context, VkDeviceSize size, VkBuffer
 
 }  // namespace
 
-VkDeviceSize bytes_on_the_way(const Context::Impl& context) {
+VkDeviceSize bytes_on_the_way(const ContextImpl& context) {
   const int type = find_memory_type(context, 0xffffffffu, MemoryKind::kDevice);
   const VkMemoryPropertyFlags flags = type < 0 ? 0 : context.memory.memoryTypes[type].propertyFlags;
   return (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0 ? 0 : kBytesOnTheWay;

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "medial_vk/context.h"
+#include "device/internals.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -42,7 +42,7 @@ struct Buffer {
 
 /// Bytes of staging memory for the upload of a mesh (uploads.h) and the download of points; 0 where the host can map
 /// all memory.
-VkDeviceSize bytes_on_the_way(const Context::Impl& context);
+VkDeviceSize bytes_on_the_way(const ContextImpl& context);
 /// The rest of a memory budget beside `held` bytes; at least a quarter of the budget, so that the sum may exceed it.
 inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
   return std::max(budget - std::min<std::uint64_t>(budget, held), budget / 4);
@@ -51,7 +51,7 @@ inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
 /// Owns buffers and their memory; all are freed together with the arena. Move-only.
 class Arena {
  public:
-  explicit Arena(Context::Impl& context) : context_(&context) {}
+  explicit Arena(ContextImpl& context) : context_(&context) {}
   Arena(Arena&&) noexcept;
   Arena& operator=(Arena&&) noexcept;
   ~Arena();
@@ -80,7 +80,7 @@ class Arena {
   Block* find_room(std::uint32_t type, VkDeviceSize size, VkDeviceSize alignment);
   VkResult add_block(std::uint32_t type, VkDeviceSize size, VkBuffer dedicated_to);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   std::vector<Block> blocks_;
   std::vector<VkBuffer> buffers_;
   std::vector<VkBufferView> views_;

@@ -28,7 +28,7 @@ std::string range_text(VkDeviceSize offset, VkDeviceSize bytes, const Buffer& bu
 
 }  // namespace
 
-Recorder::Recorder(Context::Impl& context, VkCommandBuffer commands) : context_(&context), commands_(commands) {}
+Recorder::Recorder(ContextImpl& context, VkCommandBuffer commands) : context_(&context), commands_(commands) {}
 
 Recorder::~Recorder() {
   const VolkDeviceTable& vk = context_->vk;

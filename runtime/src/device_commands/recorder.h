@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "device/internals.h"
 #include "device/program.h"
 #include "device_commands/memory.h"
-#include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/result.h"
 
@@ -21,9 +21,9 @@ namespace medial_vk {
 class Recorder {
  public:
   /// `commands` must be in the recording state. Errors are kept for status(), to be called at the end.
-  Recorder(Context::Impl& context, VkCommandBuffer commands);
+  Recorder(ContextImpl& context, VkCommandBuffer commands);
   /// A rehearsal: records nothing, and lists the programs that the dispatches need.
-  explicit Recorder(Context::Impl& context) : Recorder(context, VK_NULL_HANDLE) {}
+  explicit Recorder(ContextImpl& context) : Recorder(context, VK_NULL_HANDLE) {}
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();
@@ -85,7 +85,7 @@ class Recorder {
     std::uint32_t texels = 0;
   };
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   VkCommandBuffer commands_;
   std::vector<VkDescriptorPool> descriptor_pools_;
   std::set<ProgramKey> programs_;

@@ -7,7 +7,7 @@
 
 namespace medial_vk {
 
-Result<StopWord> StopWord::create(Context::Impl& context) {
+Result<StopWord> StopWord::create(ContextImpl& context) {
   StopWord stop(context);
   Result<Buffer> buffer = stop.arena_.create_buffer(16, MemoryKind::kUpload, "the word that stops a job");
   if (!buffer.ok()) return buffer.error();
@@ -20,7 +20,7 @@ void StopWord::raise() {
   std::atomic_ref<std::uint32_t>(*static_cast<std::uint32_t*>(word_.mapped)).store(1, std::memory_order_release);
 }
 
-Result<const StopWord*> StopWatch::make_word(Context::Impl& context) {
+Result<const StopWord*> StopWatch::make_word(ContextImpl& context) {
   Result<StopWord> word = StopWord::create(context);
   if (!word.ok()) return word.error();
   word_ = std::move(word).value();

@@ -16,13 +16,13 @@ namespace medial_vk {
 class StopWord {
  public:
   /// Errors: kOutOfMemory.
-  static Result<StopWord> create(Context::Impl& context);
+  static Result<StopWord> create(ContextImpl& context);
 
   BufferRange range() const { return word_.range(); }
   void raise();
 
  private:
-  explicit StopWord(Context::Impl& context) : arena_(context) {}
+  explicit StopWord(ContextImpl& context) : arena_(context) {}
 
   Arena arena_;
   Buffer word_;
@@ -34,7 +34,7 @@ class StopWatch {
   StopWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
 
   /// The word to raise from now on. It lives as long as the watch. Errors: kOutOfMemory.
-  Result<const StopWord*> make_word(Context::Impl& context);
+  Result<const StopWord*> make_word(ContextImpl& context);
   /// The finished share of the job, for the callback.
   void set_done(double done) { done_ = done; }
   /// Reports and checks. True from the first time on that a stop has been requested.

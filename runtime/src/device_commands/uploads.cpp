@@ -13,7 +13,7 @@ constexpr VkDeviceSize kBlockBytes = 4ull << 20;  // a transfer of a tenth of a 
 
 }  // namespace
 
-Uploads::Uploads(Context::Impl& context)
+Uploads::Uploads(ContextImpl& context)
     : context_(&context),
       arena_(context),
       sent_(context),
@@ -97,7 +97,7 @@ Status Uploads::finish() {
   return {};
 }
 
-Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes) {
+Status upload(ContextImpl& context, const Buffer& buffer, std::span<const std::byte> bytes) {
   Uploads uploads(context);
   if (Status added = uploads.add(buffer, bytes); !added.ok()) return added;
   return uploads.finish();

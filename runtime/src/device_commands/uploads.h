@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <span>
 
+#include "device/internals.h"
 #include "device_commands/commands.h"
 #include "device_commands/memory.h"
-#include "medial_vk/context.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -17,7 +17,7 @@ namespace medial_vk {
 /// see all data once finish() has returned.
 class Uploads {
  public:
-  explicit Uploads(Context::Impl& context);
+  explicit Uploads(ContextImpl& context);
   Uploads(const Uploads&) = delete;
   Uploads& operator=(const Uploads&) = delete;
   /// Waits for pending copies; the rest is dropped.
@@ -33,7 +33,7 @@ class Uploads {
 
  private:
   struct Block {
-    Block(Context::Impl& context, Commands::Queue queue) : commands(context, queue) {}
+    Block(ContextImpl& context, Commands::Queue queue) : commands(context, queue) {}
     Buffer memory;
     VkDeviceSize used = 0;
     bool records = false;
@@ -42,7 +42,7 @@ class Uploads {
   Status begin(Block& block);
   Status send(Block& block, const Semaphore* signal);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   Arena arena_;
   Semaphore sent_;
   Commands received_;  // on the queue of the kernels
@@ -52,7 +52,7 @@ class Uploads {
 };
 
 /// Uploads one buffer. Blocks.
-Status upload(Context::Impl& context, const Buffer& buffer, std::span<const std::byte> bytes);
+Status upload(ContextImpl& context, const Buffer& buffer, std::span<const std::byte> bytes);
 
 /// A new buffer that will have these values.
 template <class T>

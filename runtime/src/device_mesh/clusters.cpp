@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/mesh_view.h"
 
 namespace medial_vk {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "device/context_impl.h"
 #include "device_mesh/clusters.h"
 #include "device_mesh/device_tree.h"
@@ -44,7 +44,7 @@ Status DeviceMesh::check_size(std::size_t triangles, const VkPhysicalDeviceLimit
                                             std::to_string(sizeof(Texel)) + " bytes (maxTexelBufferElements)"};
 }
 
-Result<DeviceMesh> DeviceMesh::create(Context::Impl& context, const IndexedMesh& mesh, bool with_links) {
+Result<DeviceMesh> DeviceMesh::create(ContextImpl& context, const IndexedMesh& mesh, bool with_links) {
   if (Status status = check_size(mesh.view().triangles.size(), context.limits); !status.ok()) return status.error();
   DeviceMesh device(context, mesh);
   device.order = mesh.bvh().order();

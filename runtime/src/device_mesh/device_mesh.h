@@ -11,12 +11,12 @@
 #include <span>
 #include <vector>
 
+#include "device/internals.h"
 #include "device_commands/memory.h"
 #include "device_commands/uploads.h"
 #include "device_mesh/mesh_links.h"
 #include "device_mesh/unit_transform.h"
 #include "medial_vk/bvh.h"
-#include "medial_vk/context.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
@@ -44,7 +44,7 @@ struct DeviceMesh {
 
   /// Starts all uploads; finish_uploads() must precede the first use. With links: also the data of add_links(). Errors:
   /// kInvalidMesh (no extent), kOutOfMemory.
-  static Result<DeviceMesh> create(Context::Impl& context, const IndexedMesh& mesh, bool with_links);
+  static Result<DeviceMesh> create(ContextImpl& context, const IndexedMesh& mesh, bool with_links);
   /// Errors: kOutOfMemory, kInternal (device lost).
   Status finish_uploads();
 
@@ -117,8 +117,7 @@ struct DeviceMesh {
   std::vector<std::uint32_t> order;  // triangle_info on the host
 
  private:
-  DeviceMesh(Context::Impl& context, const IndexedMesh& source)
-      : context_(&context), source_(source), arena_(context) {}
+  DeviceMesh(ContextImpl& context, const IndexedMesh& source) : context_(&context), source_(source), arena_(context) {}
   const MeshLinks& links() const;
   Status measure();
   Status upload_mesh(const Uploader& uploader);
@@ -133,7 +132,7 @@ struct DeviceMesh {
                      Buffer& buffer, VkBufferView& view);
   Status create_view(const Buffer& buffer, VkFormat format, VkBufferView& view);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   IndexedMesh source_;
   Arena arena_;
   std::unique_ptr<Uploads> uploads_;  // pending uploads into buffers of the arena, or null

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

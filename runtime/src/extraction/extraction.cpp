@@ -2,6 +2,7 @@
 #include "medial_vk/extraction.h"
 
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -27,8 +28,7 @@ Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallb
   return extraction;
 }
 
-Result<Extraction> extract(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
-                           StopWatch& watch) {
+Result<Extraction> extract(ContextImpl& context, DeviceMesh& mesh, const ExtractionOptions& options, StopWatch& watch) {
   if (watch.stopped()) return StopWatch::error();
   if (options.mode == Mode::kThesis) return extract_thesis(context, mesh, options, watch);
   if (Status s = mesh.add_links(); !s.ok()) return s.error();
@@ -40,7 +40,7 @@ struct KeptMesh {
   std::optional<IndexedMesh> source;
   std::unique_ptr<DeviceMesh> mesh;
 
-  Status keep(Context::Impl& context, const IndexedMesh& wanted, bool with_links) {
+  Status keep(ContextImpl& context, const IndexedMesh& wanted, bool with_links) {
     if (mesh && mesh->intact && source->is_same(wanted)) return {};
     mesh.reset();  // its memory is needed
     Result<DeviceMesh> uploaded = DeviceMesh::create(context, wanted, with_links);
@@ -53,10 +53,10 @@ struct KeptMesh {
 
 }  // namespace
 
-Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
+Result<Extraction> extract_medial_spheres(const IndexedMesh& mesh, const ExtractionOptions& options, Context& context,
                                           const ProgressCallback& progress, const std::stop_token& stop) {
   return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
-    Context::Impl& device = Internals::of(context);
+    ContextImpl& device = Internals::of(context);
     Result<DeviceMesh> uploaded = DeviceMesh::create(device, mesh, options.mode == Mode::kCertified);
     if (!uploaded.ok()) return uploaded.error();
     return extract(device, uploaded.value(), options, watch);
@@ -66,23 +66,27 @@ Result<Extraction> extract_medial_spheres(Context& context, const IndexedMesh& m
 Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions& options,
                                           const ProgressCallback& progress, const std::stop_token& stop) {
   return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
-    Scene::Impl& of = Internals::of(scene);
+    auto& of = Internals::of(scene);
     if (Status ready = of.usable(); !ready.ok()) return ready.error();
     return extract(*of.context, of.mesh, options, watch);
   });
 }
 
-Extractor device_extractor(Context& context) {
+Extractor device_extractor(Context& context) try {
   return
       [&context, kept = std::make_shared<KeptMesh>()](const IndexedMesh& mesh, const ExtractionOptions& options,
                                                       const ProgressCallback& progress, const std::stop_token& stop) {
         return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
-          Context::Impl& device = Internals::of(context);
+          ContextImpl& device = Internals::of(context);
           const bool with_links = options.mode == Mode::kCertified;
           if (Status status = kept->keep(device, mesh, with_links); !status.ok()) return status.error();
           return extract(device, *kept->mesh, options, watch);
         });
       };
+} catch (const std::bad_alloc&) {
+  // A function without captures takes no memory of its own.
+  return [](const IndexedMesh&, const ExtractionOptions&, const ProgressCallback&,
+            const std::stop_token&) -> Result<Extraction> { return out_of_memory("making an extractor"); };
 }
 
 }  // namespace medial_vk

@@ -31,7 +31,7 @@ constexpr VkDeviceSize kCountsBytes = sizeof(RecordedCounts) + 8;
 /// Bytes in host memory for the copies with which a recorded sequence starts.
 class StagedMesh {
  public:
-  explicit StagedMesh(Context::Impl& context) : arena_(context) {}
+  explicit StagedMesh(ContextImpl& context) : arena_(context) {}
 
   Status reserve(VkDeviceSize bytes) {
     Result<Buffer> made = arena_.create_buffer(bytes, MemoryKind::kUpload, "positions that have moved");
@@ -75,16 +75,16 @@ class StagedMesh {
 struct ExtractionJob::Impl {
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
-    explicit Frame(Context::Impl& context) : staged(context) {}
+    explicit Frame(ContextImpl& context) : staged(context) {}
     StagedMesh staged;
     Buffer counts;  // for the host
     std::unique_ptr<Recorder> recorder;
   };
 
-  Impl(Context::Impl& c, const ExtractionOptions& p, const JobOptions& o, StopWord s, DeviceMesh m)
+  Impl(ContextImpl& c, const ExtractionOptions& p, const JobOptions& o, StopWord s, DeviceMesh m)
       : context(c), options(p), job(o), stop(std::move(s)), mesh(std::move(m)), arena(c) {}
 
-  Context::Impl& context;
+  ContextImpl& context;
   ExtractionOptions options;
   JobOptions job;
   StopWord stop;  // never raised

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/host_memory.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "foam/clip_polytope.h"
 #include "foam/foam_region.h"
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/host_memory.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "base/spiral.h"
 #include "medial_vk/foam.h"
 

@@ -1,7 +1,7 @@
 // Closest points: few or scattered ones by a walk for each, many by packets of neighbours.
 #include <algorithm>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "base/point_order.h"
 #include "queries/scene_impl.h"
 

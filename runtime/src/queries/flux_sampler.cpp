@@ -17,7 +17,7 @@ constexpr float kSameDirection = 1e-3f;
 
 }  // namespace
 
-Result<FluxSampler> FluxSampler::create(Context::Impl& context, const PacketQueries& queries, std::uint32_t capacity) {
+Result<FluxSampler> FluxSampler::create(ContextImpl& context, const PacketQueries& queries, std::uint32_t capacity) {
   FluxSampler sampler(context, queries);
   struct Request {
     Buffer* buffer;

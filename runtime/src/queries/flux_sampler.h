@@ -24,7 +24,7 @@ struct SphereCount {
 class FluxSampler {
  public:
   /// `capacity` sample points. The queries must outlive the object. Errors: kOutOfMemory.
-  static Result<FluxSampler> create(Context::Impl& context, const PacketQueries& queries, std::uint32_t capacity);
+  static Result<FluxSampler> create(ContextImpl& context, const PacketQueries& queries, std::uint32_t capacity);
 
   /// spheres: vec4, centre and radius (negative: skipped). directions: vec4, `samples` unit vectors. slots: of
   /// make_slots() for the directions.
@@ -39,7 +39,7 @@ class FluxSampler {
   static constexpr VkDeviceSize kBytesPerSample = 4 * 16 + 2 * 4;
 
  private:
-  explicit FluxSampler(Context::Impl& context, const PacketQueries& queries) : queries_(&queries), arena_(context) {}
+  explicit FluxSampler(ContextImpl& context, const PacketQueries& queries) : queries_(&queries), arena_(context) {}
 
   const PacketQueries* queries_;
   Arena arena_;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <numeric>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "device/context_impl.h"
 #include "tree_types.h"
 
@@ -59,7 +59,7 @@ PacketShape PacketShape::of(std::uint32_t width, bool through_shared_memory, std
   return {width, (points + width - 1) / width, through_shared_memory};
 }
 
-PacketShape PacketShape::best_for(const Context::Impl& context) {
+PacketShape PacketShape::best_for(const ContextImpl& context) {
   constexpr VkSubgroupFeatureFlags kNeeded =
       VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   const VkPhysicalDeviceSubgroupProperties& subgroup = context.subgroup;
@@ -70,7 +70,7 @@ PacketShape PacketShape::best_for(const Context::Impl& context) {
   return capable && fitting ? of(width, false) : of(32, true);
 }
 
-Result<PacketQueries> PacketQueries::create(Context::Impl& context, const DeviceMesh& device, std::uint32_t capacity,
+Result<PacketQueries> PacketQueries::create(ContextImpl& context, const DeviceMesh& device, std::uint32_t capacity,
                                             const PacketShape& shape, bool counts) {
   PacketQueries queries(device, shape, counts);
   Result<PacketTree> tree = PacketTree::create(context, device, shape.arity());

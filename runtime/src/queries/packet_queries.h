@@ -33,7 +33,7 @@ struct PacketShape {
   /// At least `points` slots on teams of `width`.
   static PacketShape of(std::uint32_t width, bool through_shared_memory, std::uint32_t points = 51);
   /// Subgroups where they can ballot and shuffle and have 4 to 64 lanes, else shared memory.
-  static PacketShape best_for(const Context::Impl& context);
+  static PacketShape best_for(const ContextImpl& context);
 };
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
@@ -48,7 +48,7 @@ class PacketQueries {
  public:
   /// For dispatches of at most `capacity` queries. `device` must outlive the object, `mesh` is the one given to
   /// DeviceMesh::create(). With `counts`, the tests of walks are counted. Errors: kOutOfMemory, kInternal.
-  static Result<PacketQueries> create(Context::Impl& context, const DeviceMesh& device, std::uint32_t capacity,
+  static Result<PacketQueries> create(ContextImpl& context, const DeviceMesh& device, std::uint32_t capacity,
                                       const PacketShape& shape, bool counts = false);
 
   /// TreeQueries::closest() for groups: same queries and results. `slots`: of make_slots(). Ends with a barrier.

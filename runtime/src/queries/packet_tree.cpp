@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "device/context_impl.h"
 #include "device_commands/uploads.h"
 
@@ -129,7 +129,7 @@ std::vector<Texel> make_frame_texels(const MeshView& mesh, std::span<const std::
   return texels;
 }
 
-Result<PacketTree> PacketTree::create(Context::Impl& context, const DeviceMesh& device, std::uint32_t arity) {
+Result<PacketTree> PacketTree::create(ContextImpl& context, const DeviceMesh& device, std::uint32_t arity) {
   const UnitTransform to_unit = {device.lower, device.longest};
   const std::vector<Texel> node_data = make_wide_tree_texels(device.tree_nodes(), to_unit, arity);
   const std::vector<Texel> frame_data = make_frame_texels(device.source().view(), device.order, to_unit);

@@ -25,7 +25,7 @@ std::vector<Texel> make_frame_texels(const MeshView& mesh, std::span<const std::
 class PacketTree {
  public:
   /// Error: kOutOfMemory.
-  static Result<PacketTree> create(Context::Impl& context, const DeviceMesh& device, std::uint32_t arity);
+  static Result<PacketTree> create(ContextImpl& context, const DeviceMesh& device, std::uint32_t arity);
 
   Buffer nodes, frames;
   Buffer positions;  // leaf position by index of the input
@@ -33,7 +33,7 @@ class PacketTree {
   bool use_texels = true;  // false: too large for a view; the views are of a buffer that is never read
 
  private:
-  explicit PacketTree(Context::Impl& context) : arena_(context) {}
+  explicit PacketTree(ContextImpl& context) : arena_(context) {}
   Arena arena_;
 };
 

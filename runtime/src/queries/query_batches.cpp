@@ -15,7 +15,7 @@ VkDeviceSize second_items_at(std::uint32_t capacity) { return VkDeviceSize{capac
 
 }  // namespace
 
-QueryBatches::Batch::Batch(Context::Impl& context)
+QueryBatches::Batch::Batch(ContextImpl& context)
     : on_device(context),
       for_upload(context),
       for_download(context),

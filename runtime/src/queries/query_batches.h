@@ -8,10 +8,10 @@
 #include <memory>
 #include <span>
 
+#include "device/internals.h"
 #include "device_commands/commands.h"
 #include "device_commands/memory.h"
 #include "device_mesh/device_tree.h"
-#include "medial_vk/context.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -40,7 +40,7 @@ class QueryBatches {
  public:
   /// For batches of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same
   /// speed, and nothing is copied where memory can be mapped.
-  QueryBatches(Context::Impl& context, std::uint32_t capacity, bool shares_memory)
+  QueryBatches(ContextImpl& context, std::uint32_t capacity, bool shares_memory)
       : context_(&context), capacity_(capacity), shares_memory_(shares_memory) {}
 
   /// Blocks until all are answered; after an error nothing is pending either. Errors: kOutOfMemory, kInternal (device
@@ -50,7 +50,7 @@ class QueryBatches {
  private:
   /// The resources of a batch.
   struct Batch {
-    explicit Batch(Context::Impl& context);
+    explicit Batch(ContextImpl& context);
     Arena on_device, for_upload, for_download;  // separate, as blocks of an arena grow: none takes more than it needs
     Buffer queries;
     std::array<Buffer, 2> items;
@@ -76,7 +76,7 @@ class QueryBatches {
   Status complete(const QuerySet& queries, Batch& batch) const;
   std::size_t at_once() const { return shares_memory_ ? 1 : batches_.size(); }
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   std::uint32_t capacity_;
   bool shares_memory_;
   std::array<std::unique_ptr<Batch>, 2> batches_;

@@ -38,7 +38,7 @@ inline Status check_point(const Point& unit, std::size_t index) {
 
 class Scene::Impl {
  public:
-  Impl(Context::Impl& context_in, DeviceMesh mesh_in) : context(&context_in), mesh(std::move(mesh_in)) {}
+  Impl(ContextImpl& context_in, DeviceMesh mesh_in) : context(&context_in), mesh(std::move(mesh_in)) {}
 
   /// A query for kernels: the position of `point` in the unit box, and w. Error: it is not finite, or too far away.
   Status write_query(std::size_t index, const Point& point, float w, Texel& out) const {
@@ -74,7 +74,7 @@ class Scene::Impl {
   Result<std::vector<FluxSample>> fluxes(std::span<const Ball> spheres, std::uint32_t samples);
   Status answer(const QuerySet& request);
 
-  Context::Impl* context;
+  ContextImpl* context;
   /// Host and device have the same memory, at the same speed: nothing is copied. Tests of the copies clear it before
   /// the first query.
   bool shares_memory = context->description.type == "cpu";

@@ -19,7 +19,7 @@ static_assert(gpu::kTriangleTests == gpu::kNodeTests + 2 && gpu::kUnresolvedFirs
 
 }  // namespace
 
-Result<TreeQueries> TreeQueries::create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
+Result<TreeQueries> TreeQueries::create(ContextImpl& context, const DeviceMesh& mesh, std::uint32_t capacity,
                                         std::optional<BufferRange> stop, bool counts) {
   TreeQueries queries(context, mesh, counts);
   queries.arena_.expect((VkDeviceSize{gpu::kUnresolvedFirst} + capacity) * 4);

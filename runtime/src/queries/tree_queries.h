@@ -50,7 +50,7 @@ class TreeQueries {
   /// workgroups of empty() and winding() return at their start and leave their results unchanged. (A test of all
   /// triangles takes milliseconds for each query; a dispatch of thousands took ten seconds.) With `counts`, boxes and
   /// triangles that walks test are counted. Errors: kOutOfMemory, kInternal.
-  static Result<TreeQueries> create(Context::Impl& context, const DeviceMesh& mesh, std::uint32_t capacity,
+  static Result<TreeQueries> create(ContextImpl& context, const DeviceMesh& mesh, std::uint32_t capacity,
                                     std::optional<BufferRange> stop = {}, bool counts = false);
 
   /// Queries are vec4 in the unit box: xyz, and in w the square of the greatest distance of the search; negative to
@@ -84,14 +84,14 @@ class TreeQueries {
     const char* resolve;
     std::vector<std::uint32_t> constants;  // specialization constants from 1 on
   };
-  TreeQueries(Context::Impl& context, const DeviceMesh& mesh, bool counts)
+  TreeQueries(ContextImpl& context, const DeviceMesh& mesh, bool counts)
       : context_(&context), mesh_(&mesh), arena_(context), counts_(counts) {}
   void record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
               BufferRange queries, float tolerance) const;
   void resolve(Recorder& r, ProgramKey key, std::span<const BufferRange> buffers,
                std::span<const std::byte> constants) const;
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   const DeviceMesh* mesh_;
   Arena arena_;
   std::uint32_t counts_;  // a specialization constant: 0 or 1

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 #include <numeric>
 
+#include "base/host_memory.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "sheets/absorb_components.h"
@@ -106,8 +108,8 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
 
 }  // namespace
 
-Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid, const ExtractionOptions& extraction,
-                   const SheetOptions& options, SheetAreas areas) {
+Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
+                           const ExtractionOptions& extraction, const SheetOptions& options, SheetAreas areas) try {
   const VoxelGraph graph(spheres, options.threads);
   std::vector<std::uint32_t> component_of = grow_components(graph, extraction.object_angle, options);
   join_components(graph, options, component_of);
@@ -125,6 +127,8 @@ Sheets find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
   }
   if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, options.threads, out);
   return out;
+} catch (const std::bad_alloc&) {
+  return out_of_memory("finding sheets", "try a lower `resolution`");
 }
 
 }  // namespace medial_vk

@@ -30,7 +30,7 @@ class AnalysisRun {
     if (Status status = extract(); !status) return status.error();
     if (Status status = reached("simplify"); !status) return status.error();
     simplify();
-    group();
+    if (Status status = group(); !status) return status.error();
     if (Status status = measure(); !status) return status.error();
     if (Status status = connect(); !status) return status.error();
     if (stop_.stop_requested()) return Error{ErrorCode::kInterrupted, "interrupted"};
@@ -62,13 +62,16 @@ class AnalysisRun {
     if (options_.simplify) out_.simplified = simplify_spheres(epsilon(), out_.spheres);
   }
 
-  void group() {
-    if (!options_.sheets) return;
+  Status group() {
+    if (!options_.sheets) return {};
     Stopwatch stopwatch;
-    out_.sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets,
-                              measures() ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
+    Result<Sheets> sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets,
+                                        measures() ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
+    if (!sheets) return sheets.error();
+    out_.sheets = std::move(sheets).value();
     for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
     out_.host_times.push_back({"sheets", stopwatch.lap()});
+    return {};
   }
 
   bool measures() const { return options_.volumes || options_.keep_volume > 0 || options_.removal_orders; }

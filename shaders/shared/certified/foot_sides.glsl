@@ -47,20 +47,20 @@ bool is_outside_at(uint name, Cell cell, vec3 centre, float nearest_distance) {
   bool reached = length(y) + 2.0 * step.slack <= min(step.list_radius, 3.0 * rho);
   bool is_beside = abs(depth) > 4.0 * step.slack + tilt_of(face) * length(p);
   if (!reached || !is_beside || crossing_tests > kMostCrossingTests) return false;
-  vec2 measured = unpackHalf2x16(cell.level);
-  float level = measured.x;
+  vec2 measured = unpackHalf2x16(cell.winding);
+  float winding = measured.x;
   for (uint i = 0u; i < cell.list_count; ++i) {
     uint other = lists[cell.list_begin + i];
     if (other == t) continue;
     TriangleTexels texels = load_triangle(other);
     int change = crossing(texels, texels.a.xyz - centre, y);
     if (change == kUnclear) return false;
-    level += float(change);
+    winding += float(change);
   }
   bool from_behind = depth > 0.0, in_front = kind == kFront;
-  if (from_behind != !in_front) level += in_front ? -1.0 : 1.0;
+  if (from_behind != !in_front) winding += in_front ? -1.0 : 1.0;
   float way = length(y) + share * away + nearest_distance + 2.0 * rho + 4.0 * step.slack;
-  return level + measured.y * way / rho < 0.5;
+  return winding + measured.y * way / rho < 0.5;
 }
 
 bool is_outside_pair(uint first, uint second, Cell cell, float nearest_distance) {

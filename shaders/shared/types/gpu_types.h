@@ -35,14 +35,14 @@ struct Cell {
   uint nearest;     // triangle nearest to the centre; absent for lists of clusters and one level below
   uint touching;    // entries of its list, the first ones, that touch the cube itself (Lemma A)
   uint partner;     // of the contacts that touch, one whose sheet with the nearest passes close to the centre
-  uint level;       // kCellMeasured: two halves, the winding number at the centre, its change over the circumradius
+  uint winding;     // kCellMeasured: two halves, the winding number at the centre, its change over the circumradius
 };
 MEDIAL_VK_GPU_CONSTANT kNoTriangle = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kCellInside = 1u;      // the whole cell is known to lie in the solid
 MEDIAL_VK_GPU_CONSTANT kCellEmpty = 4u;       // proved after it was kept
 MEDIAL_VK_GPU_CONSTANT kCellSettled = 8u;     // given up: any point in it is near a face or near the angle
 MEDIAL_VK_GPU_CONSTANT kCellUntrusted = 2u;   // meets the boundary and touches a triangle without a trusted normal
-MEDIAL_VK_GPU_CONSTANT kCellMeasured = 16u;   // `level` is set
+MEDIAL_VK_GPU_CONSTANT kCellMeasured = 16u;   // `winding` is set
 MEDIAL_VK_GPU_CONSTANT kBoundaryDepth = 5u;   // levels below the finest voxel at which such cells are given up
 
 // A segment that crosses the medial surface: the ends and the directions from them to the boundary.

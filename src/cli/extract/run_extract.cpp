@@ -49,7 +49,7 @@ constexpr bool kIsSanitized = false;
 
 AnalysisOptions analysis_options(const Options& options) {
   AnalysisOptions out;
-  out.extraction = options.parameters;
+  out.extraction = options.extraction;
   out.sheets = options.sheets;
   out.simplify = options.simplify;
   out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
@@ -102,7 +102,7 @@ class ExtractionRun {
     if (!mesh) return mesh.error();
     record_.input = options_.mesh;
     record_.output = options_.output;
-    record_.parameters = options_.parameters;
+    record_.options = options_.extraction;
     record_.backend = options_.backend;
     record_.seed = options_.seed;
     record_.perturb = options_.perturb;
@@ -127,7 +127,7 @@ class ExtractionRun {
 
   /// In other runs only the certificate reads the index, and its time counts as part of the extraction.
   bool reports_index() const {
-    return options_.backend == Backend::kVulkan && options_.parameters.mode == Mode::kCertified;
+    return options_.backend == Backend::kVulkan && options_.extraction.mode == Mode::kCertified;
   }
 
   /// While a device computes, a signal requests a stop; afterwards it may end the program at once.
@@ -159,7 +159,7 @@ class ExtractionRun {
     record_.points = analysis_.spheres.size();
     record_.radii = range_of_radii(analysis_.spheres);
     record_.object_angles = range_of_object_angles(analysis_.spheres);
-    record_.sheet_parameters = options_.sheets;
+    record_.sheet_options = options_.sheets;
     record_.sheets = std::move(analysis_.sheets);
     if (analysis_.significance) {
       const Significance& measured = *analysis_.significance;
@@ -214,7 +214,7 @@ class ExtractionRun {
   }
 
   Status encode() {
-    header_ = make_header(record_.grid, options_.parameters, record_.longest_side);
+    header_ = make_header(record_.grid, options_.extraction, record_.longest_side);
     Result<std::string> bytes = encode_points(
         {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
         header_, analysis_.spheres, record_.sheets.marks);
@@ -251,7 +251,7 @@ class ExtractionRun {
     progress_.update("picture", 0);
     Stopwatch stopwatch;
     PictureOptions look = options_.look;
-    look.least_angle = options_.parameters.object_angle;
+    look.least_angle = options_.extraction.object_angle;
     DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
                                       record_.device ? &*record_.device : nullptr);
     Result<std::string> png = encode_png(drawn.picture);

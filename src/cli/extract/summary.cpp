@@ -28,7 +28,7 @@ std::string where(const RunRecord& record) {
 std::string describe_voxels(const RunRecord& record) {
   const ExtractionCounters& counters = record.counters;
   std::string text = fmt::format("{} found", grouped(counters.found));
-  if (record.parameters.mode == Mode::kCertified || counters.undecided > 0) {
+  if (record.options.mode == Mode::kCertified || counters.undecided > 0) {
     text += fmt::format(", {} undecided", grouped(counters.undecided));
   }
   if (record.certify.rejected > 0) {
@@ -105,7 +105,7 @@ std::string opening(const RunRecord& record) {
   for (const std::string& assumption : record.mesh.assumptions) text += line("note", assumption);
   text += line("device", where(record));
   if (record.backend == Backend::kVulkan) {
-    text += line("memory", fmt::format("at most {} of the device's {}", memory_size(record.parameters.memory_budget),
+    text += line("memory", fmt::format("at most {} of the device's {}", memory_size(record.options.memory_budget),
                                        record.device ? memory_size(record.device->memory_bytes) : "memory"));
   }
   return text;

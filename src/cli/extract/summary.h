@@ -13,7 +13,7 @@ namespace medial_vk::cli {
 std::string opening(const RunRecord& record);
 /// A few aligned lines at the end; `files` have been written.
 std::string summary(const RunRecord& record, std::span<const OutputFile> files);
-/// For -v: levels, seconds by the clock of the device, and the parameters that are not in the summary.
+/// For -v: levels, seconds by the clock of the device, and the options that are not in the summary.
 std::string details(const RunRecord& record);
 
 }  // namespace medial_vk::cli

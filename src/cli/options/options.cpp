@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void declare(CLI::App& app, Options& options) {
-  ExtractionOptions& parameters = options.parameters;
+  ExtractionOptions& extraction = options.extraction;
   Declarations add(app);
   add.text("MESH", "file", options.mesh);
   add.text("-o,--output", "file", options.output);
@@ -43,12 +43,12 @@ void declare(CLI::App& app, Options& options) {
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
 
-  add.whole("--resolution", 1, 4096, " voxels", parameters.resolution);
-  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", parameters.object_angle);
-  add.real("--radius", {0, 1}, " of the longest side", parameters.radius);
-  add.real("--epsilon", {1e-3, 0.5}, " of the voxel side", parameters.epsilon);
-  add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, parameters.mode);
-  add.whole("--extra-levels", 0, 8, " levels", parameters.extra_levels);
+  add.whole("--resolution", 1, 4096, " voxels", extraction.resolution);
+  add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", extraction.object_angle);
+  add.real("--radius", {0, 1}, " of the longest side", extraction.radius);
+  add.real("--epsilon", {1e-3, 0.5}, " of the voxel side", extraction.epsilon);
+  add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, extraction.mode);
+  add.whole("--extra-levels", 0, 8, " levels", extraction.extra_levels);
   add.flag("--simplify", options.simplify);
   add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);
   add.whole("--seed", 0, UINT64_MAX, "", options.seed);
@@ -63,11 +63,11 @@ void declare(CLI::App& app, Options& options) {
 
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
-  add.memory("--memory", parameters.memory_budget);
+  add.memory("--memory", extraction.memory_budget);
   add.whole("--threads", 0, 1024, " threads", options.threads);
 
   add.flag("--check", options.check);
-  add.flag("--kernel-times", parameters.measurements.kernel_times);
+  add.flag("--kernel-times", extraction.measurements.kernel_times);
   add.flag("-q,--quiet", options.quiet);
   add.flag("-v,--verbose", options.verbose);
   add.action("--list-devices", Action::kListDevices, options.action);

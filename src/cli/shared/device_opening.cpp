@@ -13,8 +13,9 @@ void DeviceOpening::start(const std::string& wanted, unsigned threads) {
   options.device = wanted;
   options.threads = threads;
   started_ = std::chrono::steady_clock::now();
-  // If no thread is available, it runs when the context is taken.
-  opening_ = std::async(std::launch::async | std::launch::deferred, [options] { return Context::create(options); });
+  // On one thread, or if no other is available, it runs when the context is taken.
+  const std::launch policy = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
+  opening_ = std::async(policy, [options] { return Context::create(options); });
 }
 
 unsigned DeviceOpening::threads_beside(std::size_t triangles, unsigned wanted) const {

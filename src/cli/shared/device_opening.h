@@ -15,7 +15,8 @@ namespace medial_vk::cli {
 
 class DeviceOpening {
  public:
-  /// Starts on its own thread. `wanted` is the argument of --device, or empty for the best device.
+  /// Starts on its own thread; with `threads` 1, in take(). `wanted` is the argument of --device, or empty for the best
+  /// device.
   void start(const std::string& wanted, unsigned threads);
   /// The number of threads for work on a mesh that runs meanwhile. While a driver is loaded, glibc holds a lock that
   /// every new thread needs, until all libraries are relocated (25 ms for LLVM): shorter work finishes sooner on the

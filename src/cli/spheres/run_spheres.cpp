@@ -28,6 +28,7 @@
 #include "reference_bridge/check_balls.h"
 #include "reference_bridge/reference_extractor.h"
 #include "robots/model/read_urdf.h"
+#include "robots/parts.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -85,8 +86,12 @@ class SpheresRun {
   Status load_one_mesh() {
     Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.request.threads, record_.times);
     if (!mesh) return mesh.error();
-    record_.robot = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
-    record_.parts.push_back(single_part(record_.robot, std::move(mesh).value()));
+    record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    Part solid;
+    solid.link = solid.name = record_.name;
+    solid.mesh = std::move(mesh).value();
+    record_.solids.push_back(std::move(solid));
+    record_.facet_shares.push_back(0);
     return {};
   }
 
@@ -99,18 +104,19 @@ class SpheresRun {
     Result<Robot> robot = read_urdf(urdf_, options_.input);
     if (!robot) return robot.error();
     robot_ = std::move(robot).value();
-    record_.robot = robot_.name.empty() ? std::filesystem::path(options_.input).stem().string() : robot_.name;
+    record_.name = robot_.name.empty() ? std::filesystem::path(options_.input).stem().string() : robot_.name;
     const Result<MeshPlaces> places = mesh_places(options_.input, options_.packages);
     if (!places) return places.error();
     const bool cover = options_.request.contract == SphereContract::kCover;
-    Result<std::vector<Part>> parts =
+    Result<RobotParts> loaded =
         load_parts(robot_, options_.visual, cover ? FacetSide::kCircumscribed : FacetSide::kInscribed, places.value(),
-                   options_.input);
-    if (!parts) return parts.error();
-    record_.parts = std::move(parts).value();
-    for (const Part& part : record_.parts) {
-      if (part.file.empty()) continue;
-      if (Status status = check_outputs_differ(outputs_of(options_), part.file); !status) return status;
+                   options_.input, options_.request.threads);
+    if (!loaded) return loaded.error();
+    record_.solids = std::move(loaded.value().parts);
+    for (const PartOrigin& origin : loaded.value().origins) {
+      record_.facet_shares.push_back(origin.facet_share);
+      if (origin.file.empty()) continue;
+      if (Status status = check_outputs_differ(outputs_of(options_), origin.file); !status) return status;
     }
     return {};
   }
@@ -118,13 +124,12 @@ class SpheresRun {
   Status fit() {
     Stopwatch stopwatch;
     std::stop_source stop;
-    const auto on_progress = [&](double done) {
+    const StageProgress on_progress = [&](const char*, double done) {
       progress_.update("spheres", done);
       if (interrupted()) stop.request_stop();
     };
-    const Extractor extractor = options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*context_);
-    Status status = options_.is_robot ? fit_robot(extractor, on_progress, stop.get_token())
-                                      : fit_one_mesh(extractor, on_progress, stop.get_token());
+    Status status =
+        options_.is_robot ? fit_robot(on_progress, stop.get_token()) : fit_one_mesh(on_progress, stop.get_token());
     progress_.clear();
     if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : in_words(status.error());
     if (Status checked = check(); !checked) return checked;
@@ -140,24 +145,25 @@ class SpheresRun {
     return with_hint(std::move(error));
   }
 
-  Status fit_robot(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
-    const FitGoals goals = {options_.request, options_.count_per_link, options_.total};
-    Result<std::vector<PartFit>> fits = fit_parts(
-        record_.parts, goals, extractor, [&](const Part&, double done) { on_progress(done); }, stop);
+  Status fit_robot(const StageProgress& on_progress, const std::stop_token& stop) {
+    const PartFitOptions wanted = {options_.request, options_.count_per_link, options_.total, options_.request.threads};
+    Result<std::vector<PartFit>> fits =
+        context_ ? fit_parts(record_.solids, wanted, *context_, on_progress, stop)
+                 : fit_parts(record_.solids, wanted, reference_extractor(), on_progress, stop);
     if (!fits) return fits.error();
     record_.fits = std::move(fits).value();
     return {};
   }
 
-  Status fit_one_mesh(const Extractor& extractor, const ProgressCallback& on_progress, const std::stop_token& stop) {
+  Status fit_one_mesh(const StageProgress& on_progress, const std::stop_token& stop) {
     Stopwatch stopwatch;
     const SphereOptions& wanted = options_.request;
-    const Result<IndexedMesh> mesh = IndexedMesh::build(record_.parts.front().mesh, wanted.threads);
+    const Result<IndexedMesh> mesh = IndexedMesh::build(record_.solids.front().mesh, wanted.threads);
     if (!mesh) return mesh.error();
-    Result<SphereFit> fit = fit_spheres(
-        mesh.value(), wanted, extractor, [&](const char*, double done) { on_progress(done); }, stop);
+    Result<SphereFit> fit = context_ ? fit_spheres(mesh.value(), wanted, *context_, on_progress, stop)
+                                     : fit_spheres(mesh.value(), wanted, reference_extractor(), on_progress, stop);
     if (!fit) return fit.error();
-    record_.fits.push_back(as_part_fit(std::move(fit).value(), wanted.count));
+    record_.fits.push_back(fit_of_mesh(std::move(fit).value(), wanted.count));
     record_.fits.front().seconds = stopwatch.lap();
     return {};
   }
@@ -167,11 +173,11 @@ class SpheresRun {
     if (!options_.check) return {};
     const EndAtOnce while_checked;
     if (interrupted()) return stopped();
-    record_.checks.resize(record_.parts.size());
-    for (std::size_t i = 0; i < record_.parts.size(); ++i) {
-      if (record_.parts[i].ball) continue;
-      progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.parts.size()));
-      const PreparedMesh& mesh = record_.parts[i].mesh;
+    record_.checks.resize(record_.solids.size());
+    for (std::size_t i = 0; i < record_.solids.size(); ++i) {
+      if (record_.solids[i].ball) continue;
+      progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.solids.size()));
+      const PreparedMesh& mesh = record_.solids[i].mesh;
       const std::vector<Ball>& balls = record_.fits[i].proved;
       const bool covers = options_.request.contract == SphereContract::kCover;
       record_.checks[i] = covers ? check_balls_cover(mesh, balls) : check_balls_inside(mesh, balls);
@@ -199,13 +205,13 @@ class SpheresRun {
     file.contract = name_of(options_.request.contract);
     file.method = name_of(options_.request.method);
     file.is_robot = options_.is_robot;
-    file.robot = record_.robot;
+    file.name = record_.name;
     file.with_levels = options_.request.levels;
     file.branch = std::max(options_.request.count, options_.count_per_link);
     file.urdf = urdf_;
-    for (std::size_t i = 0; i < record_.parts.size(); ++i) {
+    for (std::size_t i = 0; i < record_.solids.size(); ++i) {
       const PartFit& fit = record_.fits[i];
-      file.parts.push_back({record_.parts[i].link, record_.parts[i].name, fit.levels, fit.reach});
+      file.parts.push_back({record_.solids[i].link, record_.solids[i].name, fit.levels, fit.reach});
     }
     if (file.branch > 0) return file;
     for (const PartSpheres& part : file.parts) file.branch = std::max(file.branch, part.levels.back().size());
@@ -216,7 +222,7 @@ class SpheresRun {
     if (options_.picture.empty()) return {};
     progress_.update("picture", 0);
     Stopwatch stopwatch;
-    const std::vector<Pose> poses = options_.is_robot ? part_poses(robot_, record_.parts) : std::vector<Pose>(1);
+    const std::vector<Pose> poses = options_.is_robot ? link_poses(robot_, record_.solids) : std::vector<Pose>(1);
     Result<std::string> png =
         encode_fits_picture(record_, poses, options_.view, record_.device ? &*record_.device : nullptr);
     if (!png) return png.error();

@@ -24,7 +24,7 @@ std::string printable(std::string name) {
 
 std::size_t count_links(const FitsRecord& record) {
   std::set<std::string> links;
-  for (const Part& part : record.parts) links.insert(part.link);
+  for (const Part& part : record.solids) links.insert(part.link);
   return links.size();
 }
 
@@ -124,7 +124,7 @@ CheckReport joint_check(const FitsRecord& record) {
         continue;
       }
       if (same->failed == 0 && line.failed > 0) {
-        same->first_failure = fmt::format("{}: {}", printable(record.parts[i].link), line.first_failure);
+        same->first_failure = fmt::format("{}: {}", printable(record.solids[i].link), line.first_failure);
       }
       same->tested += line.tested;
       same->failed += line.failed;
@@ -136,19 +136,19 @@ CheckReport joint_check(const FitsRecord& record) {
 
 std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record) {
   std::uint64_t triangles = 0;
-  for (const Part& part : record.parts) triangles += part.mesh.report.triangles;
+  for (const Part& solid : record.solids) triangles += solid.mesh.report.triangles;
   std::string text = options.input == "-" ? "standard input" : options.input;
   if (options.is_robot) {
     text += fmt::format(": {} with {}, {}\n", counted(count_links(record), "link", "links"),
-                        counted(record.parts.size(), "geometry", "geometries"),
+                        counted(record.solids.size(), "geometry", "geometries"),
                         counted(triangles, "triangle", "triangles"));
   } else {
     text += fmt::format(": {}\n", counted(triangles, "triangle", "triangles"));
   }
-  for (const Part& part : record.parts) {
-    for (const std::string& assumption : part.mesh.report.assumptions) {
+  for (const Part& solid : record.solids) {
+    for (const std::string& assumption : solid.mesh.report.assumptions) {
       text += line("note", options.is_robot
-                               ? fmt::format("{}, {}: {}", printable(part.link), printable(part.name), assumption)
+                               ? fmt::format("{}, {}: {}", printable(solid.link), printable(solid.name), assumption)
                                : assumption);
     }
   }
@@ -170,7 +170,7 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
     const std::optional<std::string> difference = difference_text(request.contract, record);
     if (difference) text += line("error", *difference);
   }
-  const auto facets = std::ranges::max(record.parts, {}, &Part::facet_share).facet_share;
+  const double facets = std::ranges::max(record.facet_shares);
   if (facets > 0) {
     const bool contract_is_exact = request.contract != SphereContract::kBalanced;
     text += line("note",
@@ -191,10 +191,11 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
 std::string spheres_details(const SpheresOptions& options, const FitsRecord& record) {
   const std::vector<Column> columns = {{"link"}, {"geometry"}, {"spheres", true}, {"uncovered", true}, {"time", true}};
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < record.parts.size(); ++i) {
+  for (std::size_t i = 0; i < record.solids.size(); ++i) {
     const PartFit& fit = record.fits[i];
-    rows.push_back({printable(record.parts[i].link), printable(record.parts[i].name), grouped(fit.levels.back().size()),
-                    percent(uncovered_share(fit, options.request.contract)), duration(fit.seconds)});
+    rows.push_back({printable(record.solids[i].link), printable(record.solids[i].name),
+                    grouped(fit.levels.back().size()), percent(uncovered_share(fit, options.request.contract)),
+                    duration(fit.seconds)});
   }
   std::string text = format_table(columns, rows);
   if (record.fits.size() == 1 && record.fits.front().measures) text += measures_text(*record.fits.front().measures);

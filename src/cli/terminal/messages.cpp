@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/tool_errors.h"
 #include "output/atomic_files/atomic_file.h"
 
 namespace medial_vk::cli {
@@ -19,9 +20,11 @@ constexpr ParameterWords library_only(std::string_view parameter) { return same(
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
     {"amplitude", "--perturb", {}, {}},
+    library_only("ball"),
     library_only("capacity"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount},
+    {"count_per_link", {}, {}, "--count-per-link"},
     same("deep_angle", "the deep angle"),
     same("device", "--device"),
     {"epsilon", "--epsilon", "epsilon", "epsilon"},
@@ -39,6 +42,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("nearest"),
     same("object_angle", "--object-angle"),
     library_only("out"),
+    library_only("pose"),
     library_only("query_error"),
     {"radius", "--radius", "the radius threshold", "the radius threshold"},
     library_only("removal_orders"),
@@ -47,7 +51,9 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("sheets"),
     library_only("sphere"),
     library_only("tolerance"),
+    {"total", {}, {}, "--total"},
     library_only("validation"),
+    {"volume", {}, {}, "volume"},
     library_only("volumes"),
 };
 
@@ -98,6 +104,8 @@ Status print_result(const std::string& text) {
 void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 int exit_code(ErrorCode code) {
+  if (code == kCannotWrite) return 6;
+  if (code == kCheckFailed) return 7;
   switch (code) {
     case ErrorCode::kUsage:
       return 2;
@@ -107,10 +115,6 @@ int exit_code(ErrorCode code) {
       return 4;
     case ErrorCode::kOutOfMemory:
       return 5;
-    case ErrorCode::kCannotWrite:
-      return 6;
-    case ErrorCode::kCheckFailed:
-      return 7;
     case ErrorCode::kInterrupted:
       return 130;
     case ErrorCode::kInternal:

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/terminal/numbers.h"
+#include "common/tool_errors.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -65,7 +66,7 @@ std::string check_table(const CheckReport& check) {
 
 Status verdict(const CheckReport& check) {
   if (check.passed()) return {};
-  return Error{ErrorCode::kCheckFailed, "--check failed: not every ball satisfies its certificate"};
+  return Error{kCheckFailed, "--check failed: not every ball satisfies its certificate"};
 }
 
 std::string level_table(const ExtractionCounters& counters) {

@@ -14,13 +14,15 @@
 #include <utility>
 #include <vector>
 
+#include "common/tool_errors.h"
+
 namespace medial_vk {
 namespace {
 
 namespace fs = std::filesystem;
 
 Error write_error(const std::string& path, const char* what, int system_error) {
-  return {ErrorCode::kCannotWrite, fmt::format("cannot write {}: {}{}", path, what, std::strerror(system_error))};
+  return {kCannotWrite, fmt::format("cannot write {}: {}{}", path, what, std::strerror(system_error))};
 }
 
 std::string folder_of(const std::string& path) {

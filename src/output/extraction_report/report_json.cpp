@@ -18,23 +18,23 @@ using Json = nlohmann::ordered_json;  // Keys keep their order, which is chosen 
 /// The number of the layout, raised when a key changes its meaning.
 constexpr int kReportFormat = 1;
 
-Json parameters_json(const RunRecord& record) {
-  const ExtractionOptions& parameters = record.parameters;
-  const bool thesis = parameters.mode == Mode::kThesis;
+Json options_json(const RunRecord& record) {
+  const ExtractionOptions& options = record.options;
+  const bool thesis = options.mode == Mode::kThesis;
   Json json = {{"mode", thesis ? "thesis" : "certified"},
                {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
-               {"resolution", parameters.resolution},
-               {"object_angle", parameters.object_angle},
-               {"radius", parameters.radius},
-               {"epsilon", parameters.epsilon},
-               {"extra_levels", parameters.extra_levels},
+               {"resolution", options.resolution},
+               {"object_angle", options.object_angle},
+               {"radius", options.radius},
+               {"epsilon", options.epsilon},
+               {"extra_levels", options.extra_levels},
                {"simplify", record.simplify},
                {"perturb", record.perturb},
                {"seed", record.seed},
-               {"memory_bytes", parameters.memory_budget}};
+               {"memory_bytes", options.memory_budget}};
   if (thesis) {
-    json["samples"] = parameters.thesis.samples;
-    json["narrow_features"] = parameters.thesis.narrow_features;
+    json["samples"] = options.thesis.samples;
+    json["narrow_features"] = options.thesis.narrow_features;
   }
   return json;
 }
@@ -186,12 +186,12 @@ Json orders_json(const RunRecord& record) {
           {"topology", order_json(record.keeping_topology)}};
 }
 
-Json grouping_json(const SheetOptions& parameters, const Sheets& sheets) {
-  return {{"sheet_angle", parameters.angle},
-          {"sheet_crease", parameters.crease},
-          {"sheet_border", parameters.border},
-          {"sheet_width", parameters.width},
-          {"absorb_fragments", parameters.absorb_fragments},
+Json grouping_json(const SheetOptions& options, const Sheets& sheets) {
+  return {{"sheet_angle", options.angle},
+          {"sheet_crease", options.crease},
+          {"sheet_border", options.border},
+          {"sheet_width", options.width},
+          {"absorb_fragments", options.absorb_fragments},
           {"pieces", sheets.components},
           {"absorbed", {{"pieces", sheets.absorbed_components}, {"points", sheets.absorbed_points}}},
           {"fragments",
@@ -253,7 +253,7 @@ std::string report_json(const RunRecord& record) {
       {"version", version()},
       {"input", record.input},
       {"output", record.output},
-      {"parameters", parameters_json(record)},
+      {"parameters", options_json(record)},
       {"mesh", mesh_json(record.mesh, record.longest_side)},
       {"grid", {{"origin", record.grid.origin}, {"voxel_size", record.grid.voxel_size}, {"size", record.grid.size}}},
       {"voxels",
@@ -276,7 +276,7 @@ std::string report_json(const RunRecord& record) {
       {"union", union_json(record.ball_union)},
       {"removal", removal_json(record)},
       {"orders", orders_json(record)},
-      {"grouping", grouping_json(record.sheet_parameters, record.sheets)},
+      {"grouping", grouping_json(record.sheet_options, record.sheets)},
       {"medial_mesh", medial_mesh_json(record)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
       {"device", device_json(record.device)},

@@ -36,7 +36,7 @@ struct UnionRecord {
 struct RunRecord {
   std::string input;
   std::string output;
-  ExtractionOptions parameters;
+  ExtractionOptions options;
   Backend backend = Backend::kVulkan;
   std::uint64_t seed = 0;
   double perturb = 0;  ///< Amplitude as a fraction of the longest side; 0: off.
@@ -53,7 +53,7 @@ struct RunRecord {
   std::optional<Range> radii;
   std::optional<Range> object_angles;
 
-  SheetOptions sheet_parameters;
+  SheetOptions sheet_options;
   Sheets sheets;
   std::optional<UnionRecord> ball_union;         ///< None: no output depends on volumes.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.

@@ -9,21 +9,21 @@ namespace medial_vk {
 namespace {
 
 /// Joins all meshes, for the camera and for the gaps between the spheres.
-void append_mesh(const Part& part, const Pose& link, Mesh& all) {
+void append_mesh(const Part& solid, const Pose& link, Mesh& all) {
   const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  for (const Point& p : part.mesh.mesh.vertices) all.vertices.push_back(link * (part.pose * p));
-  for (const Triangle& t : part.mesh.mesh.triangles) {
+  for (const Point& p : solid.mesh.mesh.vertices) all.vertices.push_back(link * (solid.pose * p));
+  for (const Triangle& t : solid.mesh.mesh.triangles) {
     all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
-  if (!part.ball) return;
+  if (!solid.ball) return;
   // There is no mesh, but the camera must include the ball: an octahedron inside it.
-  const double r = part.ball->radius;
+  const double r = solid.ball->radius;
   const auto at = static_cast<std::uint32_t>(all.vertices.size());
   for (const double sign : {-1.0, 1.0}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Point corner = {0, 0, 0};
       corner[axis] = sign * r;
-      all.vertices.push_back(link * (part.pose * corner));
+      all.vertices.push_back(link * (solid.pose * corner));
     }
   }
   for (const Triangle& t : {Triangle{3, 4, 5}, Triangle{4, 0, 5}, Triangle{0, 1, 5}, Triangle{1, 3, 5},
@@ -34,7 +34,7 @@ void append_mesh(const Part& part, const Pose& link, Mesh& all) {
 
 }  // namespace
 
-std::vector<Pose> part_poses(const Robot& robot, std::span<const Part> parts) {
+std::vector<Pose> link_poses(const Robot& robot, std::span<const Part> parts) {
   const std::vector<Pose> links = link_poses(robot);
   std::map<std::string, std::size_t> numbers;
   for (std::size_t i = 0; i < robot.links.size(); ++i) numbers.emplace(robot.links[i].name, i);
@@ -47,8 +47,8 @@ Result<std::string> encode_fits_picture(const FitsRecord& record, std::span<cons
                                         const DeviceDescription* device) {
   Mesh all;
   std::vector<MedialSphere> spheres;
-  for (std::size_t i = 0; i < record.parts.size(); ++i) {
-    append_mesh(record.parts[i], poses[i], all);
+  for (std::size_t i = 0; i < record.solids.size(); ++i) {
+    append_mesh(record.solids[i], poses[i], all);
     for (const Ball& ball : record.fits[i].levels.back()) {
       MedialSphere sphere{};
       sphere.centre = poses[i] * ball.centre;

@@ -1,5 +1,7 @@
 #include "output/fit_reports/fits_record.h"
 
+#include <utility>
+
 namespace medial_vk {
 
 const char* name_of(SphereContract contract) {
@@ -8,6 +10,18 @@ const char* name_of(SphereContract contract) {
 }
 
 const char* name_of(SphereMethod method) { return method == SphereMethod::kBest ? "best" : "source"; }
+
+PartFit fit_of_mesh(SphereFit fit, std::size_t wanted) {
+  PartFit out;
+  out.proved = fit.levels.back();
+  out.levels = std::move(fit.levels);
+  out.reach = std::move(fit.reach);
+  out.wanted = wanted;
+  out.solid_volume = fit.solid_volume;
+  out.spheres_volume = fit.measures.volume.balls;
+  out.measures = std::move(fit.measures);
+  return out;
+}
 
 std::size_t count_spheres(const FitsRecord& record) {
   std::size_t count = 0;

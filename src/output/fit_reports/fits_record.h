@@ -9,8 +9,8 @@
 #include "check_reports/check_report.h"
 #include "common/backend.h"
 #include "medial_vk/context.h"
+#include "medial_vk/part_fits.h"
 #include "medial_vk/spheres.h"
-#include "robots/fit_parts.h"
 
 namespace medial_vk {
 
@@ -25,10 +25,11 @@ struct FitsRecord {
   std::size_t total = 0;           ///< 0: not given.
   Backend backend = Backend::kVulkan;
 
-  std::string robot;                               ///< Name of the robot or mesh.
-  std::vector<Part> parts;                         ///< The fitted parts ...
-  std::vector<PartFit> fits;                       ///< ... and their fits, in the same order.
-  std::vector<std::optional<CheckReport>> checks;  ///< The results of --check, in the same order; else empty.
+  std::string name;                  ///< Of the mesh or robot.
+  std::vector<Part> solids;          ///< The mesh, with its name as both names, or the parts of the robot,
+  std::vector<PartFit> fits;         ///< their fits, in the same order,
+  std::vector<double> facet_shares;  ///< PartOrigin::facet_share of each, 0 of a mesh,
+  std::vector<std::optional<CheckReport>> checks;  ///< and the results of --check, else empty.
   std::optional<DeviceDescription> device;
   std::vector<StageTime> times;  ///< Seconds, in the order of the run.
 };
@@ -37,7 +38,10 @@ struct FitsRecord {
 const char* name_of(SphereContract contract);
 const char* name_of(SphereMethod method);
 
-/// The number of spheres of the last level of all parts.
+/// The fit of a mesh, for which `wanted` balls were requested (0: no number), in its own frame.
+PartFit fit_of_mesh(SphereFit fit, std::size_t wanted);
+
+/// The number of spheres of the last level of all solids.
 std::size_t count_spheres(const FitsRecord& record);
 /// The share of the volume that balls inside leave uncovered; none if a mesh encloses no volume, or for other
 /// contracts.

@@ -28,19 +28,19 @@ Json goals_json(const FitsRecord& record) {
           {"resolution", given(record.request.resolution)}};
 }
 
-Json part_json(const FitsRecord& record, std::size_t index) {
-  const Part& part = record.parts[index];
+Json solid_json(const FitsRecord& record, std::size_t index) {
+  const Part& solid = record.solids[index];
   const PartFit& fit = record.fits[index];
   const std::optional<CheckReport> check = record.checks.empty() ? std::nullopt : record.checks[index];
   const ReachOut& reach = fit.reach.back();
   Json counts = Json::array();
   for (const std::vector<Ball>& level : fit.levels) counts.push_back(level.size());
-  return {{"link", part.link},
-          {"geometry", part.name},
-          {"triangles", part.mesh.report.triangles},
-          {"closed", part.ball || part.mesh.report.closed},
-          {"assumptions", part.mesh.report.assumptions},
-          {"facet_share", part.facet_share},
+  return {{"link", solid.link},
+          {"geometry", solid.name},
+          {"triangles", solid.mesh.report.triangles},
+          {"closed", solid.ball || solid.mesh.report.closed},
+          {"assumptions", solid.mesh.report.assumptions},
+          {"facet_share", record.facet_shares[index]},
           {"wanted", fit.wanted > 0 ? Json(fit.wanted) : Json(nullptr)},
           {"num_spheres", fit.levels.back().size()},
           {"levels", counts},
@@ -57,9 +57,9 @@ Json part_json(const FitsRecord& record, std::size_t index) {
 }  // namespace
 
 std::string encode_fits_report(const FitsRecord& record) {
-  Json parts = Json::array();
-  for (std::size_t i = 0; i < record.parts.size(); ++i) {
-    parts.push_back(part_json(record, i));
+  Json solids = Json::array();
+  for (std::size_t i = 0; i < record.solids.size(); ++i) {
+    solids.push_back(solid_json(record, i));
   }
   Json seconds = Json::object();
   for (const StageTime& time : record.times) seconds[time.stage] = time.seconds;
@@ -69,7 +69,7 @@ std::string encode_fits_report(const FitsRecord& record) {
                      {"input", record.input},
                      {"output", record.output},
                      {"output_format", record.output_format},
-                     {record.is_robot ? "robot" : "mesh", record.robot},
+                     {record.is_robot ? "robot" : "mesh", record.name},
                      {"method", name_of(record.request.method)},
                      {"contract", name_of(record.request.contract)},
                      {"object_angle", record.request.method == SphereMethod::kSource ? Json(record.request.object_angle)
@@ -79,7 +79,7 @@ std::string encode_fits_report(const FitsRecord& record) {
                      {"goals", goals_json(record)},
                      {"num_spheres", count_spheres(record)},
                      {"volume_error", or_null(uncovered_share(record))},
-                     {"parts", parts},
+                     {"parts", solids},
                      {"seconds", seconds}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "common/tool_errors.h"
 #include "output/atomic_files/little_endian.h"
 #include "output/medial_formats/ball_colours.h"
 #include "output/medial_formats/icosphere.h"
@@ -89,7 +90,7 @@ Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, 
   std::uint32_t detail = wanted.value_or(kUsualSphereDetail);
   while (!wanted && detail > 0 && !fits(detail)) --detail;
   if (fits(detail)) return detail;
-  return Error{ErrorCode::kCannotWrite,
+  return Error{kCannotWrite,
                fmt::format("{} balls as a mesh of sphere detail {} take {} MiB, more than {}; use {}, or write them as "
                            ".glb, .npz or .ply without --mesh-spheres",
                            balls, detail, balls * bytes(detail) >> 20, kLargestBallFile >> 20,

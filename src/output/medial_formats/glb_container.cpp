@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/tool_errors.h"
 #include "output/atomic_files/little_endian.h"
 
 namespace medial_vk {
@@ -97,7 +98,7 @@ Result<std::string> GlbContainer::finish(const std::string& nodes) {
   const std::uint64_t length =
       12 + 8 + json.size() + (buffer_.empty() ? 0 : 8 + static_cast<std::uint64_t>(buffer_.size()));
   if (length > UINT32_MAX) {
-    return Error{ErrorCode::kCannotWrite,
+    return Error{kCannotWrite,
                  fmt::format("a .glb of {} MiB is larger than the format allows; use a lower --resolution, or .npz",
                              length >> 20)};
   }

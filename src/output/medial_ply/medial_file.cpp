@@ -51,14 +51,14 @@ void append_text(std::string& out, const MedialSphere& sphere, char separator) {
 
 }  // namespace
 
-MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& parameters, double longest_side) {
+MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& options, double longest_side) {
   MedialHeader header;
   header.version = version();
   header.grid_origin = grid.origin;
   header.voxel_size = grid.voxel_size;
-  header.epsilon = parameters.epsilon * grid.voxel_size;
-  header.object_angle = parameters.object_angle;
-  header.radius_threshold = parameters.radius * longest_side;
+  header.epsilon = options.epsilon * grid.voxel_size;
+  header.object_angle = options.object_angle;
+  header.radius_threshold = options.radius * longest_side;
   return header;
 }
 

@@ -22,7 +22,7 @@ struct MedialHeader {
 };
 
 /// The header of an extraction: fractions become lengths.
-MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& parameters, double longest_side);
+MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& options, double longest_side);
 
 struct MedialFile {
   MedialHeader header;

@@ -158,7 +158,7 @@ std::string encode_spheres_json(const SphereFile& file) {
   std::string out = fmt::format(
       "{{\n  \"format\": {},\n  \"program\": \"medial-vk\",\n  \"version\": {},\n  \"{}\": {},\n  \"contract\": {},\n"
       "  \"method\": {},\n  \"num_spheres\": {},\n  {}",
-      kSpheresFormat, json_text(file.version), file.is_robot ? "robot" : "mesh", json_text(file.robot),
+      kSpheresFormat, json_text(file.version), file.is_robot ? "robot" : "mesh", json_text(file.name),
       json_text(file.contract), json_text(file.method), spheres_in(file, last), set_json(file, last, 2));
   if (file.with_levels) {
     out += ",\n  \"levels\": [";

@@ -36,7 +36,7 @@ XMLElement* find_link(XMLElement& robot, const std::string& name) {
 void make_robot(const SphereFile& file, XMLDocument& document) {
   document.InsertEndChild(document.NewDeclaration());
   XMLElement* robot = document.NewElement("robot");
-  robot->SetAttribute("name", file.robot.c_str());
+  robot->SetAttribute("name", file.name.c_str());
   document.InsertEndChild(robot);
   for (const PartSpheres& part : file.parts)
     robot->InsertNewChildElement("link")->SetAttribute("name", part.link.c_str());

@@ -33,7 +33,7 @@ struct SphereFile {
   std::string contract;  ///< "inside", "cover" or "balanced".
   std::string method;
   bool is_robot = false;           ///< Otherwise there is one part, and its link is the name of the mesh.
-  std::string robot;               ///< Name of the robot or mesh.
+  std::string name;                ///< Of the mesh or robot.
   std::vector<PartSpheres> parts;  ///< Parts of a link are consecutive.
   bool with_levels = false;        ///< All levels are written where the format supports them; else the last.
   std::size_t branch = 1;          ///< Balls requested per part or link, which is foam's name of the set.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "robots/model/pose.h"
+#include "medial_vk/pose.h"
 
 namespace medial_vk {
 

@@ -6,7 +6,7 @@
 
 namespace medial_vk::test {
 
-inline HostDevice lend_device(const Context::Impl& owner) {
+inline HostDevice lend_device(const ContextImpl& owner) {
   HostDevice host;
   host.instance = owner.instance;
   host.physical_device = owner.physical_device;

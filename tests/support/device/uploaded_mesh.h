@@ -8,7 +8,7 @@
 namespace medial_vk::test {
 
 /// DeviceMesh::create() of a mesh that is indexed for it, with all uploads done.
-inline Result<DeviceMesh> upload_mesh(Context::Impl& context, const MeshView& mesh, bool with_links = false) {
+inline Result<DeviceMesh> upload_mesh(ContextImpl& context, const MeshView& mesh, bool with_links = false) {
   Result<IndexedMesh> made = IndexedMesh::build(mesh);
   if (!made.ok()) return made.error();
   Result<DeviceMesh> device = DeviceMesh::create(context, made.value(), with_links);

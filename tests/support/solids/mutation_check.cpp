@@ -54,10 +54,10 @@ Answers answers_of(const reference::Result& result) {
   return out;
 }
 
-void compare(const Extraction& device, const reference::Result& reference, const ExtractionOptions& parameters,
+void compare(const Extraction& device, const reference::Result& reference, const ExtractionOptions& options,
              std::vector<std::string>& faults) {
-  const double threshold = parameters.object_angle;
-  const double least_radius = kLeastRadius * parameters.resolution * reference.voxel_size;
+  const double threshold = options.object_angle;
+  const double least_radius = kLeastRadius * options.resolution * reference.voxel_size;
   const Answers of_device = answers_of(device), of_reference = answers_of(reference);
   for (const MedialSphere& s : device.spheres) {
     const Voxel v = to_voxel(s.voxel);
@@ -88,12 +88,11 @@ MutationOutcome check_mutation(Context& context, std::uint64_t seed) {
     return out;
   }
   const PreparedMesh& mesh = prepared.value();
-  ExtractionOptions parameters;
-  parameters.resolution = 14;
-  parameters.extra_levels = 2;
-  parameters.threads = 1;
-  const Result<CertifiedExtraction> extracted =
-      extract_and_certify(indexed(mesh), parameters, device_extractor(context));
+  ExtractionOptions options;
+  options.resolution = 14;
+  options.extra_levels = 2;
+  options.threads = 1;
+  const Result<CertifiedExtraction> extracted = extract_and_certify(indexed(mesh), options, context);
   if (!extracted.ok()) {
     out.faults.push_back("extraction: " + extracted.error().message);
     return out;
@@ -102,9 +101,9 @@ MutationOutcome check_mutation(Context& context, std::uint64_t seed) {
   out.closed = mesh.report.closed;
   out.points = extraction.spheres.size();
   out.undecided = extraction.undecided.size();
-  const testing::AssertionResult certified = passes_certificate(mesh, extraction, parameters);
+  const testing::AssertionResult certified = passes_certificate(mesh, extraction, options);
   if (!certified) out.faults.emplace_back(certified.message());
-  if (out.closed) compare(extraction, extract_with_reference(mesh, parameters), parameters, out.faults);
+  if (out.closed) compare(extraction, extract_with_reference(mesh, options), options, out.faults);
   return out;
 }
 

@@ -17,7 +17,7 @@
 #include "ball_unions/cells/cell_simplices.h"
 #include "ball_unions/unions/simplex_lists.h"
 #include "ball_unions/unions/unit_balls.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/ball_union.h"
 #include "support/solids/ball_families.h"
 

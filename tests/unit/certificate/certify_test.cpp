@@ -26,7 +26,7 @@ class CertifyTest : public testing::TestWithParam<double> {
   }
 
   CertifyTest() : offset_(GetParam()), indexed_(slab_at(offset_)) {
-    parameters_.resolution = kResolution;
+    options_.resolution = kResolution;
     extraction_.grid.origin = indexed_.bvh().nodes()[0].box.lower;
     extraction_.grid.voxel_size = kLongest / kResolution;
     extraction_.grid.size = {kResolution, kResolution, kResolution / 4};
@@ -52,14 +52,14 @@ class CertifyTest : public testing::TestWithParam<double> {
     ++extraction_.measurements.counters.found;
   }
   CertificateReport certify(unsigned threads = 1) {
-    parameters_.threads = threads;
-    return certify_spheres(indexed_, parameters_, extraction_);
+    options_.threads = threads;
+    return certify_spheres(indexed_, options_, extraction_).value();
   }
-  double epsilon() const { return parameters_.epsilon * extraction_.grid.voxel_size; }
+  double epsilon() const { return options_.epsilon * extraction_.grid.voxel_size; }
 
   double offset_;
   IndexedMesh indexed_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
   Extraction extraction_;
 };
 
@@ -125,18 +125,18 @@ TEST_P(CertifyTest, RequiresAngleOrRadius) {
   MedialSphere s = sphere_at(0.3, 1.97, depth);
   s.spoke_b = {-1, 0, 0};
   add(s);
-  parameters_.object_angle = 0.7;
+  options_.object_angle = 0.7;
   Extraction original = extraction_;
   EXPECT_EQ(certify().passed, 1u);
   EXPECT_NEAR(extraction_.spheres.at(0).object_angle, std::numbers::pi / 4, 1e-6);
   extraction_ = original;
-  parameters_.object_angle = 0.8;
+  options_.object_angle = 0.8;
   EXPECT_EQ(certify().rejected, 1u);
   extraction_ = original;
-  parameters_.radius = 0.25 / kLongest;
+  options_.radius = 0.25 / kLongest;
   EXPECT_EQ(certify().passed, 1u);
   extraction_ = original;
-  parameters_.radius = 0.35 / kLongest;
+  options_.radius = 0.35 / kLongest;
   EXPECT_EQ(certify().rejected, 1u);
 }
 

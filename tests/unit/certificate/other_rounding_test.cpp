@@ -43,13 +43,13 @@ class OtherKernels {
 
 // Clearly salient points of `here` in voxels that `there` has dismissed. (A point nearer to a face, or to the
 // threshold, may represent a medial point in the next voxel, or one below the threshold.)
-std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionOptions& parameters) {
+std::size_t count_lost(const Extraction& here, const Extraction& there, const ExtractionOptions& options) {
   std::set<std::array<std::uint32_t, 3>> kept;
   for (const MedialSphere& s : there.spheres) kept.insert(s.voxel);
   for (const UndecidedVoxel& u : there.undecided) kept.insert(u.voxel);
   std::size_t lost = 0;
   for (const MedialSphere& s : here.spheres) {
-    const bool clear = static_cast<double>(s.object_angle) >= parameters.object_angle + 0.05 &&
+    const bool clear = static_cast<double>(s.object_angle) >= options.object_angle + 0.05 &&
                        test::depth_in_voxel(here.grid, test::to_eigen(s.centre)) >= 0.05;
     lost += clear && !kept.contains(s.voxel);
   }
@@ -62,19 +62,19 @@ bool same_bytes(const Extraction& a, const Extraction& b) {
 }
 
 // Extracts with the original and the rewritten kernels. True if both gave the same bytes.
-bool agree(Mesh solid, const ExtractionOptions& parameters, const Rewrite& rewrite) {
+bool agree(Mesh solid, const ExtractionOptions& options, const Rewrite& rewrite) {
   const PreparedMesh mesh = test::prepare(std::move(solid));
   Context context = test::make_context();
-  const Extraction plain = test::extract_on_device(context, mesh, parameters).extraction;
+  const Extraction plain = test::extract_on_device(context, mesh, options).extraction;
   const OtherKernels kernels(rewrite);
   Context other_context = test::make_context();
   Internals::of(other_context).extra_shaders = kernels.shaders();
-  const CertifiedExtraction other = test::extract_on_device(other_context, mesh, parameters);
+  const CertifiedExtraction other = test::extract_on_device(other_context, mesh, options);
   EXPECT_GT(plain.spheres.size(), 500u);
-  EXPECT_TRUE(test::passes_certificate(mesh, other.extraction, parameters));
+  EXPECT_TRUE(test::passes_certificate(mesh, other.extraction, options));
   EXPECT_LE(other.certificate.rejected, plain.spheres.size() / 100);
-  EXPECT_EQ(count_lost(plain, other.extraction, parameters), 0u);
-  EXPECT_EQ(count_lost(other.extraction, plain, parameters), 0u);
+  EXPECT_EQ(count_lost(plain, other.extraction, options), 0u);
+  EXPECT_EQ(count_lost(other.extraction, plain, options), 0u);
   // The number of undecided voxels does not grow, except for a few at thresholds.
   EXPECT_LE(other.extraction.undecided.size(), plain.undecided.size() + plain.spheres.size() / 100);
   return same_bytes(plain, other.extraction);
@@ -97,10 +97,10 @@ class OtherRoundingTest : public testing::TestWithParam<float> {
   test::OtherRounding rounding() const { return {GetParam() * 2.4e-7f, GetParam() * 4e-7f, GetParam() * 2.4e-4f}; }
 
   void expect_the_same(Mesh solid, std::uint32_t resolution) {
-    ExtractionOptions parameters;
-    parameters.resolution = resolution;
+    ExtractionOptions options;
+    options.resolution = resolution;
     const Rewrite rewrite = [&](auto words) { return test::round_otherwise(words, rounding()); };
-    EXPECT_FALSE(agree(std::move(solid), parameters, rewrite)) << "the kernels round as they did";
+    EXPECT_FALSE(agree(std::move(solid), options, rewrite)) << "the kernels round as they did";
   }
 };
 
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(BothWays, OtherRoundingTest, testing::Values(1.0f, -1.0
 
 using MakeSpecials = test::DeviceTest;
 
-std::vector<float> make_specials(Context::Impl& context, std::span<const std::uint32_t> words) {
+std::vector<float> make_specials(ContextImpl& context, std::span<const std::uint32_t> words) {
   const EmbeddedShader shader = {"make_specials", words};
   context.extra_shaders = {&shader, 1};
   constexpr std::uint32_t kCount = 12;
@@ -167,11 +167,11 @@ TEST_F(MakeSpecials, AreThereAndAreReplaced) {
 class OtherSpecialsTest : public testing::TestWithParam<test::OtherSpecials> {
  protected:
   void expect_the_same(Mesh solid, std::uint32_t resolution, Mode mode = Mode::kCertified) {
-    ExtractionOptions parameters;
-    parameters.resolution = resolution;
-    parameters.mode = mode;
+    ExtractionOptions options;
+    options.resolution = resolution;
+    options.mode = mode;
     const Rewrite rewrite = [&](auto words) { return test::replace_specials(words, GetParam()); };
-    agree(std::move(solid), parameters, rewrite);
+    agree(std::move(solid), options, rewrite);
   }
 };
 

@@ -17,6 +17,7 @@
 
 #include "cli/options/options.h"
 #include "cli/options/spheres_options.h"
+#include "common/tool_errors.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -89,8 +90,8 @@ TEST(Messages, ExitCodes) {
   EXPECT_EQ(exit_code(ErrorCode::kInvalidMesh), 3);
   EXPECT_EQ(exit_code(ErrorCode::kNoDevice), 4);
   EXPECT_EQ(exit_code(ErrorCode::kOutOfMemory), 5);
-  EXPECT_EQ(exit_code(ErrorCode::kCannotWrite), 6);
-  EXPECT_EQ(exit_code(ErrorCode::kCheckFailed), 7);
+  EXPECT_EQ(exit_code(kCannotWrite), 6);
+  EXPECT_EQ(exit_code(kCheckFailed), 7);
   EXPECT_EQ(exit_code(ErrorCode::kInterrupted), 130);
 }
 

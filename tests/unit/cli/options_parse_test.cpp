@@ -49,12 +49,12 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.mesh, "models/bunny.obj");
   EXPECT_EQ(options.output, "bunny.medial.ply");
   EXPECT_EQ(options.format, MedialFormat::kPly);
-  EXPECT_EQ(options.parameters.mode, Mode::kCertified);
-  EXPECT_EQ(options.parameters.resolution, 160u);
-  EXPECT_EQ(options.parameters.object_angle, 0.6);
-  EXPECT_EQ(options.parameters.radius, 0.0);
-  EXPECT_EQ(options.parameters.epsilon, 0.01);
-  EXPECT_EQ(options.parameters.extra_levels, 6u);
+  EXPECT_EQ(options.extraction.mode, Mode::kCertified);
+  EXPECT_EQ(options.extraction.resolution, 160u);
+  EXPECT_EQ(options.extraction.object_angle, 0.6);
+  EXPECT_EQ(options.extraction.radius, 0.0);
+  EXPECT_EQ(options.extraction.epsilon, 0.01);
+  EXPECT_EQ(options.extraction.extra_levels, 6u);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
   EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty() && options.html.empty());
@@ -211,20 +211,20 @@ TEST(Options, EveryOptionIsUnderstood) {
   EXPECT_EQ(options.output, "b.csv");
   EXPECT_EQ(options.format, MedialFormat::kCsv);
   EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
-  EXPECT_TRUE(options.parameters.measurements.kernel_times);
+  EXPECT_TRUE(options.extraction.measurements.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
   EXPECT_EQ(options.html, "p.html");
-  EXPECT_EQ(options.parameters.resolution, 80u);
-  EXPECT_EQ(options.parameters.object_angle, 0.5);
-  EXPECT_EQ(options.parameters.radius, 0.25);
-  EXPECT_EQ(options.parameters.epsilon, 0.02);
-  EXPECT_EQ(options.parameters.mode, Mode::kThesis);
-  EXPECT_EQ(options.parameters.extra_levels, 2u);
+  EXPECT_EQ(options.extraction.resolution, 80u);
+  EXPECT_EQ(options.extraction.object_angle, 0.5);
+  EXPECT_EQ(options.extraction.radius, 0.25);
+  EXPECT_EQ(options.extraction.epsilon, 0.02);
+  EXPECT_EQ(options.extraction.mode, Mode::kThesis);
+  EXPECT_EQ(options.extraction.extra_levels, 2u);
   EXPECT_EQ(options.perturb, 1e-4);
   EXPECT_EQ(options.seed, 18446744073709551615ull);
   EXPECT_EQ(options.device, "llvm");
-  EXPECT_EQ(options.parameters.memory_budget, 2ull << 30);
+  EXPECT_EQ(options.extraction.memory_budget, 2ull << 30);
   EXPECT_EQ(options.threads, 3u);
 }
 

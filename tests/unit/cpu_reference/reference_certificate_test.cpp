@@ -24,21 +24,21 @@ class ReferenceCertificate : public testing::Test {
     Mesh mesh = test::make_l_shape(1, 0.35, 0.6);
     test::rotate(mesh, {0.2, 0.9, -0.4}, 0.5);
     mesh_ = new reference::Mesh(test::to_reference(mesh));
-    result_ = new Result(reference::extract(*mesh_, parameters()));
+    result_ = new Result(reference::extract(*mesh_, options()));
   }
   static void TearDownTestSuite() {
     delete mesh_;
     delete result_;
   }
 
-  static reference::Parameters parameters() {
-    reference::Parameters p;
+  static reference::Options options() {
+    reference::Options p;
     p.resolution = 24;
     return p;
   }
 
   static Certificate check(const Result& result) {
-    const reference::Parameters p = parameters();
+    const reference::Options p = options();
     return reference::check(*mesh_, result, p.epsilon * result.voxel_size, p.object_angle, 0);
   }
 
@@ -81,7 +81,7 @@ Vector3d across(const Vector3d& v) { return v.unitOrthogonal(); }
 TEST_F(ReferenceCertificate, PassesInBothModes) {
   ASSERT_GT(result_->spheres.size(), 300u);
   EXPECT_TRUE(check(*result_).passed());
-  reference::Parameters thesis = parameters();
+  reference::Options thesis = options();
   thesis.certified = false;
   const Result published = reference::extract(*mesh_, thesis);
   ASSERT_GT(published.spheres.size(), 300u);
@@ -165,7 +165,7 @@ TEST_F(ReferenceCertificate, EmptyResultPassesWithNothingTested) {
 }
 
 TEST_F(ReferenceCertificate, ExtractionIsRepeatableOrderedAndInterruptible) {
-  const Result again = reference::extract(*mesh_, parameters());
+  const Result again = reference::extract(*mesh_, options());
   ASSERT_EQ(again.spheres.size(), result_->spheres.size());
   for (std::size_t i = 0; i < again.spheres.size(); ++i) {
     EXPECT_EQ(again.spheres[i].centre, result_->spheres[i].centre);
@@ -177,7 +177,7 @@ TEST_F(ReferenceCertificate, ExtractionIsRepeatableOrderedAndInterruptible) {
   EXPECT_EQ(again.found, again.spheres.size());
   EXPECT_EQ(again.levels.size(), 10u);  // four, and six extra
   double last = 0;
-  const Result stopped = reference::extract(*mesh_, parameters(), [&](double done) {
+  const Result stopped = reference::extract(*mesh_, options(), [&](double done) {
     EXPECT_GT(done, last);
     last = done;
     return done < 0.5;

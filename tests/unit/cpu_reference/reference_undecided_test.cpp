@@ -76,11 +76,11 @@ TEST(ReferenceUndecided, HiddenPointsAreAsTheirVoxelSays) {
        {test::make_l_shape(1, 0.35, 0.6), test::make_ellipsoid({1, 1, 0.4}, 40), test::make_cup(0.6, 0.2, 1, 24)}) {
     const reference::Mesh mesh = turned(solid);
     for (const int levels : {0, 2, 6}) {
-      reference::Parameters parameters;
-      parameters.object_angle = angle;
-      parameters.resolution = 25;
-      parameters.extra_levels = levels;
-      const Result result = reference::extract(mesh, parameters);
+      reference::Options options;
+      options.object_angle = angle;
+      options.resolution = 25;
+      options.extra_levels = levels;
+      const Result result = reference::extract(mesh, options);
       expect_ordered(result);
       hidden += expect_promises_kept(mesh, result, angle);
     }
@@ -93,15 +93,15 @@ TEST(ReferenceUndecided, HiddenPointsAreAsTheirVoxelSays) {
 TEST(ReferenceUndecided, UntrustedBoundaryIsDecided) {
   reference::Mesh mesh = turned(test::make_l_shape(1, 0.35, 0.6));
   mesh.trusted.clear();
-  reference::Parameters parameters;
-  parameters.resolution = 20;
-  const Result result = reference::extract(mesh, parameters);
+  reference::Options options;
+  options.resolution = 20;
+  const Result result = reference::extract(mesh, options);
   expect_ordered(result);
   std::array<int, 4> kinds = {0, 0, 0, 0};
   for (const Undecided& u : result.undecided_voxels) ++kinds[static_cast<std::size_t>(u.kind)];
   EXPECT_LT(kinds[static_cast<std::size_t>(UndecidedKind::kBoundary)], 30);
   EXPECT_EQ(kinds[static_cast<std::size_t>(UndecidedKind::kOther)], 0);
-  expect_promises_kept(mesh, result, parameters.object_angle);
+  expect_promises_kept(mesh, result, options.object_angle);
 }
 
 }  // namespace

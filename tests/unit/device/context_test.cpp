@@ -43,7 +43,7 @@ class ContextTest : public testing::Test {
     Result<Context> context = Context::create(options);
     EXPECT_TRUE(context.ok()) << context.error().message;
     if (!context.ok()) return {};
-    Context::Impl& impl = Internals::of(context.value());
+    ContextImpl& impl = Internals::of(context.value());
     impl.extra_shaders = kTestShaders;
     const auto program = impl.program(test_program());
     EXPECT_TRUE(program.ok()) << program.error().message;
@@ -150,7 +150,7 @@ TEST_F(ContextTest, MovesKeepTheDevice) {
 TEST_F(ContextTest, ProgramsAreMadeOnce) {
   Result<Context> context = Context::create(options());
   ASSERT_TRUE(context.ok());
-  Context::Impl& impl = Internals::of(context.value());
+  ContextImpl& impl = Internals::of(context.value());
   impl.extra_shaders = kTestShaders;
   const auto first = impl.program(test_program());
   ASSERT_TRUE(first.ok()) << first.error().message;
@@ -163,7 +163,7 @@ TEST_F(ContextTest, ProgramsAreMadeOnce) {
 TEST_F(ContextTest, ProgramErrorsNameTheShader) {
   Result<Context> context = Context::create(options());
   ASSERT_TRUE(context.ok());
-  Context::Impl& impl = Internals::of(context.value());
+  ContextImpl& impl = Internals::of(context.value());
   impl.extra_shaders = kTestShaders;
   ProgramKey key = test_program();
   key.shader = "no_such_kernel";

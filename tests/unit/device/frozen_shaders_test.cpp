@@ -38,14 +38,14 @@ std::vector<EmbeddedShader> frozen_shaders() {
 }
 
 // The requests of an extraction from a mesh with trusted normals only, in the names of the frozen variants.
-std::set<std::string> names_requested(Context::Impl& context, const PreparedMesh& mesh,
-                                      const ExtractionOptions& parameters) {
+std::set<std::string> names_requested(ContextImpl& context, const PreparedMesh& mesh,
+                                      const ExtractionOptions& options) {
   Result<DeviceMesh> device = test::upload_mesh(context, mesh.view());
   EXPECT_TRUE(device.ok() && device.value().add_links().ok());
   Result<StopWord> stop = StopWord::create(context);
   EXPECT_TRUE(stop.ok());
-  const std::uint32_t n = parameters.resolution;
-  auto pipeline = CertifiedPipeline::create(context, device.value(), parameters, {n, n, n}, stop.value());
+  const std::uint32_t n = options.resolution;
+  auto pipeline = CertifiedPipeline::create(context, device.value(), options, {n, n, n}, stop.value());
   EXPECT_TRUE(pipeline.ok());
   Recorder rehearsal(context);
   EXPECT_TRUE(pipeline.value().record(rehearsal, 0, 1).ok());
@@ -60,17 +60,17 @@ std::set<std::string> names_requested(Context::Impl& context, const PreparedMesh
 
 class FrozenShadersTest : public testing::Test {
  protected:
-  FrozenShadersTest() : mesh_(test::prepare(test::make_torus(1.0, 0.4, 24, 48, 0.5))) { parameters_.resolution = 40; }
+  FrozenShadersTest() : mesh_(test::prepare(test::make_torus(1.0, 0.4, 24, 48, 0.5))) { options_.resolution = 40; }
 
   PreparedMesh mesh_;
-  ExtractionOptions parameters_;
+  ExtractionOptions options_;
 };
 
 TEST_F(FrozenShadersTest, AreRequested) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Context context = test::make_context();
   if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "this device takes the general kernels";
-  const std::set<std::string> requested = names_requested(Internals::of(context), mesh_, parameters_);
+  const std::set<std::string> requested = names_requested(Internals::of(context), mesh_, options_);
   ASSERT_THAT(frozen_shaders(), testing::Not(testing::IsEmpty()));
   for (const EmbeddedShader& frozen : frozen_shaders())
     EXPECT_TRUE(requested.contains(std::string(frozen.name))) << frozen.name << " is never used";
@@ -82,8 +82,8 @@ TEST_F(FrozenShadersTest, ComputeTheSame) {
   std::vector<EmbeddedShader> general = frozen_shaders();
   for (EmbeddedShader& shader : general) shader.words = general_of(shader).words;
   Internals::of(other_context).extra_shaders = general;
-  const auto frozen = test::extract_on_device(context, mesh_, parameters_).extraction;
-  const auto other = test::extract_on_device(other_context, mesh_, parameters_).extraction;
+  const auto frozen = test::extract_on_device(context, mesh_, options_).extraction;
+  const auto other = test::extract_on_device(other_context, mesh_, options_).extraction;
   ASSERT_GT(frozen.spheres.size(), 500u);
   ASSERT_EQ(frozen.spheres.size(), other.spheres.size());
   EXPECT_EQ(std::memcmp(frozen.spheres.data(), other.spheres.data(), frozen.spheres.size() * sizeof(MedialSphere)), 0);

@@ -55,7 +55,7 @@ class DispatchRowsTest : public testing::Test {
     d.list_counter = gpu::kNoCounter;
     d.threads = threads;
 
-    Context::Impl& impl = Internals::of(*context_);
+    ContextImpl& impl = Internals::of(*context_);
     Arena arena(impl);
     const auto create = [&arena](VkDeviceSize bytes, MemoryKind kind) {
       return arena.create_buffer(bytes, kind, "a test").value();
@@ -126,7 +126,7 @@ TEST_F(DispatchRowsTest, NoGroupRunsBeyondALimit) {
 
 TEST_F(DispatchRowsTest, WhatTheHostSizesGoesToRowsToo) {
   constexpr std::uint32_t kGroups = 3 * gpu::kGroupsInRow + 5;
-  Context::Impl& impl = Internals::of(*context_);
+  ContextImpl& impl = Internals::of(*context_);
   Arena arena(impl);
   const Buffer runs = arena.create_buffer(VkDeviceSize{kGroups + 1} * 4, MemoryKind::kDevice, "a test").value();
   const Buffer back = arena.create_buffer(runs.size, MemoryKind::kReadback, "a test").value();
@@ -160,15 +160,15 @@ TEST_F(DispatchRowsTest, ResultsAreTheSameForAnyNumberOfThreads) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
   for (const Mode mode : {Mode::kCertified, Mode::kThesis}) {
-    ExtractionOptions parameters;
-    parameters.resolution = 40;
-    parameters.mode = mode;
+    ExtractionOptions options;
+    options.resolution = 40;
+    options.mode = mode;
     Internals::of(*context_).dispatch_threads = 1;
-    const Extraction one = test::extract_on_device(*context_, mesh, parameters).extraction;
+    const Extraction one = test::extract_on_device(*context_, mesh, options).extraction;
     ASSERT_GT(one.spheres.size(), 500u);
     for (const std::uint32_t threads : {2u, 3u, 5u}) {
       Internals::of(*context_).dispatch_threads = threads;
-      const Extraction several = test::extract_on_device(*context_, mesh, parameters).extraction;
+      const Extraction several = test::extract_on_device(*context_, mesh, options).extraction;
       ASSERT_EQ(several.spheres.size(), one.spheres.size()) << threads;
       for (std::size_t i = 0; i < one.spheres.size(); ++i)
         ASSERT_EQ(std::memcmp(&several.spheres[i], &one.spheres[i], sizeof(MedialSphere)), 0) << threads;

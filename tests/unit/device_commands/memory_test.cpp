@@ -36,7 +36,7 @@ class MemoryTest : public testing::Test {
       EXPECT_EQ(context_->validation_messages(), 0u);
     }
   }
-  Context::Impl& impl() { return Internals::of(*context_); }
+  ContextImpl& impl() { return Internals::of(*context_); }
 
   std::optional<Context> context_;
 };
@@ -121,7 +121,7 @@ TEST_F(MemoryTest, TexelViewsCoverAWholeBuffer) {
 }
 
 /// Bytes are uploaded, copied between two buffers of the device, and downloaded.
-void expect_round_trip(Context::Impl& impl, bool through_staging) {
+void expect_round_trip(ContextImpl& impl, bool through_staging) {
   Arena arena(impl);
   std::vector<std::uint32_t> words(100'003);
   std::iota(words.begin(), words.end(), 7u);

@@ -58,7 +58,7 @@ class RecorderTest : public testing::Test {
     }
   }
 
-  Context::Impl& impl() { return Internals::of(*context_); }
+  ContextImpl& impl() { return Internals::of(*context_); }
   Buffer create(VkDeviceSize bytes, MemoryKind kind) { return arena_->create_buffer(bytes, kind, "a test").value(); }
 
   std::vector<StageTime> run(const std::function<Status(Recorder&)>& record) {

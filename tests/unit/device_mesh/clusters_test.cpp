@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {

@@ -25,9 +25,9 @@ namespace {
 class IndexedMeshTest : public test::DeviceTest {};
 
 ExtractionOptions small_job() {
-  ExtractionOptions parameters;
-  parameters.resolution = 24;
-  return parameters;
+  ExtractionOptions options;
+  options.resolution = 24;
+  return options;
 }
 
 auto numbers_of(const MedialSphere& s) {
@@ -49,7 +49,7 @@ TEST_F(IndexedMeshTest, SameSpheresFromAMeshThatStaysOnTheDevice) {
   for (const Mode mode : {Mode::kCertified, Mode::kThesis}) {
     ExtractionOptions options = small_job();
     options.mode = mode;
-    const auto once = extract_medial_spheres(*context_, mesh, options);
+    const auto once = extract_medial_spheres(mesh, options, *context_);
     ASSERT_TRUE(once.ok());
     Scene scene = Scene::create(*context_, mesh).value();
     const Extractor extractor = device_extractor(*context_);
@@ -68,7 +68,7 @@ TEST_F(IndexedMeshTest, AnExtractorFollowsTheMesh) {
   IndexedMesh mesh = turned_torus();
   ASSERT_TRUE(extractor(mesh, small_job(), {}, {}).ok());
   ASSERT_TRUE(mesh.move_vertices(test::bent(test::make_turned_torus()).vertices).ok());
-  expect_same(extract_medial_spheres(*context_, mesh, small_job()).value(),
+  expect_same(extract_medial_spheres(mesh, small_job(), *context_).value(),
               extractor(mesh, small_job(), {}, {}).value());
 }
 

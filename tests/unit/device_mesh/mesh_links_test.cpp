@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "medial_vk/bvh.h"
 #include "support/solids/solids.h"
 

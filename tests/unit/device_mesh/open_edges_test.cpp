@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {

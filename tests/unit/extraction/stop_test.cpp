@@ -18,7 +18,7 @@ namespace {
 
 class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
  protected:
-  static ExtractionOptions parameters(std::uint32_t resolution) {
+  static ExtractionOptions options(std::uint32_t resolution) {
     ExtractionOptions p;
     p.mode = GetParam();
     p.resolution = resolution;
@@ -27,7 +27,7 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
   Result<Extraction> extract(const ProgressCallback& progress, const std::stop_token& stop) {
     // Seconds on any CPU.
     const std::uint32_t resolution = GetParam() == Mode::kCertified ? 2000 : 400;
-    return test::extract_spheres(*context_, mesh_.view(), parameters(resolution), progress, stop);
+    return test::extract_spheres(*context_, mesh_.view(), options(resolution), progress, stop);
   }
   void expect_interrupted(const Result<Extraction>& result) {
     ASSERT_FALSE(result.ok());
@@ -36,7 +36,7 @@ class Stop : public test::DeviceTest, public testing::WithParamInterface<Mode> {
   /// The context still gives the results of a fresh one.
   void expect_usable() {
     const auto spheres_of = [&](Context& context) {
-      const Result<Extraction> e = test::extract_spheres(context, mesh_.view(), parameters(12));
+      const Result<Extraction> e = test::extract_spheres(context, mesh_.view(), options(12));
       EXPECT_TRUE(e.ok()) << (e.ok() ? "" : e.error().message);
       std::vector<Point> centres;
       if (e.ok()) {

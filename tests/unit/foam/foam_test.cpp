@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "foam/clip_polytope.h"
 #include "medial_vk/foam.h"
 

@@ -63,9 +63,9 @@ struct Meshed {
   MedialMesh mesh;
 };
 
-Meshed meshed(std::vector<MedialSphere> spheres, const SheetOptions& parameters = {}) {
+Meshed meshed(std::vector<MedialSphere> spheres, const SheetOptions& options = {}) {
   Meshed out;
-  out.sheets = find_sheets(spheres, {{0, 0, 0}, 1, {32, 32, 32}}, ExtractionOptions(), parameters);
+  out.sheets = find_sheets(spheres, {{0, 0, 0}, 1, {32, 32, 32}}, ExtractionOptions(), options).value();
   out.mesh = make_medial_mesh(spheres, out.sheets, {1, 0.01, 1}).value();
   out.spheres = std::move(spheres);
   return out;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/tool_errors.h"
 #include "output/atomic_files/atomic_file.h"
 
 namespace medial_vk {
@@ -88,7 +89,7 @@ TEST_F(OutputAtomicFile, PublishesWithAndWithoutATemporaryName) {
 TEST_F(OutputAtomicFile, AMissingFolderIsAnErrorThatNamesTheFile) {
   const Status status = write_one(path("no/such/folder/a.ply"), "x");
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().code, ErrorCode::kCannotWrite);
+  EXPECT_EQ(status.error().code, kCannotWrite);
   EXPECT_THAT(status.error().message, HasSubstr("no/such/folder/a.ply"));
   EXPECT_FALSE(check_writable(path("no/such/folder/a.ply")).ok());
   EXPECT_THAT(names(), IsEmpty());
@@ -133,7 +134,7 @@ TEST_F(OutputAtomicFile, AFullDiskLeavesNothing) {
   const OutputFile files[] = {{path("new"), "x"}, {"/dev/full", "y"}};
   const Status status = write_files(files);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().code, ErrorCode::kCannotWrite);
+  EXPECT_EQ(status.error().code, kCannotWrite);
   EXPECT_THAT(names(), IsEmpty());
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/tool_errors.h"
 #include "output/medial_formats/icosphere.h"
 #include "support/medial_points.h"
 
@@ -98,7 +99,7 @@ TEST(OutputBallMesh, DetailGivesWayToTheSizeOfTheFileUnlessItWasRequested) {
   EXPECT_EQ(choose_sphere_detail(3, 64, a_mebibyte_or_more).value(), 3u);
   const auto refused = choose_sphere_detail(3, 65, a_mebibyte_or_more);
   ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().code, ErrorCode::kCannotWrite);
+  EXPECT_EQ(refused.error().code, kCannotWrite);
   EXPECT_THAT(refused.error().message, HasSubstr("65 balls as a mesh of sphere detail 3 take 4160 MiB"));
   EXPECT_THAT(refused.error().message, HasSubstr("lower --sphere-detail"));
   EXPECT_FALSE(choose_sphere_detail({}, 4097, a_mebibyte_or_more).ok());

@@ -227,9 +227,9 @@ TEST(OutputMedialFile, FormatIsThatOfTheExtension) {
 }
 
 TEST(OutputMedialFile, HeaderTurnsFractionsIntoLengths) {
-  ExtractionOptions parameters;
-  parameters.radius = 0.25;
-  const MedialHeader header = make_header({{1, 2, 3}, 0.5, {4, 4, 4}}, parameters, 80.0);
+  ExtractionOptions options;
+  options.radius = 0.25;
+  const MedialHeader header = make_header({{1, 2, 3}, 0.5, {4, 4, 4}}, options, 80.0);
   EXPECT_EQ(header.version, version());
   EXPECT_EQ(header.epsilon, 0.005);
   EXPECT_EQ(header.radius_threshold, 20.0);

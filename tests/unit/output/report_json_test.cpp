@@ -6,6 +6,7 @@
 
 #include "cli/extract/summary.h"
 #include "cli/terminal/tables.h"
+#include "common/tool_errors.h"
 #include "output/extraction_report/report_json.h"
 
 namespace medial_vk {
@@ -18,7 +19,7 @@ RunRecord some_record() {
   RunRecord record;
   record.input = "part.stl";
   record.output = "part.medial.ply";
-  record.parameters.radius = 0.1;
+  record.options.radius = 0.1;
   record.mesh.triangles = 12;
   record.mesh.closed = true;
   record.mesh.assumptions = {"Two holes were left open."};
@@ -182,7 +183,7 @@ TEST(ReportJson, CertificateAndCpu) {
   RunRecord record = some_record();
   record.backend = Backend::kCpu;
   record.device.reset();
-  record.parameters.mode = Mode::kThesis;
+  record.options.mode = Mode::kThesis;
   record.check.emplace();
   record.check->lines = {{"radius <= exact distance", 249, 1, 1e-9, "longest sides", "ball 17: too big"}};
   const json report = json::parse(report_json(record));
@@ -231,7 +232,7 @@ TEST(ReportTables, CertificateNamesTheFirstFailure) {
 
   const Status verdict = cli::verdict(certificate);
   ASSERT_FALSE(verdict.ok());
-  EXPECT_EQ(verdict.error().code, ErrorCode::kCheckFailed);
+  EXPECT_EQ(verdict.error().code, kCheckFailed);
   certificate.lines.pop_back();
   EXPECT_TRUE(cli::verdict(certificate).ok());
 }

@@ -44,7 +44,7 @@ SphereFile robot() {
   file.contract = "inside";
   file.method = "source";
   file.is_robot = true;
-  file.robot = "r";
+  file.name = "r";
   file.branch = 2;
   file.parts = {{"a", "m.stl", {{{{0, 0, 1}, 2}}, {{{0, 0, 1}, 2}, {{1e-5, 0, 0}, 0.5}}}, {{}, {}}},
                 {"a", "primitive1", {{{{4, 4, 4}, 1}}, {{{4, 4, 4}, 1}}}, {{}, {}}},

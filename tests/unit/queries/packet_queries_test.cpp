@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "base/point_order.h"
 #include "base/spiral.h"
 #include "device/context_impl.h"
@@ -33,7 +33,7 @@ class PacketQueriesTest : public test::DeviceTest {
   /// Runs `record(recorder, slots, queries, nearest, hits)` over the queries; results that it does not write are zero.
   template <class Record>
   Answers run(std::span<const Texel> queries, std::span<const std::uint32_t> slots, const Record& record) {
-    Context::Impl& context = Internals::of(*context_);
+    ContextImpl& context = Internals::of(*context_);
     Arena arena(context);
     const std::size_t count = queries.size();
     const auto make = [&](VkDeviceSize bytes, MemoryKind kind) {
@@ -100,7 +100,7 @@ std::vector<Texel> samples_of_spheres(std::span<const Point> directions, int sph
   return queries;
 }
 
-std::vector<PacketShape> all_shapes(const Context::Impl& context) {
+std::vector<PacketShape> all_shapes(const ContextImpl& context) {
   std::vector<PacketShape> shapes = {PacketShape::best_for(context)};
   for (const std::uint32_t width : {4u, 8u, 16u, 32u, 64u}) shapes.push_back(PacketShape::of(width, true));
   return shapes;
@@ -212,7 +212,7 @@ TEST(PointOrder, IsAPermutationThatKeepsNeighboursTogether) {
 // dispatch is followed by the next test whether to continue.
 TEST_F(PacketQueriesTest, SlicesAnswerWhatOneDispatchDoes) {
   const Mesh mesh = test::make_turned_torus();
-  Context::Impl& context = Internals::of(*context_);
+  ContextImpl& context = Internals::of(*context_);
   const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   const std::vector<Texel> queries = samples_of_spheres(spiral_points(50), 20);
   const Answers expected = query_one_by_one(device, queries);

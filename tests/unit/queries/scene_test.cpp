@@ -108,7 +108,7 @@ TEST_F(SceneTest, CopiesPointsToTheDeviceAndBack) {
 
 // At the centre of a sphere every walk gives up, slightly off it none does.
 TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
-  Context::Impl& context = Internals::of(*context_);
+  ContextImpl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 100000);
   const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   TreeQueries queries = TreeQueries::create(context, device, 64).value();
@@ -137,7 +137,7 @@ TEST_F(SceneTest, CountsTheQueriesThatNeedAllTriangles) {
 // The time that a stop saves is measured by bench/stops.cpp; here, that nothing further is written. Without a tolerance
 // every walk reaches all triangles and gives up.
 TEST_F(SceneTest, WindingNumbersAreLeftAloneAfterAStop) {
-  Context::Impl& context = Internals::of(*context_);
+  ContextImpl& context = Internals::of(*context_);
   const Mesh mesh = test::make_sphere(1.0, 20000);
   const DeviceMesh device = test::upload_mesh(context, test::view_of(mesh)).value();
   StopWord stop = StopWord::create(context).value();

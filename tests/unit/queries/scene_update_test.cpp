@@ -39,7 +39,7 @@ class SceneUpdate : public test::DeviceTest {
 
   /// Answers of `queries`, created for `mesh` before or after it was updated; ties go to the smallest index.
   std::vector<Nearest> closest(const TreeQueries& queries, const DeviceMesh& mesh, const std::vector<Point>& points) {
-    Context::Impl& context = Internals::of(*context_);
+    ContextImpl& context = Internals::of(*context_);
     const auto count = static_cast<std::uint32_t>(points.size());
     std::vector<Texel> texels;
     for (const Point& p : points) {
@@ -85,7 +85,7 @@ std::vector<Point> points_around(const Point& centre) {
 
 TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
   use_own_context();
-  Context::Impl& context = Internals::of(*context_);
+  ContextImpl& context = Internals::of(*context_);
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
   for (const bool texels : {true, false}) {
     SCOPED_TRACE(texels);
@@ -112,7 +112,7 @@ TEST_F(SceneUpdate, AnswersAsIfCreatedAnew) {
 }
 
 TEST_F(SceneUpdate, RefusesWhatDoesNotFit) {
-  Context::Impl& context = Internals::of(*context_);
+  ContextImpl& context = Internals::of(*context_);
   const Mesh mesh = test::make_turned_torus();
   IndexedMesh indexed = test::indexed(test::view_of(mesh));
   DeviceMesh device = upload(indexed);

@@ -32,7 +32,7 @@ class TreeCounts : public test::DeviceTest {
   void SetUp() override {
     test::DeviceTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    Context::Impl& context = Internals::of(*context_);
+    ContextImpl& context = Internals::of(*context_);
     mesh_ = test::make_sphere(1.0, 2000);
     device_.emplace(test::upload_mesh(context, test::view_of(mesh_)).value());
     arena_.emplace(context);

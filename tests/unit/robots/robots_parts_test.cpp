@@ -1,4 +1,4 @@
-// The solids of a robot: primitives as meshes on the right side, poses with their rounding, files that are found.
+// The solids of a robot: primitives as meshes on the right side, files that are found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
 #include "robots/parts.h"
-#include "robots/share_out.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
 
@@ -19,7 +18,6 @@ namespace medial_vk {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 Geometry primitive(GeometryKind kind, const Point& size) {
@@ -90,31 +88,6 @@ TEST(Parts, BoxesAreExact) {
   EXPECT_EQ(facet_share(GeometryKind::kBox), 0);
 }
 
-TEST(Parts, PlacingABallAllowsForRounding) {
-  Part part;
-  const Ball ball = {{0.1, 0.2, 0.3}, 0.05};
-  EXPECT_EQ(place(part, ball, -1).radius, 0.05);
-  EXPECT_EQ(place(part, ball, -1).centre, ball.centre);
-  part.pose = make_pose({1, 2, 3}, {0.3, -0.2, 0.7});
-  const Ball inside = place(part, ball, -1), around = place(part, ball, 1);
-  EXPECT_LT(inside.radius, 0.05);
-  EXPECT_GT(around.radius, 0.05);
-  EXPECT_NEAR(inside.radius, 0.05, 1e-14);
-  EXPECT_NEAR(around.radius, 0.05, 1e-14);
-  EXPECT_EQ(place(part, ball, 0).radius, 0.05);
-  EXPECT_EQ(place(part, {{0.1, 0.2, 0.3}, 0}, -1).radius, 0);
-  // The same in extended precision is within the allowed bound.
-  const long double cr = std::cos(0.3L), sr = std::sin(0.3L), cp = std::cos(-0.2L), sp = std::sin(-0.2L),
-                    cy = std::cos(0.7L), sy = std::sin(0.7L);
-  const long double x = 0.1, y = 0.2, z = 0.3;
-  const long double y1 = cr * y - sr * z, z1 = sr * y + cr * z;
-  const long double x2 = cp * x + sp * z1, z2 = -sp * x + cp * z1;
-  const long double dx = cy * x2 - sy * y1 + 1 - inside.centre[0], dy = sy * x2 + cy * y1 + 2 - inside.centre[1],
-                    dz = z2 + 3 - inside.centre[2];
-  // The angles of the pose are doubles, those here are not: another 1e-16.
-  EXPECT_LE(static_cast<double>(std::sqrt(dx * dx + dy * dy + dz * dz)), ball.radius - inside.radius + 1e-16);
-}
-
 class RobotFiles : public testing::Test {
  protected:
   RobotFiles() {
@@ -137,7 +110,7 @@ class RobotFiles : public testing::Test {
     return file ? fs::weakly_canonical(file.value()).string() : file.error().message;
   }
 
-  Result<std::vector<Part>> load(const Geometry& geometry) const {
+  Result<RobotParts> load(const Geometry& geometry) const {
     Robot robot;
     robot.links.push_back({"link", {geometry}, {}});
     const Result<MeshPlaces> places = mesh_places(path("arm/urdf/arm.urdf"), {});
@@ -173,10 +146,11 @@ TEST_F(RobotFiles, ScalesAreApplied) {
   Geometry geometry;
   geometry.mesh = "../meshes/box.obj";
   geometry.scale = {2, -1, 0.5};
-  const Result<std::vector<Part>> parts = load(geometry);
+  const Result<RobotParts> parts = load(geometry);
   ASSERT_TRUE(parts.ok()) << parts.error().message;
-  const Part& part = parts.value().front();
+  const Part& part = parts.value().parts.front();
   EXPECT_EQ(part.name, "../meshes/box.obj");
+  EXPECT_EQ(fs::weakly_canonical(parts.value().origins.front().file), fs::weakly_canonical(path("arm/meshes/box.obj")));
   EXPECT_EQ(part.mesh.report.lower, (Point{0, -2, 0}));
   EXPECT_EQ(part.mesh.report.upper, (Point{2, 0, 1.5}));
   EXPECT_NEAR(part.mesh.report.signed_volume, 6, 1e-12);
@@ -202,52 +176,6 @@ TEST_F(RobotFiles, FaultsNameLinkAndFile) {
   robot.links.push_back({"link", {}, {}});
   EXPECT_THAT(load_parts(robot, false, FacetSide::kInscribed, places.value(), "a.urdf").error().message,
               HasSubstr("no link has a <collision>; try --visual"));
-}
-
-TEST(ShareOut, GivesWhereItCoversMost) {
-  const NeedCurve large = {{8, 4, 2, 1, 0.5}, false}, small = {{0.8, 0.4, 0.2, 0.1, 0.05}, false}, ball = {{}, true};
-  const std::vector<NeedCurve> curves = {small, ball, large};
-  EXPECT_THAT(share_out(curves, 3), ElementsAre(1, 1, 1));
-  EXPECT_THAT(share_out(curves, 4), ElementsAre(1, 1, 2));
-  EXPECT_THAT(share_out(curves, 6), ElementsAre(1, 1, 4));
-  const std::vector<std::size_t> many = share_out(curves, 100);
-  EXPECT_EQ(many[1], 1u);
-  EXPECT_EQ(many[0] + many[2], 99u);
-  EXPECT_GT(many[2], many[0]);
-  EXPECT_GT(many[0], 10u);
-}
-
-TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
-  const NeedCurve late = {{10, 10, 0}, false}, early = {{10, 9, 8}, false};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{early, late}, 4), ElementsAre(1, 3));
-  const NeedCurve ball = {{}, true};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
-  const NeedCurve ends = {{3, 2, 1}, false, true};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
-}
-
-TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
-  // Bumpy curves, without smoothing.
-  std::vector<NeedCurve> curves(4);
-  for (std::size_t part = 0; part < curves.size(); ++part) {
-    double error = 3.0 + 5.0 * static_cast<double>(part);
-    for (std::size_t k = 1; k <= 400; ++k) {
-      curves[part].uncovered.push_back(error);
-      const double share = 0.9 / static_cast<double>(k) * ((k * 7 + part * 3) % 5 == 0 ? 1.9 : 0.4);
-      error *= 1 - share;
-    }
-  }
-  std::vector<std::size_t> before(curves.size(), 0);
-  for (std::size_t total = curves.size(); total < 600; ++total) {
-    const std::vector<std::size_t> counts = share_out(curves, total);
-    std::size_t sum = 0;
-    for (std::size_t part = 0; part < counts.size(); ++part) {
-      EXPECT_GE(counts[part], before[part]) << total;
-      sum += counts[part];
-    }
-    EXPECT_EQ(sum, total);
-    before = counts;
-  }
 }
 
 }  // namespace

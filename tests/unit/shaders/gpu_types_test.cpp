@@ -43,7 +43,7 @@ const std::vector<Layout>& shared_layouts() {
        {MEDIAL_VK_MEMBER(Cell, x), MEDIAL_VK_MEMBER(Cell, y), MEDIAL_VK_MEMBER(Cell, z), MEDIAL_VK_MEMBER(Cell, voxel),
         MEDIAL_VK_MEMBER(Cell, list_begin), MEDIAL_VK_MEMBER(Cell, list_count), MEDIAL_VK_MEMBER(Cell, word_begin),
         MEDIAL_VK_MEMBER(Cell, flags), MEDIAL_VK_MEMBER(Cell, nearest), MEDIAL_VK_MEMBER(Cell, touching),
-        MEDIAL_VK_MEMBER(Cell, partner), MEDIAL_VK_MEMBER(Cell, level)}},
+        MEDIAL_VK_MEMBER(Cell, partner), MEDIAL_VK_MEMBER(Cell, winding)}},
       {"Line",
        sizeof(gpu::Line),
        {MEDIAL_VK_MEMBER(Line, p), MEDIAL_VK_MEMBER(Line, q), MEDIAL_VK_MEMBER(Line, toward_p),

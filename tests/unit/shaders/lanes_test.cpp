@@ -16,13 +16,13 @@ namespace {
 void expect_the_same(Mesh solid, std::uint32_t resolution) {
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
   const PreparedMesh mesh = test::prepare(std::move(solid));
-  ExtractionOptions parameters;
-  parameters.resolution = resolution;
+  ExtractionOptions options;
+  options.resolution = resolution;
   Context context = test::make_context();
   if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "the device has no lanes in lockstep";
-  const Extraction shuffled = test::extract_on_device(context, mesh, parameters).extraction;
+  const Extraction shuffled = test::extract_on_device(context, mesh, options).extraction;
   Internals::of(context).has_lockstep_lanes = false;
-  const Extraction shared = test::extract_on_device(context, mesh, parameters).extraction;
+  const Extraction shared = test::extract_on_device(context, mesh, options).extraction;
   EXPECT_EQ(context.validation_messages(), 0u);
   ASSERT_GT(shuffled.spheres.size(), 500u);
   ASSERT_EQ(shuffled.spheres.size(), shared.spheres.size());

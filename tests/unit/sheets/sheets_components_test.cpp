@@ -159,10 +159,10 @@ TEST(JoinComponents, AsAPlainProgramWould) {
     const VoxelGraph graph(spheres);
     const Components components = grown(graph);
     for (const double border : {0.0, 30.0, 77.0, 110.0, 180.0}) {
-      SheetOptions parameters;
-      parameters.border = border;
+      SheetOptions options;
+      options.border = border;
       Components joined = components;
-      join_components(graph, parameters, joined);
+      join_components(graph, options, joined);
       EXPECT_EQ(joined, PlainJoining(graph, components).run(border)) << "seed " << seed << ", border " << border;
       joins += std::set(components.begin(), components.end()).size() - std::set(joined.begin(), joined.end()).size();
     }
@@ -191,10 +191,10 @@ class Drawn {
     for (const char letter : letters_) {
       component_of.push_back(static_cast<std::uint32_t>(std::ranges::find(alphabet, letter) - alphabet.begin()));
     }
-    SheetOptions parameters;
-    parameters.width = 0;
-    parameters.absorb_fragments = points;
-    absorb_components(VoxelGraph(spheres_), 1, parameters, component_of);
+    SheetOptions options;
+    options.width = 0;
+    options.absorb_fragments = points;
+    absorb_components(VoxelGraph(spheres_), 1, options, component_of);
     std::vector<std::string> rows(1 + spheres_.back().voxel[1], std::string(width, ' '));
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
       rows[spheres_[i].voxel[1]][spheres_[i].voxel[0]] = alphabet[component_of[i]];

@@ -51,14 +51,14 @@ std::vector<MedialSphere> together(std::vector<MedialSphere> a, const std::vecto
 
 /// The options of the published test alone.
 SheetOptions as_published(double angle = 5.7) {
-  SheetOptions parameters;
-  parameters.angle = angle;
-  parameters.crease = parameters.width = 0;
-  return parameters;
+  SheetOptions options;
+  options.angle = angle;
+  options.crease = options.width = 0;
+  return options;
 }
 
-Sheets find(const std::vector<MedialSphere>& spheres, const SheetOptions& parameters) {
-  return find_sheets(spheres, kGrid, ExtractionOptions(), parameters);
+Sheets find(const std::vector<MedialSphere>& spheres, const SheetOptions& options) {
+  return find_sheets(spheres, kGrid, ExtractionOptions(), options).value();
 }
 
 std::vector<std::uint64_t> sizes(const Sheets& sheets) {
@@ -100,16 +100,16 @@ TEST(Sheets, TheAngleDecidesAndTheSignDoesNot) {
 // A facet's crease turns both spokes by its angle.
 TEST(Sheets, CreasesJoin) {
   const std::vector<MedialSphere> bent = together(square(6), square(6, 20, 7));
-  SheetOptions parameters = as_published();
-  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u) << "as published, normals alone decide";
-  parameters.crease = 21;
-  EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
+  SheetOptions options = as_published();
+  EXPECT_EQ(sizes(find(bent, options)).size(), 2u) << "as published, normals alone decide";
+  options.crease = 21;
+  EXPECT_EQ(sizes(find(bent, options)).size(), 1u);
   // A border may join components that no link joins.
-  parameters.crease = 10;
-  parameters.border = 19;
-  EXPECT_EQ(sizes(find(bent, parameters)).size(), 2u);
-  parameters.border = 21;
-  EXPECT_EQ(sizes(find(bent, parameters)).size(), 1u);
+  options.crease = 10;
+  options.border = 19;
+  EXPECT_EQ(sizes(find(bent, options)).size(), 2u);
+  options.border = 21;
+  EXPECT_EQ(sizes(find(bent, options)).size(), 1u);
 }
 
 // Beside a flat strip of ten rows lies a twisted one, 20 to 65 degrees. The least turns of the points on the twisted
@@ -124,12 +124,12 @@ TEST(Sheets, AllOfABorderDecides) {
     for (std::uint32_t x = 1; x <= 4; ++x) spheres.push_back(point_at(x, row, 8, {0, 0, 1}));
     for (std::uint32_t x = 5; x <= 8; ++x) spheres.push_back(point_at(x, row, 8, twisted));
   }
-  SheetOptions parameters;
-  parameters.width = 0;
-  parameters.border = 31;
-  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 2u);
-  parameters.border = 32;
-  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 1u);
+  SheetOptions options;
+  options.width = 0;
+  options.border = 31;
+  EXPECT_EQ(sizes(find(spheres, options)).size(), 2u);
+  options.border = 32;
+  EXPECT_EQ(sizes(find(spheres, options)).size(), 1u);
 }
 
 // The second square begins beside the last row of the first, so that two points of either are at the border. They turn
@@ -145,24 +145,24 @@ TEST(Sheets, AShortBorderDoesNotJoinLargeComponents) {
     }
     return out;
   };
-  SheetOptions parameters;
-  parameters.width = 0;
-  EXPECT_EQ(sizes(find(touching(19), parameters)).size(), 1u);
-  EXPECT_EQ(sizes(find(touching(20), parameters)).size(), 2u);
-  parameters.border = 180;
-  EXPECT_EQ(sizes(find(touching(20), parameters)).size(), 2u) << "nor does any limit";
+  SheetOptions options;
+  options.width = 0;
+  EXPECT_EQ(sizes(find(touching(19), options)).size(), 1u);
+  EXPECT_EQ(sizes(find(touching(20), options)).size(), 2u);
+  options.border = 180;
+  EXPECT_EQ(sizes(find(touching(20), options)).size(), 2u) << "nor does any limit";
 }
 
 // Between two that differ by 60 degrees lies one that differs from them by 29 and 31.
 TEST(Sheets, ComponentsJoinUpToTheTurnOfABorder) {
   const std::vector<MedialSphere> spheres = together(together(square(6), square(6, 29, 7)), square(6, 60, 13));
-  SheetOptions parameters;
-  parameters.border = 28;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(36, 36, 36));
-  parameters.border = 30;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(72, 36));
-  parameters.border = 32;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(108));
+  SheetOptions options;
+  options.border = 28;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(36, 36, 36));
+  options.border = 30;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(72, 36));
+  options.border = 32;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(108));
 }
 
 // Normals that agree do not join two sheets if a salient sheet may pass between them: here two bisectors of a square
@@ -223,8 +223,8 @@ TEST(Sheets, TheOrderOfPointsDoesNotMatter) {
     shuffled.reserve(order.size());
     for (const std::uint32_t i : order) shuffled.push_back(spheres[i]);
 
-    for (const SheetOptions& parameters : {SheetOptions(), as_published(), SheetOptions{5.7, 20, 45, 0.2, 30}}) {
-      const Sheets a = find(spheres, parameters), b = find(shuffled, parameters);
+    for (const SheetOptions& options : {SheetOptions(), as_published(), SheetOptions{5.7, 20, 45, 0.2, 30}}) {
+      const Sheets a = find(spheres, options), b = find(shuffled, options);
       ASSERT_EQ(a.sheets.size(), b.sheets.size());
       for (std::size_t i = 0; i < order.size(); ++i) {
         ASSERT_EQ(b.of_point[i], a.of_point[order[i]]) << "seed " << seed;
@@ -247,37 +247,37 @@ TEST(Sheets, SmallComponentsGoToThoseAroundThem) {
     const auto side = static_cast<float>(std::sin(std::numbers::pi / 3));
     spheres.push_back(strip ? point_at(s.voxel[0], s.voxel[1], s.voxel[2], {side, 0, 0.5f}) : s);
   }
-  SheetOptions parameters;
-  parameters.border = 55;
-  parameters.width = 0;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(130, 65, 39));
-  parameters.absorb_fragments = 40;
-  const Sheets absorbed = find(spheres, parameters);
+  SheetOptions options;
+  options.border = 55;
+  options.width = 0;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(130, 65, 39));
+  options.absorb_fragments = 40;
+  const Sheets absorbed = find(spheres, options);
   EXPECT_EQ(absorbed.components, 3u);
   EXPECT_EQ(absorbed.absorbed_components, 1u);
   EXPECT_EQ(absorbed.absorbed_points, 39u);
   EXPECT_THAT(sizes(absorbed), ElementsAre(156, 78)) << "a column to either side, the middle one to the first";
   // Between the columns at its borders the strip is two voxels wide: 1/4 of the diameter. Between the border and the
   // rim of the columns beside it there are four.
-  parameters.absorb_fragments = 0;
-  parameters.width = 0.24;
-  EXPECT_EQ(sizes(find(spheres, parameters)).size(), 3u);
-  parameters.width = 0.26;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(156, 78));
+  options.absorb_fragments = 0;
+  options.width = 0.24;
+  EXPECT_EQ(sizes(find(spheres, options)).size(), 3u);
+  options.width = 0.26;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(156, 78));
 }
 
 // Six columns, and two of another sheet beside them, one at the border and one at the rim: those have depth 0.
 // Narrowness is not tested where a quarter of the diameter is less than a voxel.
 TEST(Sheets, NoComponentIsTooNarrowForBallsOfAFewVoxels) {
-  SheetOptions parameters;
-  parameters.width = 0.25;
+  SheetOptions options;
+  options.width = 0.25;
   const auto sizes_with = [&](double radius) {
     std::vector<MedialSphere> spheres;
     for (std::uint32_t y = 1; y <= 12; ++y) {
       for (std::uint32_t x = 1; x <= 6; ++x) spheres.push_back(point_at(x, y, 8, {0, 0, 1}, radius));
       for (std::uint32_t x = 7; x <= 8; ++x) spheres.push_back(point_at(x, y, 8, {1, 0, 0}, radius));
     }
-    return sizes(find(spheres, parameters));
+    return sizes(find(spheres, options));
   };
   EXPECT_THAT(sizes_with(1.9), ElementsAre(72, 24));
   EXPECT_THAT(sizes_with(2.1), ElementsAre(96));
@@ -291,10 +291,10 @@ TEST(Sheets, MarksWhatIsSmall) {
       spheres.push_back(point_at(x, y, 8, x > 6 ? std::array{1.f, 0.f, 0.f} : std::array{0.f, 0.f, 1.f}, 40));
     }
   }
-  SheetOptions parameters;
-  parameters.width = 0;
-  parameters.absorb_fragments = 25;
-  const Sheets sheets = find(spheres, parameters);
+  SheetOptions options;
+  options.width = 0;
+  options.absorb_fragments = 25;
+  const Sheets sheets = find(spheres, options);
   EXPECT_THAT(sizes(sheets), ElementsAre(96));
   EXPECT_EQ(sheets.absorbed_points, 24u);
   for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ((sheets.marks[i] & kSmall) != 0, i < 24) << i;
@@ -308,11 +308,11 @@ TEST(Sheets, SmallComponentsAmongThemselvesAreOne) {
     spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
                                {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
   }
-  SheetOptions parameters;
-  parameters.width = 0;
-  EXPECT_THAT(sizes(find(spheres, parameters)), ElementsAre(4, 4, 4, 4));
-  parameters.width = 0.3;
-  const Sheets sheets = find(spheres, parameters);
+  SheetOptions options;
+  options.width = 0;
+  EXPECT_THAT(sizes(find(spheres, options)), ElementsAre(4, 4, 4, 4));
+  options.width = 0.3;
+  const Sheets sheets = find(spheres, options);
   EXPECT_THAT(sizes(sheets), ElementsAre(16));
   EXPECT_EQ(sheets.absorbed_components, 3u);
   EXPECT_EQ(sheets.absorbed_points, 12u);
@@ -330,12 +330,12 @@ TEST(Sheets, AbsorbedComponentsAreJudgedAgain) {
     spheres.push_back(point_at(s.voxel[0], s.voxel[1], s.voxel[2],
                                {static_cast<float>(std::sin(turn)), 0, static_cast<float>(std::cos(turn))}));
   }
-  SheetOptions parameters;
-  parameters.border = 60;
+  SheetOptions options;
+  options.border = 60;
   for (const double width : {0.3, 1.0}) {
     SCOPED_TRACE(width);
-    parameters.width = width;
-    const Sheets sheets = find(spheres, parameters);
+    options.width = width;
+    const Sheets sheets = find(spheres, options);
     EXPECT_EQ(sheets.components, 8u);
     EXPECT_THAT(sizes(sheets), ElementsAre(64));
     EXPECT_EQ(small_points(sheets), 8 * width > 6 ? 64u : 0u);
@@ -354,20 +354,20 @@ TEST(Sheets, WhatIsClosedIsNotSmall) {
     spheres.push_back(
         point_at(x, y, z, {static_cast<float>(out[0]), static_cast<float>(out[1]), static_cast<float>(out[2])}));
   }
-  SheetOptions parameters;
-  parameters.width = 1;
-  parameters.absorb_fragments = 10000;
-  const Sheets sheets = find(spheres, parameters);
+  SheetOptions options;
+  options.width = 1;
+  options.absorb_fragments = 10000;
+  const Sheets sheets = find(spheres, options);
   EXPECT_EQ(sheets.sheets.size(), 1u);
   EXPECT_EQ(sheets.rim_points, 0u);
   EXPECT_EQ(small_points(sheets), 0u);
 }
 
 TEST(Sheets, AComponentWithoutNeighboursStays) {
-  SheetOptions parameters;
-  parameters.width = 1;
-  parameters.absorb_fragments = 1000;
-  const Sheets sheets = find(together(square(2), square(2, 0, 30)), parameters);
+  SheetOptions options;
+  options.width = 1;
+  options.absorb_fragments = 1000;
+  const Sheets sheets = find(together(square(2), square(2, 0, 30)), options);
   EXPECT_EQ(sizes(sheets).size(), 2u);
   EXPECT_EQ(small_points(sheets), 8u);
 }

@@ -10,6 +10,7 @@
 #include "base/point_ops.h"
 #include "cpu_reference/queries.h"
 #include "medial_vk/ball_union.h"
+#include "medial_vk/certify.h"
 #include "medial_vk/prepare.h"
 #include "reference_bridge/reference_extractor.h"
 #include "sphere_fits/methods/best_method.h"
@@ -194,10 +195,10 @@ TEST(BestMethod, NeedsNoMedialPoints) {
 TEST(BestMethod, BeatsItsOwnCandidatesByFar) {
   // Of 30 fixed candidates the greedy choice is the best that is known in general; sliding must find more.
   const Shape shape(turned_l_shape());
-  ExtractionOptions parameters;
-  parameters.resolution = 16;
-  parameters.object_angle = 0.3;
-  const auto found = extract_and_certify(shape.solid.indexed(), parameters, reference_extractor()).value();
+  ExtractionOptions options;
+  options.resolution = 16;
+  options.object_angle = 0.3;
+  const auto found = extract_and_certify(shape.solid.indexed(), options, reference_extractor()).value();
   std::vector<Ball> medial;
   for (const MedialSphere& s : found.extraction.spheres) medial.push_back({s.centre, s.radius});
   Candidates candidates;

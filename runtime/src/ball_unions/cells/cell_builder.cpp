@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

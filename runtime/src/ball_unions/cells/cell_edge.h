@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "ball_unions/cells/power_cell.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 

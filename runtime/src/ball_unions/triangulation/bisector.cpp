@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 

@@ -11,7 +11,7 @@
 #include "ball_unions/unions/unit_balls.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 #include "base/point_order.h"
 
 namespace medial_vk {

@@ -30,7 +30,7 @@ static_assert(gpu::kBallsPerLeaf == BallTree::kLeaf);
 
 class DeviceMeasuring {
  public:
-  DeviceMeasuring(Context::Impl& context, std::span<const Ball> balls, const DeviceBallUnionOptions& options)
+  DeviceMeasuring(ContextImpl& context, std::span<const Ball> balls, const DeviceBallUnionOptions& options)
       : context_(context),
         balls_(balls),
         options_(options),
@@ -45,7 +45,7 @@ class DeviceMeasuring {
   void accept();
   void redo();
 
-  Context::Impl& context_;
+  ContextImpl& context_;
   std::span<const Ball> balls_;
   DeviceBallUnionOptions options_;
   unsigned threads_;
@@ -174,8 +174,8 @@ void scale_back(DeviceBallUnion& result, double scale) {
 
 }  // namespace
 
-Result<DeviceBallUnion> measure_ball_union(Context& context, std::span<const Ball> balls,
-                                           const DeviceBallUnionOptions& options) {
+Result<DeviceBallUnion> measure_ball_union(std::span<const Ball> balls, const DeviceBallUnionOptions& options,
+                                           Context& context) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
   if (!(options.tolerance > 0)) return Error{ErrorCode::kUsage, "`tolerance` must be positive"};
   return catch_out_of_memory("measuring a union of balls", [&]() -> Result<DeviceBallUnion> {

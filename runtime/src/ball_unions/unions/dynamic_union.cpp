@@ -14,7 +14,7 @@
 #include "ball_unions/unions/simplex_lists.h"
 #include "ball_unions/unions/unit_balls.h"
 #include "base/host_memory.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "base/point_math.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {

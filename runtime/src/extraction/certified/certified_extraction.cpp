@@ -35,7 +35,7 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
 
 class CertifiedRun {
  public:
-  CertifiedRun(Context::Impl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, StopWatch& watch,
+  CertifiedRun(ContextImpl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, StopWatch& watch,
                Extraction& extraction)
       : mesh_(mesh),
         pipeline_(pipeline),
@@ -152,7 +152,7 @@ class CertifiedRun {
 
 }  // namespace
 
-Result<Extraction> extract_certified(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+Result<Extraction> extract_certified(ContextImpl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                      StopWatch& watch) {
   Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();

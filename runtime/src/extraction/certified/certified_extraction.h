@@ -9,7 +9,7 @@
 namespace medial_vk {
 
 /// As extract_medial_spheres() with Mode::kCertified, whose errors it has. The options have been checked.
-Result<Extraction> extract_certified(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+Result<Extraction> extract_certified(ContextImpl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                      StopWatch& watch);
 
 }  // namespace medial_vk

@@ -55,11 +55,11 @@ std::uint32_t steps_to_narrow(double from, double to) {
 
 }  // namespace
 
-CertifiedPipeline::CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+CertifiedPipeline::CertifiedPipeline(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                                      const StopWord& stop)
     : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {}
 
-Result<CertifiedPipeline> CertifiedPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
+Result<CertifiedPipeline> CertifiedPipeline::create(ContextImpl& context, const DeviceMesh& mesh,
                                                     const ExtractionOptions& options,
                                                     const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   CertifiedPipeline p(context, mesh, options, stop);

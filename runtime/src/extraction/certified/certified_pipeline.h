@@ -36,7 +36,7 @@ struct PipelineCapacity {
 class CertifiedPipeline {
  public:
   /// Allocates all buffers for one mesh and one set of parameters; `stop` outlives it. Errors: kOutOfMemory, kInternal.
-  static Result<CertifiedPipeline> create(Context::Impl& context, const DeviceMesh& mesh,
+  static Result<CertifiedPipeline> create(ContextImpl& context, const DeviceMesh& mesh,
                                           const ExtractionOptions& options, const std::array<std::uint32_t, 3>& grid,
                                           const StopWord& stop);
 
@@ -73,7 +73,7 @@ class CertifiedPipeline {
   std::array<std::uint32_t, gpu::kCounterCount> read_counters() const;
 
  private:
-  CertifiedPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+  CertifiedPipeline(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                     const StopWord& stop);
 
   // The buffers that one level reads and writes.
@@ -160,7 +160,7 @@ class CertifiedPipeline {
   // The position of the group counts in arguments_.
   VkDeviceSize prepare(Recorder& r, gpu::DispatchConstants constants);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   const DeviceMesh* mesh_;
   const StopWord* stop_;
   ExtractionOptions options_;

@@ -15,7 +15,7 @@ std::span<const T> items(const Buffer& buffer, VkDeviceSize offset, std::uint32_
 }  // namespace
 
 // Except on a CPU, mapped memory may be slow to read.
-ResultDownload::ResultDownload(Context::Impl& context)
+ResultDownload::ResultDownload(ContextImpl& context)
     : context_(&context),
       is_shared_(context.description.type == "cpu"),
       has_own_queue_(context.transfer_queue != VK_NULL_HANDLE),

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <span>
 
+#include "device/internals.h"
 #include "device_commands/commands.h"
 #include "device_commands/memory.h"
 #include "gpu_types.h"
-#include "medial_vk/context.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -17,7 +17,7 @@ namespace medial_vk {
 /// reads the points before the next chunk begins.
 class ResultDownload {
  public:
-  explicit ResultDownload(Context::Impl& context);
+  explicit ResultDownload(ContextImpl& context);
   ResultDownload(const ResultDownload&) = delete;
   ResultDownload& operator=(const ResultDownload&) = delete;
   ~ResultDownload();
@@ -40,7 +40,7 @@ class ResultDownload {
   Status hand_over();
   Status record_copies(const Buffer& points, const Buffer& undecided, VkDeviceSize undecided_at);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   bool is_shared_, has_own_queue_;
   bool is_under_way_ = false, is_waited_for_ = true;
   Arena arena_;

@@ -39,7 +39,7 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, const 
   sum.queries += c[gpu::kThesisQueries];
 }
 
-Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline& pipeline, std::uint32_t first,
+Status run_chunk(ContextImpl& context, const DeviceMesh& mesh, ThesisPipeline& pipeline, std::uint32_t first,
                  std::uint32_t count, StopWatch& watch, Extraction& extraction) {
   for (std::uint32_t part = 0; part < pipeline.part_count(); ++part) {
     auto times = run_commands(
@@ -58,7 +58,7 @@ Status run_chunk(Context::Impl& context, const DeviceMesh& mesh, ThesisPipeline&
 
 }  // namespace
 
-Result<Extraction> extract_thesis(Context::Impl& context, DeviceMesh& mesh, const ExtractionOptions& options,
+Result<Extraction> extract_thesis(ContextImpl& context, DeviceMesh& mesh, const ExtractionOptions& options,
                                   StopWatch& watch) {
   Result<const StopWord*> stop = watch.make_word(context);
   if (!stop.ok()) return stop.error();

@@ -37,11 +37,11 @@ std::uint32_t divide_up(std::uint32_t a, std::uint32_t b) { return (a + b - 1) /
 
 }  // namespace
 
-ThesisPipeline::ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+ThesisPipeline::ThesisPipeline(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                                const StopWord& stop)
     : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {}
 
-Result<ThesisPipeline> ThesisPipeline::create(Context::Impl& context, const DeviceMesh& mesh,
+Result<ThesisPipeline> ThesisPipeline::create(ContextImpl& context, const DeviceMesh& mesh,
                                               const ExtractionOptions& options,
                                               const std::array<std::uint32_t, 3>& grid, const StopWord& stop) {
   for (const std::uint32_t samples : options.thesis.samples) {

@@ -25,7 +25,7 @@ namespace medial_vk {
 class ThesisPipeline {
  public:
   /// `mesh` and `stop` must outlive the pipeline. Errors: kOutOfMemory, kInternal.
-  static Result<ThesisPipeline> create(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
+  static Result<ThesisPipeline> create(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                                        const std::array<std::uint32_t, 3>& grid, const StopWord& stop);
   ThesisPipeline(ThesisPipeline&&) noexcept = default;
 
@@ -47,8 +47,7 @@ class ThesisPipeline {
   Result<std::vector<gpu::FoundPoint>> read_points(std::uint32_t count);
 
  private:
-  ThesisPipeline(Context::Impl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
-                 const StopWord& stop);
+  ThesisPipeline(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options, const StopWord& stop);
 
   /// Items of a dispatch: counters[counter] * multiplier.
   struct Items {
@@ -85,7 +84,7 @@ class ThesisPipeline {
   std::uint64_t most_lines() const { return cells_of(levels_ - 1) * gpu::kRetractionsPerRound; }
   void copy_counter(Recorder& r, std::uint32_t from, std::uint32_t to);
 
-  Context::Impl* context_;
+  ContextImpl* context_;
   const DeviceMesh* mesh_;
   const StopWord* stop_;
   ExtractionOptions options_;

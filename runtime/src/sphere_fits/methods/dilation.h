@@ -21,8 +21,8 @@ Result<SphereSet> cover_solid(const Solid& solid, SphereSet inside, unsigned thr
                               const SphereProgress& progress = {});
 
 /// A cover for each of the numbers. Larger numbers never give a larger volume, also between calls if their common
-/// starts are equal. The starts are, by cover_top() (sphere_fits/cover/cover_family.h), that many balls inside, or fewer for the
-/// greatest. Otherwise as cover_solid().
+/// starts are equal. The starts are, by cover_top() (sphere_fits/cover/cover_family.h), that many balls inside, or
+/// fewer for the greatest. Otherwise as cover_solid().
 Result<std::vector<SphereSet>> cover_by_counts(const Solid& solid,
                                                const std::map<std::size_t, std::vector<Ball>>& starts,
                                                const std::vector<std::size_t>& counts, unsigned threads = 0,

@@ -1,3 +1,4 @@
+#include "medial_vk/certify.h"
 #include "sphere_fits/methods/sphere_set.h"
 
 namespace medial_vk {

@@ -153,4 +153,9 @@ Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const Sphe
   });
 }
 
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+                                             const StageProgress& progress, const std::stop_token& stop) {
+  return measure_coverage_curve(mesh, options, device_extractor(context), progress, stop);
+}
+
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-#include "robots/kept_extractions.h"
+#include "part_fits/kept_extractions.h"
 
 #include <memory>
 #include <utility>
@@ -6,11 +6,11 @@
 
 namespace medial_vk {
 
-Extractor kept_extractions(const Extractor& extractor) {
+Extractor kept_extractions(Extractor extractor) {
   using Kept = std::vector<std::pair<ExtractionOptions, Extraction>>;
-  return [&extractor, kept = std::make_shared<Kept>()](const IndexedMesh& mesh, const ExtractionOptions& options,
-                                                       const ProgressCallback& progress,
-                                                       const std::stop_token& stop) -> Result<Extraction> {
+  return [extractor = std::move(extractor), kept = std::make_shared<Kept>()](
+             const IndexedMesh& mesh, const ExtractionOptions& options, const ProgressCallback& progress,
+             const std::stop_token& stop) -> Result<Extraction> {
     for (const auto& [of, extraction] : *kept) {
       if (of == options) return extraction;
     }

@@ -1,21 +1,34 @@
-#include "robots/fit_parts.h"
+// Balls for the parts of an assembly: distributed by need, fitted part by part, moved to the frames of the links.
+#include "medial_vk/part_fits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <functional>
 #include <map>
+#include <new>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
+#include "base/host_memory.h"
 #include "base/point_ops.h"
+#include "base/quoted.h"
 #include "base/stopwatch.h"
-#include "input/text_scanner.h"
-#include "robots/kept_extractions.h"
-#include "robots/share_out.h"
+#include "part_fits/kept_extractions.h"
+#include "part_fits/place_ball.h"
+#include "part_fits/resident_meshes.h"
+#include "part_fits/share_out.h"
 
 namespace medial_vk {
 namespace {
+
+bool is_positive(double x) { return std::isfinite(x) && x > 0; }
+
+/// Gives each part an extractor of its own.
+using MakeExtractor = std::function<Extractor()>;
 
 double volume_of(const Ball& ball) { return 4.0 / 3 * std::numbers::pi * ball.radius * ball.radius * ball.radius; }
 
@@ -44,17 +57,23 @@ double enclosed_with_middle(const PreparedMesh& mesh) {
 
 class Fitting {
  public:
-  Fitting(std::span<const Part> parts, const FitGoals& goals, const Extractor& extractor, const FitProgress& progress,
-          const std::stop_token& stop)
+  Fitting(std::span<const Part> parts, const PartFitOptions& options, const MakeExtractor& make_extractor,
+          const StageProgress& progress, const std::stop_token& stop)
       : parts_(parts),
-        goals_(goals),
-        extractor_(extractor),
+        options_(options),
+        make_extractor_(make_extractor),
         progress_(progress),
         stop_(stop),
         work_(parts.size()),
         fits_(parts.size()) {}
 
   Result<std::vector<PartFit>> run() {
+    if (options_.total > 0 && options_.count_per_link > 0) {
+      return Error{ErrorCode::kUsage, "`count_per_link` and `total` cannot be used together"};
+    }
+    for (const Part& part : parts_) {
+      if (Status status = check(part); !status) return named(part, status.error());
+    }
     const std::vector<Group> groups = make_groups();
     for (const Group& group : groups) {
       if (Status status = check(group); !status) return status.error();
@@ -68,31 +87,53 @@ class Fitting {
   }
 
  private:
-  bool shares() const { return goals_.total > 0 || goals_.count_per_link > 0; }
+  bool shares() const { return options_.total > 0 || options_.count_per_link > 0; }
 
   /// In the order of their first parts.
   std::vector<Group> make_groups() const {
     std::vector<Group> groups;
     std::map<std::string, std::size_t> of_link;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const std::string key = goals_.total > 0 ? std::string() : shares() ? parts_[i].link : std::to_string(i);
+      const std::string key = options_.total > 0 ? std::string() : shares() ? parts_[i].link : std::to_string(i);
       const auto [group, is_new] = of_link.emplace(key, groups.size());
       if (is_new) {
         groups.emplace_back();
-        groups.back().balls = goals_.total > 0 ? goals_.total : shares() ? goals_.count_per_link : goals_.options.count;
+        groups.back().balls = options_.total > 0 ? options_.total
+                              : shares()         ? options_.count_per_link
+                                                 : options_.spheres.count;
       }
       groups[group->second].parts.push_back(i);
     }
     return groups;
   }
 
+  static Status check(const Part& part) {
+    if (!is_rigid(part.pose)) return Error{ErrorCode::kUsage, "its `pose` is no rigid motion"};
+    if (part.ball && (!is_positive(part.ball->radius) || !std::isfinite(length(part.ball->centre)))) {
+      return Error{ErrorCode::kUsage, "its `ball` has no finite centre and positive radius"};
+    }
+    if (!part.ball && part.volume && !is_positive(*part.volume))
+      return Error{ErrorCode::kUsage, "its `volume` is not positive"};
+    return {};
+  }
+
   Status check(const Group& group) const {
-    if (!shares() || group.balls >= group.parts.size()) return {};
-    const std::string who = goals_.total > 0 ? std::string("the robot")
-                                             : fmt::format("the link {}", quoted(parts_[group.parts.front()].link));
+    const std::size_t parts = group.parts.size();
+    if (!shares() || group.balls >= parts) return {};
+    if (options_.total > 0) {
+      return Error{ErrorCode::kUsage,
+                   fmt::format("{} parts need a ball each; raise `total` from {}", parts, group.balls)};
+    }
+    const std::string link = medial_vk::quoted(parts_[group.parts.front()].link);
     return Error{ErrorCode::kUsage,
-                 fmt::format("{} has {} geometries, each of which needs a sphere; {} too few", who, group.parts.size(),
-                             group.balls == 1 ? "1 is" : fmt::format("{} are", group.balls))};
+                 fmt::format("link {} has {} parts, which need a ball each; raise `count_per_link` from {}", link,
+                             parts, group.balls)};
+  }
+
+  SphereOptions spheres_of_part() const {
+    SphereOptions spheres = options_.spheres;
+    spheres.threads = options_.threads;
+    return spheres;
   }
 
   Status fit(const Group& group) {
@@ -138,7 +179,7 @@ class Fitting {
 
   /// The sets of the source's method are not prefixes of each other: its curves are continued instead.
   bool is_long_enough(const NeedCurve& curve, std::size_t count) const {
-    return curve.is_ball || curve.ends || goals_.options.method == SphereMethod::kSource ||
+    return curve.is_ball || curve.ends || options_.spheres.method == SphereMethod::kSource ||
            curve.uncovered.size() >= curve_length(count);
   }
 
@@ -148,10 +189,10 @@ class Fitting {
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
     if (Status status = begin(number); !status) return named(part, status.error());
-    SphereOptions options = goals_.options;
+    SphereOptions options = spheres_of_part();
     options.count = count;
     const Result<CoverageCurve> found =
-        measure_coverage_curve(work_[number]->mesh, options, work_[number]->extractor, reporter(part), stop_);
+        measure_coverage_curve(work_[number]->mesh, options, work_[number]->extractor, reporter(), stop_);
     if (!found) return named(part, found.error());
     ++done_;
     const double whole = part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh)));
@@ -162,16 +203,16 @@ class Fitting {
 
   Status begin(std::size_t number) {
     if (work_[number]) return {};
-    Result<IndexedMesh> mesh = IndexedMesh::build(parts_[number].mesh, goals_.options.threads);
+    Result<IndexedMesh> mesh = IndexedMesh::build(parts_[number].mesh, options_.threads);
     if (!mesh) return mesh.error();
-    work_[number].emplace(PartWork{std::move(mesh).value(), kept_extractions(extractor_)});
+    work_[number].emplace(PartWork{std::move(mesh).value(), kept_extractions(make_extractor_())});
     return {};
   }
 
-  StageProgress reporter(const Part& part) const {
-    return [this, &part](const char*, double done) {
+  StageProgress reporter() const {
+    return [this](const char* stage, double done) {
       const double share = (static_cast<double>(done_) + done) / static_cast<double>(steps_);
-      if (progress_) progress_(part, std::min(1.0, share));
+      if (progress_) progress_(stage, std::min(1.0, share));
     };
   }
 
@@ -180,8 +221,7 @@ class Fitting {
     PartFit& fit = fits_[number];
     fit.wanted = count;
     if (part.ball) {
-      // Exact for every contract; its centre is the shift of its pose, which is not rounded.
-      fit.levels = {{Ball{part.pose.shift, part.ball->radius}}};
+      fit.levels = {{placed(part, *part.ball)}};
       fit.reach = {{}};
       fit.solid_volume = fit.spheres_volume = volume_of(*part.ball);
       fit.of_shape = true;
@@ -190,10 +230,9 @@ class Fitting {
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
     if (Status status = begin(number); !status) return named(part, status.error());
-    SphereOptions options = goals_.options;
+    SphereOptions options = spheres_of_part();
     options.count = count;
-    Result<SphereFit> fitted =
-        fit_spheres(work_[number]->mesh, options, work_[number]->extractor, reporter(part), stop_);
+    Result<SphereFit> fitted = fit_spheres(work_[number]->mesh, options, work_[number]->extractor, reporter(), stop_);
     if (!fitted) return named(part, fitted.error());
     work_[number].reset();
     ++done_;
@@ -202,7 +241,7 @@ class Fitting {
     return {};
   }
 
-  /// Bounds the loss or gain of radii where spheres are moved to the frame of the link. Earlier measurements then
+  /// Bounds the loss or gain of radii where balls are moved to the frame of the link. Earlier measurements then
   /// remain true to the digits that are shown.
   static Status check_position(const Part& part) {
     constexpr double kMost = 1e-6;  // of the diagonal
@@ -213,7 +252,7 @@ class Fitting {
     }
     if (placement_rounding(part.pose, 2 * reach) <= kMost * length(report.upper - report.lower)) return {};
     return Error{ErrorCode::kInvalidMesh,
-                 "it lies so far from the origin of its link that its spheres can hardly be placed there (double "
+                 "it lies so far from the origin of its link that its balls can hardly be placed there (double "
                  "precision); move it closer"};
   }
 
@@ -221,7 +260,7 @@ class Fitting {
     fit.measures = std::move(fitted.measures);
     fit.solid_volume = fitted.solid_volume;
     // Balanced balls are measured by the facets, for which they were balanced.
-    fit.of_shape = goals_.options.contract != SphereContract::kBalanced && part.volume &&
+    fit.of_shape = options_.spheres.contract != SphereContract::kBalanced && part.volume &&
                    measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
@@ -231,19 +270,27 @@ class Fitting {
   }
 
   void place_levels(const Part& part, const std::vector<std::vector<Ball>>& sets, PartFit& fit) const {
-    const SphereContract contract = goals_.options.contract;
-    const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
     for (const std::vector<Ball>& set : sets) {
-      std::vector<Ball> placed;
-      placed.reserve(set.size());
-      for (const Ball& ball : set) placed.push_back(place(part, ball, grow));
-      fit.levels.push_back(std::move(placed));
+      std::vector<Ball> balls;
+      balls.reserve(set.size());
+      for (const Ball& ball : set) balls.push_back(placed(part, ball));
+      fit.levels.push_back(std::move(balls));
     }
   }
 
-  Error named(const Part& part, Error error) const {
+  /// In the frame of the link.
+  Ball placed(const Part& part, const Ball& ball) const {
+    // Not rounded.
+    if (part.ball && ball.centre == Point{0, 0, 0}) return {part.pose.shift, ball.radius};
+    const SphereContract contract = options_.spheres.contract;
+    const int grow = contract == SphereContract::kInside ? -1 : contract == SphereContract::kCover ? 1 : 0;
+    return place_ball(part.pose, ball, grow);
+  }
+
+  static Error named(const Part& part, Error error) {
     if (error.code == ErrorCode::kInterrupted) return error;
-    error.message = fmt::format("link {}, {}: {}", quoted(part.link), quoted(part.name), error.message);
+    error.message =
+        fmt::format("link {}, {}: {}", medial_vk::quoted(part.link), medial_vk::quoted(part.name), error.message);
     return error;
   }
 
@@ -259,32 +306,48 @@ class Fitting {
   }
 
   std::span<const Part> parts_;
-  const FitGoals& goals_;
-  const Extractor& extractor_;
-  const FitProgress& progress_;
+  const PartFitOptions& options_;
+  const MakeExtractor& make_extractor_;
+  const StageProgress& progress_;
   const std::stop_token& stop_;
   std::vector<std::optional<PartWork>> work_;  // by part, while it is needed
   std::vector<PartFit> fits_;
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };
 
-}  // namespace
-
-PartFit as_part_fit(SphereFit fit, std::size_t wanted) {
-  PartFit out;
-  out.proved = fit.levels.back();
-  out.levels = std::move(fit.levels);
-  out.reach = std::move(fit.reach);
-  out.wanted = wanted;
-  out.solid_volume = fit.solid_volume;
-  out.spheres_volume = fit.measures.volume.balls;
-  out.measures = std::move(fit.measures);
-  return out;
+/// Throws no exception.
+Result<std::vector<PartFit>> guarded(const std::function<Result<std::vector<PartFit>>()>& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("fitting balls to parts", "try a lower `count`");
+  } catch (const std::length_error&) {
+    return out_of_memory("fitting balls to parts", "try a lower `count`");
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, std::string("internal error: ") + error.what()};
+  }
 }
 
-Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const FitGoals& goals, const Extractor& extractor,
-                                       const FitProgress& progress, const std::stop_token& stop) {
-  return Fitting(parts, goals, extractor, progress, stop).run();
+}  // namespace
+
+Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options,
+                                       const Extractor& extractor, const StageProgress& progress,
+                                       const std::stop_token& stop) {
+  return guarded([&] {
+    return Fitting(
+               parts, options, [&] { return extractor; }, progress, stop)
+        .run();
+  });
+}
+
+Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options, Context& context,
+                                       const StageProgress& progress, const std::stop_token& stop) {
+  return guarded([&] {
+    ResidentMeshes meshes([&] { return device_extractor(context); });
+    return Fitting(
+               parts, options, [&] { return meshes.extractor(); }, progress, stop)
+        .run();
+  });
 }
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-#include "robots/share_out.h"
+#include "part_fits/share_out.h"
 
 #include <algorithm>
 #include <cmath>

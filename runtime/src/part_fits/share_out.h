@@ -1,4 +1,4 @@
-// Distribution of a number of balls among the parts of a robot.
+// Distribution of a number of balls among the parts of an assembly.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace medial_vk {
 
 /// The benefit of a part from balls.
 struct NeedCurve {
-  /// The volume that k + 1 balls leave uncovered, for every k that was evaluated; cubic metres.
+  /// The volume that k + 1 balls leave uncovered, for every k that was evaluated; cubed mesh units.
   std::vector<double> uncovered;
   /// The part is a ball, and needs one only.
   bool is_ball = false;

@@ -1,4 +1,4 @@
-// Spheres for several geometries: their distribution, levels of one length, positions in the frame of the link.
+// Balls for the parts of an assembly: their distribution, levels of one length, positions in the frame of the link.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "base/point_ops.h"
+#include "medial_vk/part_fits.h"
 #include "medial_vk/prepare.h"
 #include "reference_bridge/reference_extractor.h"
-#include "robots/fit_parts.h"
+#include "robots/primitive_mesh.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -28,24 +29,26 @@ class FitParts : public testing::Test {
     ball.pose = make_pose({1, 2, 3}, {0.1, 0.2, 0.3});
     ball.ball = Ball{{0, 0, 0}, 0.25};
     parts_.push_back(ball);
-    goals_.options.method = SphereMethod::kSource;
+    options_.spheres.method = SphereMethod::kSource;
   }
 
   static Part box_part(const std::string& link, const std::string& name, const Point& size) {
-    Part part = single_part(link, prepare_mesh(test::make_box(size)).value());
+    Part part;
+    part.link = link;
     part.name = name;
+    part.mesh = prepare_mesh(test::make_box(size)).value();
     part.pose = make_pose({5, 0, 0}, {0.3, 0.2, 0.1});
     return part;
   }
 
-  Result<std::vector<PartFit>> fit() const { return fit_parts(parts_, goals_, reference_extractor()); }
+  Result<std::vector<PartFit>> fit() const { return fit_parts(parts_, options_, reference_extractor()); }
 
   std::vector<Part> parts_;
-  FitGoals goals_;
+  PartFitOptions options_;
 };
 
 TEST_F(FitParts, ABallIsItself) {
-  goals_.total = 40;
+  options_.total = 40;
   const Result<std::vector<PartFit>> fits = fit();
   ASSERT_TRUE(fits.ok()) << fits.error().message;
   const PartFit& ball = fits.value()[2];
@@ -56,7 +59,7 @@ TEST_F(FitParts, ABallIsItself) {
 }
 
 TEST_F(FitParts, TheLargerGetsMore) {
-  goals_.count_per_link = 60;
+  options_.count_per_link = 60;
   const Result<std::vector<PartFit>> fits = fit();
   ASSERT_TRUE(fits.ok()) << fits.error().message;
   EXPECT_EQ(fits.value()[0].wanted + fits.value()[1].wanted, 60u);
@@ -66,11 +69,11 @@ TEST_F(FitParts, TheLargerGetsMore) {
 }
 
 TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
-  goals_.options.method = SphereMethod::kBest;
-  goals_.options.resolution = 12;
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
   std::vector<PartFit> before;
   for (const std::size_t total : {3u, 8u, 21u, 22u, 40u}) {
-    goals_.total = total;
+    options_.total = total;
     const std::vector<PartFit> fits = std::move(fit().value());
     for (std::size_t i = 0; i < before.size(); ++i) {
       EXPECT_GE(fits[i].wanted, before[i].wanted) << total;
@@ -84,14 +87,16 @@ TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
   Geometry cylinder;
   cylinder.kind = GeometryKind::kCylinder;
   cylinder.size = {0.5, 2, 0};
-  goals_.options.method = SphereMethod::kBest;
-  goals_.options.resolution = 12;
-  goals_.options.count = 4;
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  options_.spheres.count = 4;
   for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
-    goals_.options.contract = contract;
+    options_.spheres.contract = contract;
     const bool cover = contract == SphereContract::kCover;
     const FacetSide side = cover ? FacetSide::kCircumscribed : FacetSide::kInscribed;
-    Part part = single_part("c", prepare_mesh(make_primitive(cylinder, side)).value());
+    Part part;
+    part.link = part.name = "c";
+    part.mesh = prepare_mesh(make_primitive(cylinder, side)).value();
     part.volume = primitive_volume(cylinder);
     parts_ = {part};
     const PartFit fitted = std::move(fit().value().front());
@@ -107,7 +112,7 @@ TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
 }
 
 TEST_F(FitParts, SpheresStandInTheFrameOfTheLink) {
-  goals_.count_per_link = 60;
+  options_.count_per_link = 60;
   const std::vector<PartFit> fits = fit().value();
   const Pose& pose = parts_[0].pose;
   for (const Ball& ball : fits[0].levels.back()) {
@@ -125,8 +130,8 @@ TEST_F(FitParts, SpheresStandInTheFrameOfTheLink) {
 }
 
 TEST_F(FitParts, AllPartsHaveAsManyLevels) {
-  goals_.total = 50;
-  goals_.options.levels = true;
+  options_.total = 50;
+  options_.spheres.levels = true;
   const std::vector<PartFit> fits = fit().value();
   EXPECT_GT(fits[0].levels.size(), 3u);
   for (const PartFit& part : fits) {
@@ -137,26 +142,64 @@ TEST_F(FitParts, AllPartsHaveAsManyLevels) {
 }
 
 TEST_F(FitParts, FaultsNameLinkAndPart) {
-  goals_.count_per_link = 1;
-  EXPECT_EQ(fit().error().message, "the link \"a\" has 2 geometries, each of which needs a sphere; 1 is too few");
-  goals_.count_per_link = 0;
-  goals_.options.max_gap = 0.1;
+  options_.count_per_link = 1;
+  EXPECT_EQ(fit().error().message, "link \"a\" has 2 parts, which need a ball each; raise `count_per_link` from 1");
+  options_.count_per_link = 0;
+  options_.spheres.max_gap = 0.1;
   EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": `method` source does not support `max_gap`"));
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
+  options_.spheres.max_gap = 0;
+  options_.total = 2;
+  EXPECT_EQ(fit().error().message, "3 parts need a ball each; raise `total` from 2");
+  options_.count_per_link = 2;
+  EXPECT_THAT(fit().error().message, HasSubstr("`count_per_link` and `total`"));
+}
+
+TEST_F(FitParts, PartsThatAreNoneAreRefused) {
+  options_.total = 20;
+  const std::vector<Part> good = parts_;
+  parts_[1].pose.rotation[0] = {2, 0, 0};
+  EXPECT_EQ(fit().error().message, "link \"a\", \"small\": its `pose` is no rigid motion");
+  parts_ = good;
+  parts_[2].ball->radius = 0;
+  EXPECT_THAT(fit().error().message, HasSubstr("link \"b\", \"primitive0\": its `ball`"));
+  parts_ = good;
+  parts_[0].volume = -1;
+  EXPECT_EQ(fit().error().message, "link \"a\", \"box\": its `volume` is not positive");
+  EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
+  parts_ = good;
+  parts_[0].mesh = {};
+  EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": "));
+  parts_.clear();
+  EXPECT_TRUE(fit().value().empty());
+}
+
+TEST_F(FitParts, ABallBesideItsOriginIsPlacedForTheContract) {
+  parts_ = {parts_[2]};
+  parts_[0].ball = Ball{{0.5, 0, 0}, 0.25};
+  const Point centre = parts_[0].pose * Point{0.5, 0, 0};
+  options_.spheres.count = 1;
+  for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
+    options_.spheres.contract = contract;
+    const Ball ball = fit().value()[0].levels[0][0];
+    EXPECT_EQ(ball.centre, centre);
+    EXPECT_EQ(ball.radius < 0.25, contract == SphereContract::kInside);
+    EXPECT_NEAR(ball.radius, 0.25, 1e-13);
+  }
 }
 
 // The curve of a part and its spheres start from the same medial spheres.
 TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
   for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {
-    goals_.options.method = method;
-    goals_.total = 30;
+    options_.spheres.method = method;
+    options_.total = 30;
     std::map<std::pair<double, std::uint32_t>, int> runs;  // by extent of the part and resolution
     const Extractor counted = [&, extractor = reference_extractor()](
                                   const IndexedMesh& mesh, const ExtractionOptions& options, const auto&... rest) {
       ++runs[{mesh.prepared().report.upper[0], options.resolution}];
       return extractor(mesh, options, rest...);
     };
-    const Result<std::vector<PartFit>> fits = fit_parts(parts_, goals_, counted);
+    const Result<std::vector<PartFit>> fits = fit_parts(parts_, options_, counted);
     ASSERT_TRUE(fits.ok()) << fits.error().message;
     EXPECT_GE(runs.size(), 2u);
     for (const auto& [grid, count] : runs) EXPECT_EQ(count, 1) << grid.first << " at " << grid.second;
@@ -164,29 +207,29 @@ TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
 }
 
 TEST_F(FitParts, StopsOnRequest) {
-  goals_.total = 50;
+  options_.total = 50;
   std::stop_source stop;
   const Result<std::vector<PartFit>> fits = fit_parts(
-      parts_, goals_, reference_extractor(), [&](const Part&, double) { stop.request_stop(); }, stop.get_token());
+      parts_, options_, reference_extractor(), [&](const char*, double) { stop.request_stop(); }, stop.get_token());
   ASSERT_FALSE(fits.ok());
   EXPECT_EQ(fits.error().code, ErrorCode::kInterrupted);
 }
 
 /// The stop is requested at every n-th query, so in every stage.
 TEST_F(FitParts, StopsAtAnyQuery) {
-  goals_.options.method = SphereMethod::kBest;
-  goals_.options.resolution = 20;
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 20;
   const std::vector<Part> one = {parts_[0]};
   for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover, SphereContract::kBalanced}) {
-    goals_.options.contract = contract;
-    goals_.count_per_link = 6;
+    options_.spheres.contract = contract;
+    options_.count_per_link = 6;
     const auto run = [&](std::size_t most, std::size_t& queried) {
       queried = 0;
       std::stop_source stop;
-      const auto on_progress = [&](const Part&, double) {
+      const auto on_progress = [&](const char*, double) {
         if (queried++ >= most) stop.request_stop();
       };
-      return fit_parts(one, goals_, reference_extractor(), on_progress, stop.get_token());
+      return fit_parts(one, options_, reference_extractor(), on_progress, stop.get_token());
     };
     std::size_t all = 0, queried = 0;
     ASSERT_TRUE(run(~std::size_t{0}, all).ok());
@@ -202,7 +245,7 @@ TEST_F(FitParts, StopsAtAnyQuery) {
 }
 
 TEST_F(FitParts, FarFromTheOriginOfTheLinkIsRefused) {
-  goals_.count_per_link = 10;
+  options_.count_per_link = 10;
   parts_ = {parts_[0]};
   parts_[0].pose = make_pose({1e6, 0, 0}, {0.3, 0, 0});
   EXPECT_TRUE(fit().ok());

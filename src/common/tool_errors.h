@@ -1,0 +1,11 @@
+// Errors of the tool alone, beside those of the library (medial_vk/result.h), in the same Result and Status.
+#pragma once
+
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+inline constexpr ErrorCode kCannotWrite{1000};  ///< A file that cannot be written.
+inline constexpr ErrorCode kCheckFailed{1001};  ///< Results that did not pass a check.
+
+}  // namespace medial_vk
