@@ -31,7 +31,7 @@ struct OnDevice {
 Extractor extractor_on(Device& device) {
   return [&device, mesh = std::make_shared<std::unique_ptr<OnDevice>>()](const auto&...) -> Result<Extraction> {
     if (*mesh) return Extraction();
-    if (device.resident == device.room) return Error{ErrorCode::kOutOfMemory, "no room"};
+    if (device.resident >= device.room) return Error{ErrorCode::kOutOfMemory, "no room"};
     *mesh = std::make_unique<OnDevice>(device);
     return Extraction();
   };
