@@ -74,7 +74,7 @@ std::string describe(const CertifiedExtraction& result) {
         << " contacts, " << level.found << " found]";
   }
   out << "; seconds";
-  for (const StageTime& t : result.host_times) out << " " << t.stage << " " << t.seconds;
+  for (const StageTime& t : result.extraction.measurements.host_times) out << " " << t.stage << " " << t.seconds;
   for (const StageTime& t : result.extraction.measurements.device_times)
     out << ", device " << t.stage << " " << t.seconds;
   return out.str();

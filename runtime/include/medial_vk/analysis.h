@@ -59,7 +59,6 @@ struct Analysis {
   std::optional<MedialMesh> medial_mesh;
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, with a medial mesh, if the mesh is closed.
 
-  std::vector<StageTime> host_times;  ///< "extract", "certify", "sheets", "volumes", "medial mesh": the steps that ran.
   ExtractionMeasurements measurements;
 };
 

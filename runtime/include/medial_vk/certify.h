@@ -4,11 +4,9 @@
 
 #include <cstdint>
 #include <stop_token>
-#include <vector>
 
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
-#include "medial_vk/measurements.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -32,7 +30,6 @@ Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const Extract
 struct CertifiedExtraction {
   Extraction extraction;
   CertificateReport certificate;
-  std::vector<StageTime> host_times;  ///< Wall-clock seconds: "extract", "certify".
 };
 
 /// Finds medial spheres and certifies them. Does not throw. Errors: those of the extractor; kOutOfMemory; kInterrupted.

@@ -51,10 +51,13 @@ struct StageTime {
   double seconds = 0;
 };
 
-/// Measurements of one extraction.
+/// Measurements of one extraction, and of a call that goes on from it.
 struct ExtractionMeasurements {
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
+  /// Wall-clock seconds of the steps of a call with several, in their order: extract_and_certify() has "extract" and
+  /// "certify", analyse() also "sheets", "volumes" and "medial mesh", as far as they ran. Empty for an extraction alone.
+  std::vector<StageTime> host_times;
 };
 
 }  // namespace medial_vk

@@ -21,14 +21,14 @@ Result<CertifiedExtraction> run_stages(const IndexedMesh& mesh, const Extraction
       extractor(mesh, options, progress ? ProgressCallback(on_progress) : ProgressCallback(), stop);
   if (!extraction) return extraction.error();
   out.extraction = std::move(extraction).value();
-  out.host_times.push_back({"extract", stopwatch.lap()});
+  out.extraction.measurements.host_times.push_back({"extract", stopwatch.lap()});
 
   if (progress) progress("certify", 0.0);
   if (stop.stop_requested()) return interrupted();
   Result<CertificateReport> certificate = certify_spheres(mesh, options, out.extraction);
   if (!certificate) return certificate.error();
   out.certificate = certificate.value();
-  out.host_times.push_back({"certify", stopwatch.lap()});
+  out.extraction.measurements.host_times.push_back({"certify", stopwatch.lap()});
   if (progress) progress("certify", 1.0);
   if (stop.stop_requested()) return interrupted();
   return out;

@@ -52,7 +52,6 @@ class AnalysisRun {
     out_.undecided = std::move(extraction.undecided);
     out_.measurements = std::move(extraction.measurements);
     out_.certificate = found.value().certificate;
-    out_.host_times = std::move(found.value().host_times);
     return {};
   }
 
@@ -70,7 +69,7 @@ class AnalysisRun {
     if (!sheets) return sheets.error();
     out_.sheets = std::move(sheets).value();
     for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
-    out_.host_times.push_back({"sheets", stopwatch.lap()});
+    out_.measurements.host_times.push_back({"sheets", stopwatch.lap()});
     return {};
   }
 
@@ -81,7 +80,7 @@ class AnalysisRun {
     if (Status status = reached("volume"); !status) return status;
     Stopwatch stopwatch;
     if (Status status = measure_sheets(options_, progress_, stop_, out_); !status) return status;
-    out_.host_times.push_back({"volumes", stopwatch.lap()});
+    out_.measurements.host_times.push_back({"volumes", stopwatch.lap()});
     return {};
   }
 
@@ -94,7 +93,7 @@ class AnalysisRun {
     if (!joined) return joined.error();
     out_.medial_mesh = std::move(joined).value();
     out_.euler_characteristic = euler_characteristic_of_solid(mesh_.prepared());
-    out_.host_times.push_back({"medial mesh", stopwatch.lap()});
+    out_.measurements.host_times.push_back({"medial mesh", stopwatch.lap()});
     return {};
   }
 

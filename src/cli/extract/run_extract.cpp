@@ -171,7 +171,7 @@ class ExtractionRun {
     record_.removal = std::move(analysis_.removal);
     record_.keep_volume = options_.keep_volume;
     record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
-    for (StageTime& time : analysis_.host_times) {
+    for (StageTime& time : analysis_.measurements.host_times) {
       if (time.stage == "extract" && !reports_index()) time.seconds += index_seconds_;
       if (time.stage != "medial mesh") record_.host_times.push_back(std::move(time));
     }
@@ -210,7 +210,7 @@ class ExtractionRun {
     files_.push_back(
         {options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, analysis_.spheres, record_.sheets,
                                                   *analysis_.medial_mesh, options_.ascii)});
-    record_.host_times.push_back(std::move(analysis_.host_times.back()));
+    record_.host_times.push_back(std::move(analysis_.measurements.host_times.back()));
   }
 
   Status encode() {
