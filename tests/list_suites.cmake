@@ -1,7 +1,8 @@
 # Script, run when a test program has been linked: writes OUTPUT, in which ctest finds one test for each suite of
 # PROGRAM, in the form that gtest_discover_tests() would write for each test.
-# The tests in SLOW are left out of their suites and are tests of their own, labelled `sanitized_full`, too.
-#   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D SLOW=Suite.Test,... -D OUTPUT=FILE
+# The tests in SLOW are left out of their suites and are tests of their own, labelled `sanitized_full`, too, as are
+# whole suites there (Suite.*).
+#   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D SLOW=Suite.Test,Suite.*,... -D OUTPUT=FILE
 #     -P list_suites.cmake
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n[^ \n][^ \n]*[.]" suites "\n${list}")  # other lines are indented or have spaces
@@ -15,6 +16,11 @@ function(add name filter labels)
 endfunction()
 foreach(suite ${suites})
   string(REGEX REPLACE "^\n(.*)[.]$" "\\1" suite "${suite}")
+  if("${suite}.*" IN_LIST slow)
+    list(REMOVE_ITEM slow "${suite}.*")
+    add(${suite} "${suite}.*" "${LABEL};sanitized_full")
+    continue()
+  endif()
   set(without ${slow})
   list(FILTER without INCLUDE REGEX "^${suite}[.]")
   string(JOIN "-" filter "${suite}.*" ${without})  # one per suite

@@ -20,6 +20,9 @@ set(full
   # Hundreds of thousands of triangles, in LoopBudget, remain.
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
   regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles)
+# Left out of the tests under ASan that scripts/test --asan-host runs; tests/CMakeLists.txt has those of unit.
+set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
+  LABELS "faults;sanitized_full")
 foreach(name ${full})
   string(REGEX REPLACE "[.].*" "" folder "${name}")
   set_tests_properties("${name}" PROPERTIES LABELS "${folder};full")
