@@ -10,7 +10,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr double u = 0x1p-53;
+constexpr double kU = 0x1p-53;  // the unit roundoff, u below
 constexpr double kMostDeviation = 1e-6;
 
 double greatest_coordinate(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
@@ -39,8 +39,8 @@ double deviation_of(const Pose& pose) {
 // below 25u. Without a turn only the sum rounds, by u (c + t) per coordinate. A shift of zero is exact.
 double placement_rounding(const Pose& pose, double reach) {
   const double t = greatest_coordinate(pose.shift);
-  if (!turns(pose)) return t == 0 ? 0 : 2 * u * (reach + t);
-  return std::max(96 * u, 25 * u + 1.74 * (deviation_of(pose) + 10 * u)) * reach + 2 * u * t;
+  if (!turns(pose)) return t == 0 ? 0 : 2 * kU * (reach + t);
+  return std::max(96 * kU, 25 * kU + 1.74 * (deviation_of(pose) + 10 * kU)) * reach + 2 * kU * t;
 }
 
 bool is_rigid(const Pose& pose) {
