@@ -56,7 +56,8 @@ struct ExtractionMeasurements {
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.
   /// Wall-clock seconds of the steps of a call with several, in their order: extract_and_certify() has "extract" and
-  /// "certify", analyse() also "sheets", "volumes" and "medial mesh", as far as they ran. Empty for an extraction alone.
+  /// "certify", analyse() also "sheets", "volumes" and "medial mesh", as far as they ran. Empty for an extraction
+  /// alone.
   std::vector<StageTime> host_times;
 };
 
