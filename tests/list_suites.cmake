@@ -4,6 +4,7 @@
 # whole suites there (Suite.*).
 #   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D SLOW=Suite.Test,Suite.*,... -D OUTPUT=FILE
 #     -P list_suites.cmake
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n[^ \n][^ \n]*[.]" suites "\n${list}")  # other lines are indented or have spaces
 string(REPLACE "," ";" slow "${SLOW}")
