@@ -122,7 +122,7 @@ TEST_F(WorkCounts, AFitOfPartsBuildsOneTreeAndUploadsOncePerPart) {
       PartFitOptions options;
       options.spheres.method = method;
       options.spheres.contract = contract;
-      options.total = 90;
+      options.total = 40;
       ASSERT_TRUE(fit_parts(parts, options, *context_).ok());
       EXPECT_EQ(trees, 2);
       EXPECT_EQ(uploads, 2);
