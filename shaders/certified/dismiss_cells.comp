@@ -62,7 +62,7 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
   towards = axis;
   offender = 0u;
   uint w = 0u, word = masks[word_base];
-  for (;;) {
+  while (w < word_count) {
     bool counts = word != 0u;
     uint bit = counts ? uint(findLSB(word)) : 0u;
     uint t = lists[parent.list_begin + 32u * w + bit];
@@ -80,8 +80,9 @@ float worst_violation(Cell parent, uint word_base, uint word_count, vec3 axis, b
     bool next = word == 0u;
     w += next ? 1u : 0u;
     word = next && w < word_count ? masks[word_base + w] : word;
-    if (w >= word_count) return worst;
+    if (w >= word_count) break;
   }
+  return worst;
 }
 
 // `tests`: number of distances evaluated.

@@ -32,7 +32,7 @@ uint nearest_of_cluster(vec3 p, uint name, uint lane) {
   uint first = clusters[name].first, last = first + clusters[name].count - 1u;
   uint best_name = first;
   float best = 3e38;
-  for (uint t = first;; t += kLanes) {
+  for (uint t = first; t <= last; t += kLanes) {
     uint mine = min(t + lane, last);
     float d = squared_distance_to_triangle(p, load_triangle(mine));
     best_name = d < best ? mine : best_name;

@@ -52,7 +52,7 @@ void main() {
   uvec2 best_q = entry == 0u ? best_p : nearest[2 * item + 1];
   uint end = min(list_count, entry + kEntriesPerRound);
   uint base = line_mask_begin(cell, item % step.lines_per_cell), word = 0u, listed_count = 0u;
-  for (;;) {
+  while (entry < end) {
     uint t = lists[cell.list_begin + entry];
     TriangleTexels texels = load_triangle(t);
     vec3 v_p = vector_to_triangle(p, texels), v_q = vector_to_triangle(q, texels);

@@ -73,7 +73,7 @@ void test(uint t, bool counts) {
 // Examines the entries whose bits are set, with an iteration for each, and one for each word. Returns their number.
 uint test_masked(Cell cell, uint base, uint begin, uint end) {
   uint w = begin / 32u, last_word = (end - 1u) / 32u, word = masks[base + w], count = 0u;
-  for (;;) {
+  while (w <= last_word) {
     bool counts = word != 0u;
     uint bit = counts ? uint(findLSB(word)) : 0u;
     test(lists[cell.list_begin + 32u * w + bit], counts);
@@ -82,12 +82,13 @@ uint test_masked(Cell cell, uint base, uint begin, uint end) {
     bool next = word == 0u;
     w += next ? 1u : 0u;
     word = next && w <= last_word ? masks[base + w] : word;
-    if (w > last_word) return count;
+    if (w > last_word) break;
   }
+  return count;
 }
 
 void test_all(Cell cell, uint entry, uint end) {
-  for (;;) {
+  while (entry < end) {
     test(lists[cell.list_begin + entry], true);
     if (++entry >= end) break;
   }

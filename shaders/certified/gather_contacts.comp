@@ -30,9 +30,9 @@ vec3 texel_of_lane(vec4 mine, uint cluster, uint which, uint k) {
 uint find_witness(vec3 centre) {
   uint lane = gl_LocalInvocationID.x, last = step.cluster_count - 1u, best_name = 0u;
   float best = 3e38;
-  for (uint first = 0u;;) {
+  for (uint first = 0u; first <= last;) {
     vec4 mine = cluster_texel(min(first + lane, last), kClusterPoint);
-    [[unroll]] for (uint k = 0u; k < kLanes; ++k) {
+    FOR_EACH_LANE(k) {
       uint name = min(first + k, last);
       vec3 v = texel_of_lane(mine, name, kClusterPoint, k) - centre;
       float squared = dot(v, v);
@@ -40,17 +40,18 @@ uint find_witness(vec3 centre) {
       best = min(best, squared);
     }
     first += kLanes;
-    if (first > last) return best_name;
+    if (first > last) break;
   }
+  return best_name;
 }
 
 // Mask of the listed clusters among the 32 from `first` on, and a lower bound of the distance to them all.
 uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance) {
   uint lane = gl_LocalInvocationID.x, last = step.cluster_count - 1u, word = 0u;
-  for (uint begin = 0u;;) {
+  for (uint begin = 0u; begin < 32u;) {
     uint mine = min(first + begin + lane, last);
     vec4 my_lower = cluster_texel(mine, kClusterLower), my_upper = cluster_texel(mine, kClusterUpper);
-    [[unroll]] for (uint k = 0u; k < kLanes; ++k) {
+    FOR_EACH_LANE(k) {
       uint name = min(first + begin + k, last);
       vec3 lower = texel_of_lane(my_lower, name, kClusterLower, k);
       vec3 upper = texel_of_lane(my_upper, name, kClusterUpper, k);
@@ -61,8 +62,9 @@ uint listed_from(uint first, vec3 centre, Witness witness, inout float clearance
       clearance = min(clearance, d);
     }
     begin += kLanes;
-    if (begin >= 32u || first + begin > last) return word;
+    if (begin >= 32u || first + begin > last) break;
   }
+  return word;
 }
 
 // Lanes beyond the last cell walk with the others.
@@ -78,7 +80,7 @@ void main() {
   uvec4 offset = offsets[item];
   uint total = 0u;
   float clearance = 3e38;
-  for (uint first = 0u;;) {
+  for (uint first = 0u; first < step.cluster_count;) {
     uint word = listed_from(first, centre, witness, clearance), position = offset.y + total;
     total += bitCount(word);
     word = is_kept ? word : 0u;

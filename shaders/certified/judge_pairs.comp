@@ -82,7 +82,7 @@ struct Remains {
 
 // For all lanes: evaluates the queued pairs, or, if the width is not needed, stops at the first feasible one.
 void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float nearest_distance, bool wants_width, Box box) {
-  for (;;) {
+  while (r.decided) {
     Carrier a, b;
     bool feasible = take_pair(a, b);
     feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
@@ -90,7 +90,7 @@ void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float neare
     r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
     r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
     r.decided = r.decided && ++rounds <= kMostRounds;
-    if (!has_enough_queued() || !r.decided || (r.feasible && !wants_width)) return;
+    if (!has_enough_queued() || !r.decided || (r.feasible && !wants_width)) break;
   }
 }
 
@@ -99,13 +99,10 @@ Remains what_remains(Cell cell, Box box, float theta, float nearest_distance, bo
   Remains r = Remains(gather_carriers(cell, box), false, 0.0);
   float sine_of_angle = sine(theta - kAngleSlack);
   start_pairs();
-  bool more = r.decided && has_more_blocks();
-  if (more) {
-    for (;;) {
-      fill_queue(theta, box);
-      rate_pairs(r, cell, theta, sine_of_angle, nearest_distance, wants_width, box);
-      if (!has_more_blocks() || !r.decided || (r.feasible && !wants_width)) break;
-    }
+  while (r.decided && has_more_blocks()) {
+    fill_queue(theta, box);
+    rate_pairs(r, cell, theta, sine_of_angle, nearest_distance, wants_width, box);
+    if (!has_more_blocks() || !r.decided || (r.feasible && !wants_width)) break;
   }
   r.width = -least_of_lanes(-r.width);
   return r;
@@ -160,7 +157,7 @@ void main() {
   Box inner = inner_part(cell, whole, has_inner);
   Remains narrower, inside, last;
   // The inner part at a larger angle; the inner part; the whole cell.
-  for (uint k = classifies ? 0u : 2u;;) {
+  for (uint k = classifies ? 0u : 2u; k < 3u;) {
     Box box = inner;
     if (k == 2u) box = whole;
     last = what_remains(cell, box, k == 0u ? theta + margin : theta, d0, classifies && k == 2u);

@@ -39,7 +39,7 @@ uint witness_near(Cell parent, vec3 p) {
   uint stride = 1u + parent.list_count / kWitnessSample;
   uint best_name = 0u;
   float best = 3e38;
-  for (uint entry = 0u;;) {
+  for (uint entry = 0u; entry < parent.list_count;) {
     uint name = lists[parent.list_begin + entry];
     vec3 v = cluster_texel(name, kClusterPoint).xyz - p;
     best_name = dot(v, v) < best ? name : best_name;
@@ -70,7 +70,7 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
   Tally tally = Tally(0u, 0u, 3e38, vec3(0.0), true, true);
   bool expands = step.lists == kListsExpanded;  // then space is reserved for all triangles of the clusters
   uint word = 0u, touch_word = 0u, last = parent.list_begin + parent.list_count - 1u;
-  for (uint entry = 0u;;) {
+  for (uint entry = 0u; entry < parent.list_count;) {
     uint next = parent.list_begin + entry;
     ClusterBounds mine = load_bounds(lists[min(next + child, last)]);
     for (uint k = 0; k < 8u; ++k) {
@@ -106,8 +106,9 @@ Tally mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, ui
       word = 0u;
       touch_word = 0u;
     }
-    if (entry >= parent.list_count) return tally;
+    if (entry >= parent.list_count) break;
   }
+  return tally;
 }
 
 // The touching cluster that obeys the axis least: cosine of the greatest turn of its spokes from the axis, and the
@@ -120,7 +121,7 @@ struct Offender {
 Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint base) {
   Offender worst = Offender(2.0, axis);
   uint touches = 0u, last = parent.list_begin + parent.list_count - 1u;
-  for (uint entry = 0u;;) {
+  for (uint entry = 0u; entry < parent.list_count;) {
     uint next = parent.list_begin + entry;
     if ((entry & 31u) == 0u) touches = touch_masks[base + entry / 32u];
     ClusterBounds mine = load_bounds(lists[min(next + child, last)]);
@@ -136,8 +137,9 @@ Offender worst_offender(Cell parent, uint child, vec3 centre, vec3 axis, uint ba
       worst.cosine = is_worst ? cosine : worst.cosine;
     }
     entry += 8u;
-    if (entry >= parent.list_count) return worst;
+    if (entry >= parent.list_count) break;
   }
+  return worst;
 }
 
 // Dismissal by an axis (axis_test.glsl), for all eight at once: sweeps are made while any of them needs one.

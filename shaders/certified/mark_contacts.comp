@@ -73,7 +73,7 @@ uint witness_near(Cell parent, uint lane, vec3 p) {
   uint last = parent.list_begin + candidates_of(parent) - 1u;
   uint best_name = 0u;
   float best = 3e38;
-  for (uint entry = parent.list_begin;;) {
+  for (uint entry = parent.list_begin; entry <= last;) {
     uint mine_name = lists[min(entry + lane * stride, last)];
     TriangleTexels mine = load_triangle(mine_name);
     for (uint k = 0; k < kLanes; ++k) {
@@ -112,11 +112,11 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
   uint word = 0, touch_word = 0;
   float partner_away = 3e38, least_turn = sin(dismissal_angle(front.distance));
   marks.partner = kNoTriangle;
-  for (;;) {
+  while (entry < end) {
     uint next = parent.list_begin + entry, last = parent.list_begin + end - 1u;
     uint mine_name = lists[min(next + child, last)];
     TriangleTexels mine = load_triangle(mine_name);
-    [[unroll]] for (uint k = 0; k < 8u; ++k) {
+    FOR_EACH_LANE(k) {
       TriangleTexels texels = triangle_of_lane(mine, min(next + k, last), k);
       uint name = name_of_lane(mine_name, min(next + k, last), k);
       vec3 v = vector_to_triangle(centre, texels);
@@ -161,8 +161,9 @@ Marks mark(Cell parent, uint child, vec3 centre, Witness front, Witness back, Pr
       word = 0;
       touch_word = 0;
     }
-    if (entry >= end) return marks;
+    if (entry >= end) break;
   }
+  return marks;
 }
 
 void store(uint item, Marks marks, bool is_last) {

@@ -55,10 +55,10 @@ void main() {
   }
   uint end = min(cell.list_count, entry + kEntriesPerRound), last = cell.list_begin + end - 1u;
   uint base = sample_mask_begin(cell, group), word = 0u, count = entry == 0u ? 0u : work[index];
-  for (;;) {
+  while (entry < end) {
     uint next = cell.list_begin + entry;
     vec4 mine = tangent_of(centre, lists[min(next + group, last)]);
-    [[unroll]] for (uint k = 0; k < kLanes; ++k) {
+    FOR_EACH_LANE(k) {
       vec4 tangent = tangent_of_lane(mine, centre, min(next + k, last), k);
       bool listed = false;
       [[unroll]] for (uint i = 0; i < kFluxGroup; ++i) {

@@ -67,7 +67,7 @@ uint best_part(Line line, uint index, out End p, out End q) {
   End last = End(line.p, line.toward_p);
   p = last;
   q = last;
-  for (;;) {
+  while (k <= kParts) {
     End next = end_at(line, index, k);
     float now = rank(last, next);
     bool is_better = now < least;
@@ -76,8 +76,9 @@ uint best_part(Line line, uint index, out End p, out End q) {
     p = is_better ? last : p;
     q = is_better ? next : q;
     last = next;
-    if (++k > kParts) return best;
+    if (++k > kParts) break;
   }
+  return best;
 }
 
 // A sheet that runs along a face of its voxel, as those of symmetric solids often do, leaves the ends of the best part

@@ -123,7 +123,7 @@ vec3 widest_turn(Cell cell, uint lane, vec3 point) {
         min(nearest_distance, squared_distance_to_triangle(point, load_triangle(lists[cell.list_begin + entry])));
   nearest_distance = sqrt(least_of_lanes(nearest_distance));
   vec3 a = vec3(0.0), b;
-  for (uint k = 0;;) {
+  for (uint k = 0; k < 3u;) {
     b = a;
     a = opposite_direction(cell, lane, point, nearest_distance, b);
     if (++k == 3u) break;

@@ -15,8 +15,9 @@ void main() {
   vec4 s = spheres[sphere];
   if (s.w < 0.0) return;
   float sum = 0.0, fans = 0.0, greatest = 0.0;
-  for (uint k = 0u; k < push.samples; ++k) {
-    uint index = push.samples * sphere + k;
+  uint samples_each = push.samples;
+  for (uint k = 0u; k < samples_each; ++k) {
+    uint index = samples_each * sphere + k;
     vec3 point = samples[index].xyz;
     vec3 to_boundary = nearest[index].xyz - point;
     vec3 direction = unit_or_zero(to_boundary);
@@ -27,6 +28,6 @@ void main() {
     fans += fan ? 1.0 : 0.0;
     greatest = max(greatest, length(to_boundary));
   }
-  float used = float(push.samples) - fans;
+  float used = float(samples_each) - fans;
   fluxes[sphere] = vec4(used > 0.0 ? sum / used : 0.0, greatest, fans, 0.0);
 }

@@ -44,10 +44,25 @@ vec3 project(vec4 span, vec3 x) {
   return span.w == kPlane ? x - along * span.xyz : span.w == kLine ? along * span.xyz : vec3(0.0);
 }
 
+// The projection of the centre of the box onto the span of a carrier, and that span (carriers.glsl).
+struct Placed {
+  vec4 foot, span;
+};
+
+Placed placed(uint name, Box box) {
+  Feature f = feature_named(name, box);
+  return Placed(f.foot, f.span);
+}
+
 // Lemma H: true if the feet can be as far apart as the object angle requires, 2 D sin(theta), anywhere in the box. D is
 // bounded by the mixture of the two distances whose gradient best cancels that of the distance of the feet.
 bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
-  Feature at_a = feature_named(first.name, box), at_b = feature_named(second.name, box);
+  Placed at_a, at_b;
+  for (uint k = 0u; k < 2u;) {  // here and below: a loop, so that drivers translate the code of a carrier once
+    at_a = at_b;
+    at_b = placed(k == 0u ? first.name : second.name, box);
+    if (++k == 2u) break;
+  }
   vec4 span_a = at_a.span, span_b = at_b.span;
   if (span_a.w == kUnknownSpan || span_b.w == kUnknownSpan) return true;
   vec4 a = first.nearest, b = second.nearest, ab = b - a;
@@ -163,12 +178,17 @@ void rotate(inout vec3 p[3]) {
 
 // Lemma E: true if both may face each other along some chord.
 bool can_face(uint first, uint second, float sine) {
-  Facing a = facing_of(first, sine), b = facing_of(second, sine);
-  if (!a.is_tested && !b.is_tested) return true;
+  Facing a, b;
   vec3 p[3], q[3], mean = vec3(0.0);
-  corners_of(first, p);
-  corners_of(second, q);
-  for (uint i = 0;;) {
+  for (uint k = 0u; k < 2u;) {
+    a = b;
+    p = q;
+    b = facing_of(k == 0u ? first : second, sine);
+    corners_of(k == 0u ? first : second, q);
+    if (++k == 2u) break;
+  }
+  if (!a.is_tested && !b.is_tested) return true;
+  for (uint i = 0; i < 3u;) {
     [[unroll]] for (uint k = 0; k < 3u; ++k) mean += unit_or_zero(q[k] - p[0]);
     rotate(p);
     if (++i == 3u) break;
@@ -176,7 +196,7 @@ bool can_face(uint first, uint second, float sine) {
   mean = unit_or_zero(mean);
   float most_a = -1.0, most_b = -1.0;
   bool behind_a = false, behind_b = false, bounded = true;
-  for (uint k = 0;;) {
+  for (uint k = 0; k < 9u;) {
     vec3 chord = q[0] - p[0];
     bool apart = dot(chord, chord) > 0.0;  // else a corner of both
     float along = dot(chord, mean) - step.slack;
@@ -201,13 +221,15 @@ bool can_face(uint first, uint second, float sine) {
 bool is_beaten(Carrier a, Carrier b, Carrier nearest_row, Box box) {
   vec3 ab = b.nearest.xyz - a.nearest.xyz;
   float inverse = 1.0 / max(dot(ab, ab), 1e-30), slack = max(error_of(a, box).x, error_of(b, box).x);
-  for (uint k = 0;;) {
+  bool beaten = false;
+  for (uint k = 0; k < kPairRivals;) {
     Carrier rival = CARRIER_OF_LANE(nearest_row, carrier_order, kept_count, 0u, k);
     float share = clamp(dot(ab, rival.nearest.xyz - a.nearest.xyz) * inverse, 0.0, 1.0);
     bool is_third = rival.name != a.name && rival.name != b.name;
-    bool beaten = is_third && beats(rival, mix(a.nearest, b.nearest, share), slack, box);
-    if (beaten || ++k >= min(kPairRivals, kept_count)) return beaten;
+    beaten = is_third && beats(rival, mix(a.nearest, b.nearest, share), slack, box);
+    if (beaten || ++k >= min(kPairRivals, kept_count)) break;
   }
+  return beaten;
 }
 
 // True if a pair that turns enough, and that no third carrier beats, may hold the spokes.

@@ -245,7 +245,7 @@ void order_unbeaten(uint lane, Box box) {
 // spokes. The work is divided into two passes so that all lanes are busy in the second, expensive one.
 void list_carriers(uint lane, Cell cell, Box box) {
   uint begin = 0u;
-  for (;;) {
+  while (carrier_count <= kMostCarriers) {
     uint end = min(begin + kEntriesAtOnce, cell.touching);
     for (uint i = begin + lane; i < end; i += kLanes) list_features(lists[cell.list_begin + i]);
     synchronize();
@@ -266,7 +266,7 @@ void measure_corners(uint lane, TriangleTexels nearest, Box box) {
   float mine = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(lane), nearest));
   [[unroll]] for (uint k = 0; k < 8u; ++k) corner_distance[k] = from_lane(mine, k);
 #else
-  [[unroll]] for (uint k = 0; k < 8u; ++k)
+  for (uint k = 0; k < 8u; ++k)
     corner_distance[k] = sqrt(squared_distance_to_triangle(box.centre + box.half_sides * corner_sign(k), nearest));
 #endif
 }

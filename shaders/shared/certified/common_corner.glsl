@@ -6,7 +6,7 @@
 #define MEDIAL_VK_COMMON_CORNER_GLSL
 
 const uint kMostArcs = 6u;
-const vec3 kWholeCircle = vec3(0.0, 0.0, -1.0);
+const vec3 kWholeCircle = vec3(0.0, 0.0, -1.0), kNowhere = vec3(0.0, 0.0, 1.0);
 
 // Conditions on the unit vectors x of a plane, as (v, r): v.x >= r.
 struct Circle {
@@ -86,10 +86,10 @@ float direction_error(Leaving a, Leaving b) { return a.tilt + b.tilt + kAngleSla
 
 // Points at equal distance from both faces, in front of both and within the walls of both: they lie on the plane
 // between the faces.
-bool can_meet_faces(Leaving a, Leaving b) {
+Circle where_faces_meet(Leaving a, Leaving b) {
   vec3 across = a.toward - b.toward;
   float error = direction_error(a, b), size = length(across);
-  if (size < 4.0 * error) return true;
+  if (size < 4.0 * error) return circle_across(a.toward);  // nothing is known: the whole circle
   Circle c = circle_across(across / size);
   float slack = 2.0 * error * (1.0 + 1.0 / size);
   c.arcs[0] = arc_where(c, a.toward + b.toward, -2.0 * slack);
@@ -97,7 +97,7 @@ bool can_meet_faces(Leaving a, Leaving b) {
   c.arcs[2] = arc_where(c, a.walls[1], -slack);
   c.arcs[3] = arc_where(c, b.walls[0], -slack);
   c.arcs[4] = arc_where(c, b.walls[1], -slack);
-  return have_common_point(c.arcs);
+  return c;
 }
 
 vec3 arc_of_spokes(Circle c, Leaving edge, float error) {
@@ -105,9 +105,8 @@ vec3 arc_of_spokes(Circle c, Leaving edge, float error) {
 }
 
 // Spokes s to the edge, at t along it, with D the distance: x = t u - D s, and x.h = D gives t (u.h) = D (1 + s.h).
-bool can_meet_edge_and_face(Leaving edge, Leaving face, float sine) {
+Circle where_edge_and_face_meet(Leaving edge, Leaving face, float sine) {
   float error = direction_error(edge, face), slack = 10.0 * error, rise = dot(edge.along, face.toward);
-  if (rise < -slack) return false;
   Circle c = circle_across(edge.along);
   c.arcs[0] = arc_of_spokes(c, edge, 2.0 * error);
   c.arcs[1] = arc_where(c, face.toward, 2.0 * sine * sine - 1.0 - slack);
@@ -115,12 +114,13 @@ bool can_meet_edge_and_face(Leaving edge, Leaving face, float sine) {
     float along = dot(face.walls[k], edge.along);
     c.arcs[2u + k] = arc_where(c, along * face.toward - rise * face.walls[k], -along - slack);
   }
-  return have_common_point(c.arcs);
+  c.arcs[4] = rise < -slack ? kNowhere : kWholeCircle;
+  return c;
 }
 
 // Both feet are at the same distance: t = -D s.v / (1 - u.v), where s is the spoke to the first; the other spoke is s +
 // (t/D) (v - u).
-bool can_meet_edges(Leaving a, Leaving b, float sine) {
+Circle where_edges_meet(Leaving a, Leaving b, float sine) {
   float error = direction_error(a, b), apart = max(0.0, 1.0 - dot(a.along, b.along));
   Circle c = circle_across(a.along);
   c.arcs[0] = arc_of_spokes(c, a, 2.0 * error);
@@ -130,7 +130,7 @@ bool can_meet_edges(Leaving a, Leaving b, float sine) {
   vec3 condition = arc_where(c, apart * b.arc.xyz + dot(a.along, b.arc.xyz) * b.along,
                              apart * cosine(min(b.arc.w, 3.1415926)) - 10.0 * error);
   c.arcs[2] = has_arc ? condition : kWholeCircle;
-  return have_common_point(c.arcs);
+  return c;
 }
 
 bool is_corner_of(uint name, uint k) {
@@ -150,11 +150,26 @@ bool can_meet_at_corner(uint first, uint second, float sine) {
     j = common_corner ? k % 3u : j;
   }
   if (i == 3u) return true;
-  Leaving from_a = leaving(first, i), from_b = leaving(second, j);
-  if (from_a.is_face && from_b.is_face) return can_meet_faces(from_a, from_b);
-  if (!from_a.is_face && !from_b.is_face) return can_meet_edges(from_a, from_b, sine);
-  if (from_a.is_face) return can_meet_edge_and_face(from_b, from_a, sine);
-  return can_meet_edge_and_face(from_a, from_b, sine);
+  Leaving from_a, from_b;
+  for (uint k = 0u; k < 2u;) {  // a loop, so that drivers translate its body once; and one call for all three kinds of pairs
+    from_a = from_b;
+    from_b = leaving(k == 0u ? first : second, k == 0u ? i : j);
+    if (++k == 2u) break;
+  }
+  Circle c;
+  if (from_a.is_face && from_b.is_face) {
+    c = where_faces_meet(from_a, from_b);
+  } else if (!from_a.is_face && !from_b.is_face) {
+    c = where_edges_meet(from_a, from_b, sine);
+  } else {
+    Leaving edge = from_a, face = from_b;
+    if (from_a.is_face) {
+      edge = from_b;
+      face = from_a;
+    }
+    c = where_edge_and_face_meet(edge, face, sine);
+  }
+  return have_common_point(c.arcs);
 }
 
 #endif

@@ -66,7 +66,12 @@ bool is_outside_at(uint name, Cell cell, vec3 centre, float nearest_distance) {
 bool is_outside_pair(uint first, uint second, Cell cell, float nearest_distance) {
   if ((cell.flags & kCellMeasured) == 0u) return false;
   vec3 centre = cell_centre(uvec3(cell.x, cell.y, cell.z));
-  return is_outside_at(first, cell, centre, nearest_distance) || is_outside_at(second, cell, centre, nearest_distance);
+  bool outside = false;
+  for (uint k = 0u; k < 2u;) {  // a loop, so that drivers translate its body once
+    outside = is_outside_at(k == 0u ? first : second, cell, centre, nearest_distance);
+    if (outside || ++k == 2u) break;
+  }
+  return outside;
 }
 
 #endif

@@ -87,7 +87,7 @@ void queue_block(Carrier nearest_row, float theta, Box box) {
 void fill_queue(float theta, Box box) {
   uint slot;
   Carrier nearest_row = load_row(0u, slot);
-  for (;;) {
+  while (has_more_blocks()) {
     queue_block(nearest_row, theta, box);
     bool enough = queue_tail - queue_head >= kLanes && (step.depth == 0u || next_row >= 2u);
     if (enough || !has_more_blocks()) break;

@@ -16,6 +16,15 @@ const uint kMostLanes = 256u;
 //   from_lane (LOCKSTEP only)   the value that lane k holds
 //   sum_of_lanes, least_of_lanes, or_of_lanes, first_lane_with
 //   count_lanes                 the sum over the lanes before this one, and over all
+//
+// FOR_EACH_LANE(k): a loop over the eight. Shuffles from a lane that the compiler knows take less time, so the loop is
+// unrolled for them; elsewhere its body is translated once (docs/performance.md, "Programs").
+
+#ifdef LOCKSTEP
+#define FOR_EACH_LANE(k) [[unroll]] for (uint k = 0u; k < kLanes; ++k)
+#else
+#define FOR_EACH_LANE(k) [[dont_unroll]] for (uint k = 0u; k < kLanes; ++k)
+#endif
 
 #ifdef LOCKSTEP
 

@@ -26,9 +26,9 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
   uint size = 0u, position = 0u, rounds = 0u;
   TreeHit hit = TreeHit(bound, 0xffffffffu, false);
   uint best_index = 0u;  // a point at exactly the bound is no hit
-  for (;;) {
+  while (position != kFinished) {
     uint descents = 0u;
-    for (;;) {
+    while (descents < kDescents) {
       bool inner = position < kLeaf;
       uint node = 4u * (inner ? position : 0u);
       vec4 lower_0 = tree_texel(node), upper_0 = tree_texel(node + 1u);
@@ -49,7 +49,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
     bool leaf = is_leaf(position), down = position < kLeaf;
     uint first = leaf ? position & kFirstMask : 0u, count = leaf ? position >> 24 : 0u;
     uint i = 0u;
-    for (;;) {
+    while (i <= count) {
       TriangleTexels texels = load_triangle(first + i);
       float d = squared_distance_to_triangle(p, texels);
       d *= !any && foot_is_inside(p, texels) ? kPreferFaces : 1.0;
@@ -63,7 +63,7 @@ TreeHit walk_tree(vec3 p, float bound, bool any) {
     tested_triangles += count;
     bool stop = any && hit.triangle != 0xffffffffu;
     uint pops = 0u;
-    for (;;) {
+    while (pops < kPops) {
       bool pop = !down && size > 0u;
       size -= uint(pop);
       uint top = min(size, kStackSize - 1u);

@@ -72,9 +72,9 @@ Winding winding_number(vec3 p, float tolerance) {
   uint moments = 4u * tree_node_count();
   Winding winding = Winding(0.0, 0.0, false);
   float free = 0.5 * tolerance;
-  for (;;) {
+  while (position != kFinished) {
     uint descents = 0u;
-    for (;;) {
+    while (descents < kDescents) {
       bool inner = position < kLeaf;
       uint node = inner ? position : 0u;
       uint next_0 = use_or_open(p, moments, node, 0u, inner, tolerance, free, winding);
@@ -90,7 +90,7 @@ Winding winding_number(vec3 p, float tolerance) {
     bool leaf = is_leaf(position), down = position < kLeaf;
     uint first = leaf ? position & kFirstMask : 0u, count = leaf ? position >> 24 : 0u;
     uint i = 0u;
-    for (;;) {
+    while (i <= count) {
       float part = winding_of_triangle(p, load_triangle(first + i));
       winding.number += i < count ? part : 0.0;
       if (++i >= count) break;

@@ -241,9 +241,10 @@ MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 12u * 24u;  // enough for those of 
 // The largest float, as bits: devices may lack infinities.
 MEDIAL_VK_GPU_CONSTANT kFarthestBits = 0x7f7fffffu;
 
-// Entries of a contact list that one invocation reads in one dispatch. lavapipe ends an invocation's loops silently
-// after 65,535 iterations in all; longer lists take several rounds of the same dispatch.
-MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
+// Entries of a contact list that one invocation reads in one dispatch; longer lists take several rounds of the same
+// dispatch. lavapipe ends an invocation's loops silently after 65,535 iterations in all, and mark_contacts.comp walks
+// over a list twice, with nine iterations for eight entries.
+MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 24576u;
 MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
 MEDIAL_VK_GPU_CONSTANT kSortedDepth = 1u;      // levels below the finest voxel whose lines are sorted
 MEDIAL_VK_GPU_CONSTANT kSortedPerLane = 16u;   // items of an invocation of sort_by_work.comp
