@@ -140,6 +140,11 @@ VkDeviceSize bytes_on_the_way(const ContextImpl& context) {
   return (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0 ? 0 : kBytesOnTheWay;
 }
 
+std::uint64_t bytes_of_compiler(const ContextImpl& context, std::uint64_t budget) {
+  constexpr std::uint64_t kMost = 128ull << 20;
+  return context.description.type == "cpu" ? std::min(kMost, budget / 8) : 0;
+}
+
 Arena::Arena(Arena&& other) noexcept
     : context_(other.context_),
       blocks_(std::move(other.blocks_)),

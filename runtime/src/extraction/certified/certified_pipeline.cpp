@@ -78,7 +78,8 @@ Result<CertifiedPipeline> CertifiedPipeline::create(ContextImpl& context, const 
          kHalfDiagonal * p.cell_size(p.clustered_levels_) >= kCellPerCluster * mesh.cluster_radius) {
     ++p.clustered_levels_;
   }
-  const std::uint64_t left = left_of(options.memory_budget, mesh.bytes() + bytes_on_the_way(context));
+  const std::uint64_t left = left_of(options.memory_budget, mesh.bytes() + bytes_on_the_way(context) +
+                                                                bytes_of_compiler(context, options.memory_budget));
   if (Status s = p.allocate(left); !s.ok()) return s.error();
   return p;
 }
