@@ -1,7 +1,9 @@
 // A Vulkan device, ready to compute: instance, device, queue, memory, pipelines.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +26,10 @@ struct DeviceDescription {
   std::string why_not;             ///< If not usable: the reason.
 };
 
+/// Reports that `made` of the `wanted` programs of a call have been compiled: first 0, at last all. Drivers take from
+/// milliseconds to minutes for one. It is called from any thread, one call at a time, and does not throw.
+using ProgramsProgress = std::function<void(std::size_t made, std::size_t wanted)>;
+
 struct ContextOptions {
   /// An index, or part of a name (case does not matter). Empty: the environment variable MEDIAL_VK_DEVICE, and if
   /// that is unset the best device: discrete, integrated, virtual, then CPU.
@@ -38,6 +44,8 @@ struct ContextOptions {
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
+  /// Called when a call needs programs that the context does not have yet.
+  ProgramsProgress programs_progress;
 };
 
 struct HostDevice;  // host_device.h

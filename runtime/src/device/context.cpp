@@ -41,6 +41,7 @@ Result<PhysicalDevice> select_device(VkInstance instance, const std::string& dev
 Status Context::Impl::initialize(const ContextOptions& options) {
   allocation_callbacks = options.allocation_callbacks;
   host_threads = options.threads;
+  programs_progress = options.programs_progress;
   {
     const std::lock_guard lock(volk_mutex());
     Result<Instance> created = create_instance(options.validation, &validation_messages, allocation_callbacks);

@@ -38,7 +38,8 @@ class Context::Impl {
   std::uint32_t transfer_family = 0;
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 
-  unsigned host_threads = 0;  // ContextOptions::threads
+  unsigned host_threads = 0;           // ContextOptions::threads
+  ProgramsProgress programs_progress;  // ContextOptions::programs_progress
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};

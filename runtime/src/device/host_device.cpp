@@ -70,6 +70,7 @@ Status Context::Impl::adopt(const HostDevice& host) {
   owns_device_ = false;
   allocation_callbacks = host.allocation_callbacks;
   host_threads = host.threads;
+  programs_progress = host.programs_progress;
   {
     const std::lock_guard lock(volk_mutex());
     const Result<HostInstance> loaded = HostInstance::load(host.get_instance_proc_addr, host.instance);

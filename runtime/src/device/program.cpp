@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -184,6 +185,9 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
     return found != nullptr ? found->words.size() : 0;
   };
   std::ranges::stable_sort(missing, std::greater<>{}, size);
+  std::mutex reporting;
+  std::size_t count = 0;
+  if (!missing.empty() && programs_progress) programs_progress(count, missing.size());
   std::vector<OwnedProgram> made(missing.size());
   std::vector<Status> status(missing.size());
   parallel_blocks(missing.size(), 1, host_threads, [&](std::size_t i, std::size_t) {
@@ -192,6 +196,9 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
       made[i] = std::move(program.value());
     else
       status[i] = program.error();
+    const std::scoped_lock lock(reporting);
+    ++count;
+    if (programs_progress) programs_progress(count, missing.size());
   });
   for (std::size_t i = 0; i < missing.size(); ++i)
     if (made[i]) programs_.emplace(*missing[i], std::move(made[i]));

@@ -68,7 +68,8 @@ class ExtractionRun {
 
   Status run() {
     if (Status status = check_outputs(); !status) return status;
-    if (options_.backend != Backend::kCpu) opening_.start(options_.device, options_.threads);  // while the mesh is read
+    if (options_.backend != Backend::kCpu)
+      opening_.start(options_.device, options_.threads, progress_);  // while the mesh is read
     if (Status status = load(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.host_times); !status) return status;
     if (!options_.quiet) print_message(opening(record_));

@@ -7,11 +7,14 @@
 
 namespace medial_vk::cli {
 
-void DeviceOpening::start(const std::string& wanted, unsigned threads) {
+void DeviceOpening::start(const std::string& wanted, unsigned threads, Progress& progress) {
   wanted_ = wanted;
   ContextOptions options;
   options.device = wanted;
   options.threads = threads;
+  options.programs_progress = [this, &progress](std::size_t made, std::size_t total) {
+    programs_.update(made, total, progress);
+  };
   started_ = std::chrono::steady_clock::now();
   // On one thread, or if no other is available, it runs when the context is taken.
   const std::launch policy = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
@@ -33,6 +36,7 @@ Status DeviceOpening::take(std::optional<Context>& context, std::optional<Device
   if (!opened) return with_hint(opened.error(), wanted_);
   context.emplace(std::move(opened).value());
   description = context->device();
+  programs_.set_device(description->name);
   times.push_back({"device", stopwatch.lap()});
   return {};
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/shared/programs_watch.h"
+#include "cli/terminal/progress.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
 
@@ -16,8 +18,8 @@ namespace medial_vk::cli {
 class DeviceOpening {
  public:
   /// Starts on its own thread; with `threads` 1, in take(). `wanted` is the argument of --device, or empty for the best
-  /// device.
-  void start(const std::string& wanted, unsigned threads);
+  /// device. `progress` shows the programs that its driver compiles.
+  void start(const std::string& wanted, unsigned threads, Progress& progress);
   /// The number of threads for work on a mesh that runs meanwhile. While a driver is loaded, glibc holds a lock that
   /// every new thread needs, until all libraries are relocated (25 ms for LLVM): shorter work finishes sooner on the
   /// existing thread.
@@ -28,6 +30,7 @@ class DeviceOpening {
               std::vector<StageTime>& times);
 
  private:
+  ProgramsWatch programs_;
   std::string wanted_;
   std::future<Result<Context>> opening_;
   std::chrono::steady_clock::time_point started_;

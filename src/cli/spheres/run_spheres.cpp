@@ -50,7 +50,7 @@ class SpheresRun {
   Status run() {
     if (Status status = check_outputs(); !status) return status;
     if (options_.backend != Backend::kCpu)
-      opening_.start(options_.device, options_.request.threads);  // while the input is read
+      opening_.start(options_.device, options_.request.threads, progress_);  // while the input is read
     if (Status status = load(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.times); !status) return status;
     if (!options_.quiet) print_message(spheres_opening(options_, record_));

@@ -53,6 +53,10 @@ void install_interrupt_handlers() {
 
 bool interrupted() { return stop_requested; }
 
+void end_if_interrupted() {
+  if (stop_requested) end_at_once();
+}
+
 EndAtOnce::EndAtOnce() { may_end_at_once = true; }
 EndAtOnce::~EndAtOnce() { may_end_at_once = false; }
 

@@ -5,6 +5,8 @@ namespace medial_vk::cli {
 
 void install_interrupt_handlers();
 bool interrupted();
+/// Ends the program if a signal has come, with the message and exit code of EndAtOnce.
+void end_if_interrupted();
 
 /// While an object exists, the first signal also ends the program at once, with a message and exit code 130. It is for
 /// work that has nothing to undo and cannot be stopped half-way, such as waiting for input that does not come. An

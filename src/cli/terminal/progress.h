@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 
 namespace medial_vk::cli {
@@ -9,6 +10,9 @@ namespace medial_vk::cli {
 /// "extract    [============            ]  50 %, 12 s left". `done` is 0 to 1; `elapsed` is in seconds since the stage
 /// began; the remaining time is left out until it can be estimated.
 std::string progress_line(const std::string& stage, double done, double elapsed);
+
+/// "programs   [============            ] 12 of 29".
+std::string count_line(const std::string& stage, std::size_t done, std::size_t total);
 
 class Progress {
  public:
@@ -20,10 +24,15 @@ class Progress {
 
   /// Draws at most ten times a second. A new stage starts its own clock.
   void update(const char* stage, double done);
+  /// The same with numbers instead of the share and the time that is left.
+  void update_count(const char* stage, std::size_t done, std::size_t total);
   /// Removes the line, so that other messages can be written.
   void clear();
 
  private:
+  bool is_due(const char* stage);
+  void draw(const std::string& line);
+
   using Clock = std::chrono::steady_clock;
 
   bool drawing_;

@@ -388,6 +388,8 @@ TEST(OptionsText, NumbersForPeople) {
 TEST(OptionsText, ProgressLine) {
   EXPECT_THAT(progress_line("extract", 0.5, 10), HasSubstr("50 %, 10 s left"));
   EXPECT_THAT(progress_line("extract", 0.0, 10), HasSubstr("  0 %"));
+  EXPECT_EQ(count_line("programs", 12, 29), "programs   [============                  ] 12 of 29");
+  EXPECT_EQ(count_line("programs", 0, 0), "programs   [==============================] 0 of 0");
   EXPECT_THAT(progress_line("extract", 2.0, 10), HasSubstr("100 %"));  // A share above 1 does not draw past the end.
 }
 

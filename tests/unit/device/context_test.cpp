@@ -255,5 +255,23 @@ TEST(PipelineCacheFolder, FollowsTheXdgRules) {
   EXPECT_EQ(pipeline_cache_file("", {}), "");
 }
 
+// From 0 to all, one by one; programs that exist are not counted again.
+TEST_F(ContextTest, ReportsTheProgramsThatItMakes) {
+  std::vector<std::pair<std::size_t, std::size_t>> reports;
+  ContextOptions reporting = options();
+  reporting.programs_progress = [&](std::size_t made, std::size_t wanted) { reports.emplace_back(made, wanted); };
+  Result<Context> context = Context::create(reporting);
+  ASSERT_TRUE(context.ok());
+  ContextImpl& impl = Internals::of(context.value());
+  impl.extra_shaders = kTestShaders;
+  ProgramKey another = test_program();
+  another.constants = {3, 0};
+  ASSERT_TRUE(impl.make_programs({test_program(), another}).ok());
+  const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 2}, {1, 2}, {2, 2}};
+  EXPECT_EQ(reports, expected);
+  ASSERT_TRUE(impl.make_programs({test_program(), another}).ok());
+  EXPECT_EQ(reports, expected);
+}
+
 }  // namespace
 }  // namespace medial_vk

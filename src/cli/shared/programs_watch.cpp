@@ -1,0 +1,42 @@
+#include "cli/shared/programs_watch.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace medial_vk::cli {
+namespace {
+
+constexpr unsigned kPatience = 60;  // seconds
+
+std::string too_slow;  // the message, made before a signal can come
+
+extern "C" void say_too_slow(int) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, too_slow.data(), too_slow.size());
+}
+
+}  // namespace
+
+void ProgramsWatch::set_device(const std::string& name) {
+  too_slow = fmt::format(
+      "\nmedial-vk: the driver of {} has been compiling for {} s and goes on. Ctrl-C ends this run; --list-devices "
+      "shows "
+      "other devices, --device chooses one, --mode thesis needs smaller programs, --backend cpu none.\n",
+      name, kPatience);
+}
+
+void ProgramsWatch::update(std::size_t made, std::size_t wanted, Progress& progress) {
+  if (made == 0) {
+    guard_.emplace();
+    end_if_interrupted();
+    std::signal(SIGALRM, say_too_slow);
+    ::alarm(kPatience);
+  }
+  progress.update_count("programs", made, wanted);
+  if (made < wanted) return;
+  ::alarm(0);
+  guard_.reset();
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,26 @@
+// What the user sees while the driver compiles the programs of a run, and what signals do meanwhile.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/progress.h"
+
+namespace medial_vk::cli {
+
+/// A driver that compiles cannot be stopped, and nothing is written yet: the first signal ends the program. After a
+/// minute of compilation a message names the device, and the remedies.
+class ProgramsWatch {
+ public:
+  /// For the message; before the first update().
+  void set_device(const std::string& name);
+  /// ContextOptions::programs_progress.
+  void update(std::size_t made, std::size_t wanted, Progress& progress);
+
+ private:
+  std::optional<EndAtOnce> guard_;
+};
+
+}  // namespace medial_vk::cli
