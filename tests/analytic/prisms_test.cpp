@@ -10,6 +10,7 @@
 #include <string>
 
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/extruded_polygon.h"
 #include "support/solids/solids.h"
@@ -90,7 +91,7 @@ TEST_P(ExactPrism, EveryCrossedVoxelHasAPointOnTheMedialSurface) {
   test::rotate(prism.mesh, {axis.x(), axis.y(), axis.z()}, angle);
   const Matrix3d to_world = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   ExtractionOptions options;
   options.resolution = 32;
   options.object_angle = kObjectAngle;
@@ -111,7 +112,7 @@ TEST(ExactBox, ObjectAnglesAreThoseOfItsFaces) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_box({1, 0.7, 0.5});
   test::rotate(solid, {0.2, 0.9, 0.4}, 1.1);
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   ExtractionOptions options;
   options.resolution = 24;
   const PreparedMesh mesh = test::prepare(solid);

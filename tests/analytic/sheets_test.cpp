@@ -13,6 +13,7 @@
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
 
@@ -141,7 +142,7 @@ TEST_P(KnownSheets, EachIsFoundOnceAndNothingElse) {
   const double angle = 0.7;
   test::rotate(solid.mesh, {axis.x(), axis.y(), axis.z()}, angle);
   const Matrix3d to_body = Eigen::AngleAxisd(-angle, axis.normalized()).toRotationMatrix();
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   ExtractionOptions options;
   options.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid.mesh), options).extraction;
@@ -174,7 +175,7 @@ TEST(KnownAreas, OfABox) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_box({1, 0.75, 0.5});
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   ExtractionOptions options;
   options.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid), options).extraction;
@@ -196,7 +197,7 @@ TEST(KnownSheetsOfATorus, OneRing) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Mesh solid = test::make_torus(1, 0.4, 40, 80, 0.5);
   test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   ExtractionOptions options;
   options.resolution = 80;
   const Extraction extraction = test::extract_on_device(context, test::prepare(solid), options).extraction;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
 
@@ -40,7 +41,7 @@ TurnedSolid extract_turned(Mesh solid, std::uint32_t resolution) {
   out.mesh = test::prepare(std::move(solid));
   out.options.resolution = resolution;
   out.options.object_angle = kObjectAngle;
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   out.result = test::extract_on_device(context, out.mesh, out.options);
   out.epsilon = out.options.epsilon * out.result.extraction.grid.voxel_size;
   return out;

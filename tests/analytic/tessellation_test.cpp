@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/mesh_promises.h"
 #include "support/solids/smooth_solids.h"
@@ -47,27 +48,17 @@ Mesh turned(Mesh mesh) {
 
 Matrix3d to_world() { return Eigen::AngleAxisd(kTurn, kTurnAxis).toRotationMatrix(); }
 
-// Contexts compile their pipelines: one serves all tests of a process.
 class OnDevice : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    if (test::no_device_reason().empty()) context_ = std::make_unique<Context>(test::make_context());
-  }
-  static void TearDownTestSuite() { context_.reset(); }
   void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
 
   static CertifiedExtraction extract(const PreparedMesh& mesh, double object_angle) {
     ExtractionOptions options;
     options.resolution = kResolution;
     options.object_angle = object_angle;
-    return test::extract_on_device(*context_, mesh, options);
+    return test::extract_on_device(test::quick_device(), mesh, options);
   }
-
- private:
-  static std::unique_ptr<Context> context_;
 };
-
-std::unique_ptr<Context> OnDevice::context_;
 
 std::vector<Vector3d> centres_in_body(const Extraction& extraction) {
   const Matrix3d back = to_world().transpose();

@@ -6,6 +6,7 @@
 
 #include "cpu_reference/queries.h"
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
@@ -34,7 +35,7 @@ void expect_flux_agrees(Mesh solid, std::uint32_t resolution = 33, std::uint64_t
   ExtractionOptions options;
   options.resolution = resolution;
   options.memory_budget = memory_budget;
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   const Extraction extraction = test::extract_on_device(context, mesh, options).extraction;
   ASSERT_FALSE(extraction.spheres.empty());
   const reference::Tree tree(test::to_reference(mesh.mesh));

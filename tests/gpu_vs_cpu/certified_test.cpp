@@ -8,6 +8,7 @@
 #include "mesh/winding_number.h"
 #include "reference_bridge/reference_bridge.h"
 #include "support/device/device.h"
+#include "support/device/device_test.h"
 #include "support/extraction.h"
 #include "support/solids/solids.h"
 
@@ -120,7 +121,7 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
   const PreparedMesh mesh = test::prepare(std::move(solid));
   ExtractionOptions options;
   options.resolution = resolution;
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   CertifiedExtraction device = test::extract_on_device(context, mesh, options);
   const Extraction reference = from_reference(test::extract_with_reference(mesh, options));
   SCOPED_TRACE(test::describe(device));
@@ -174,7 +175,7 @@ TEST(CertifiedClusters, AgreesWithTheReferenceWhereListsHoldClusters) {
 TEST(CertifiedFaces, HoldSheetsThatAreFoundAtOnce) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   const PreparedMesh mesh = test::prepare(test::make_box({2, 1, 0.5}));
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   struct Case {
     double angle, radius;
     std::size_t levels;  // below the finest that are visited, at most
@@ -231,7 +232,7 @@ void expect_points_inside(Mesh open, std::uint32_t resolution) {
   ASSERT_FALSE(mesh.report.closed);
   ExtractionOptions options;
   options.resolution = resolution;
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   const CertifiedExtraction result = test::extract_on_device(context, mesh, options);
   EXPECT_GT(result.extraction.spheres.size(), 50u);
   for (const MedialSphere& s : result.extraction.spheres) EXPECT_GE(exact_winding_number(mesh.mesh, s.centre), 0.5);
@@ -271,7 +272,7 @@ TEST(CertifiedRadius, DeepPointsPassTheCertificate) {
   ExtractionOptions options;
   options.resolution = 24;
   options.object_angle = 1.2;  // above the bisectors of right angles: those come in by their radius only
-  Context context = test::make_context();
+  Context& context = test::quick_device();
   const CertifiedExtraction by_angle = test::extract_on_device(context, mesh, options);
   options.radius = 0.05;
   const CertifiedExtraction by_both = test::extract_on_device(context, mesh, options);

@@ -27,7 +27,7 @@ COMMANDS = [
     ("spheres model.obj --count 24 --contract cover --check -o f.csv", ["f.csv"], ONCE),
     ("spheres model.obj --count 24 --contract balanced -o g.csv", ["g.csv"], ONCE),
     ("spheres model.obj --count 16 --method source --check -o h.csv", ["h.csv"], ONCE),
-    ("spheres arm/robot_arm/robot_arm.urdf --count-per-link 6 --check -o i.yaml", ["i.yaml"], ONCE),
+    ("spheres arm/robot_arm/arm.urdf --count-per-link 6 --check -o i.yaml", ["i.yaml"], ONCE),
 ]
 
 

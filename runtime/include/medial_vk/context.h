@@ -45,7 +45,7 @@ struct ContextOptions {
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
   /// Called when a call needs programs that the context does not have yet.
-  ProgramsProgress programs_progress;
+  ProgramsProgress programs_progress = nullptr;
 };
 
 struct HostDevice;  // host_device.h

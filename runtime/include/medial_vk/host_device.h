@@ -42,9 +42,9 @@ struct HostDevice {
   VkPhysicalDeviceFeatures enabled_features{};     ///< The features that the device was created with.
   /// For all objects that the context creates; null: the driver's own. Called from several threads at once.
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
-  std::string cache_folder;            ///< As in ContextOptions.
-  unsigned threads = 0;                ///< As in ContextOptions.
-  ProgramsProgress programs_progress;  ///< As in ContextOptions.
+  std::string cache_folder;                      ///< As in ContextOptions.
+  unsigned threads = 0;                          ///< As in ContextOptions.
+  ProgramsProgress programs_progress = nullptr;  ///< As in ContextOptions.
 };
 
 /// Tests whether a device created like this is usable; `device` and `queue` are not read and may be null. Error:

@@ -11,12 +11,14 @@
 
 namespace medial_vk::test {
 
-/// The context that all tests of a program share. It ends with the last test, before the driver is unloaded.
+/// A context that all tests of a program share, since drivers take up to seconds to compile what a test needs. It ends
+/// with the last test, before the driver is unloaded.
 class SharedContext : public testing::Environment {
  public:
-  /// Opens a context, with validation if the layer is installed.
-  static Result<Context> open() {
-    ContextOptions options = {.device = "", .validation = true, .cache_folder = "/dev/null"};
+  explicit SharedContext(bool validation) : validation_(validation) {}
+  /// Opens a context, with validation if that is wanted and the layer is installed.
+  static Result<Context> open(bool validation = true) {
+    ContextOptions options = {.device = "", .validation = validation, .cache_folder = "/dev/null"};
     Result<Context> made = Context::create(options);
     if (made.ok()) return made;
     options.validation = false;
@@ -25,7 +27,7 @@ class SharedContext : public testing::Environment {
   /// The context; null without a device.
   Context* get() {
     if (context_ == nullptr) {
-      Result<Context> made = open();
+      Result<Context> made = open(validation_);
       if (made.ok()) context_ = std::make_unique<Context>(std::move(made).value());
     }
     return context_.get();
@@ -33,15 +35,21 @@ class SharedContext : public testing::Environment {
   void TearDown() override { context_.reset(); }
 
  private:
+  bool validation_;
   std::unique_ptr<Context> context_;
 };
 
 /// Owned by GoogleTest.
-inline SharedContext* const shared_context = [] {
-  auto* const shared = new SharedContext;
+inline SharedContext* add_shared_context(bool validation) {
+  auto* const shared = new SharedContext(validation);
   testing::AddGlobalTestEnvironment(shared);
   return shared;
-}();
+}
+inline SharedContext* const shared_context = add_shared_context(true);
+inline SharedContext* const quick_context = add_shared_context(false);
+
+/// Without validation, for tests that have tested for a device and that leave the context as it is.
+inline Context& quick_device() { return *quick_context->get(); }
 
 /// Uses the context that all tests of the program share; messages of the validation layer are failures. Skipped without
 /// a device.
