@@ -1,7 +1,10 @@
 # Written by tests/measure_times.py, read by ctest: the seconds of the slowest tests. Those that cost most start first.
 set(times
-  "package.consumer" 90
-  "package.shown_commands" 66
+  "second_driver.analytic" 150
+  "second_driver.gpu_vs_cpu" 130
+  "second_driver.commands" 75
+  "package.shown_commands" 60
+  "package.embedded" 50
   "page.big_result" 25
   "faults.HostMemory.RunsOutInThesisExtraction" 19
   "cli.Kills.LeaveWholeFilesOrNone/Spheres" 18
@@ -21,6 +24,7 @@ set(times
   "property.Dismissal.AtFinsAndFansLosesNoSalientSample" 11
   "unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint" 11
   "unit.ReadLimits.AHundredThousandFacesThatAreAllClose" 9
+  "package.consumer" 8
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_16x" 8
   "faults.VulkanFaults.OfThesisExtraction" 8
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/3" 8

@@ -1,5 +1,17 @@
-# Read by ctest when all tests are known: assigns the label `full` to those that scripts/test leaves to scripts/test
-# --full. Each takes long and covers the same ground as shorter tests that remain (docs/testing.md).
+# Read by ctest when all tests are known: assigns the labels `slow`, of tests that scripts/test leaves to scripts/test --slow
+# and to .ci/run, and `full`, of those that both leave to scripts/test --full. A test labelled `full` covers the same ground
+# as shorter tests that remain (docs/testing.md). Tests of page, package and second_driver have theirs where they are added.
+set(slow
+  # Certified extractions, copies that are late, and smaller pictures and fits fail in the same ways.
+  faults.HostMemory.RunsOutInThesisExtraction
+  faults.PictureFaults.OfMemory
+  faults.TwoQueueFaults.OfManyChunks/KernelsAreLate
+  faults.VulkanFaults.OfThesisExtraction
+  counts.WorkCounts.AFitOfPartsBuildsOneTreeAndUploadsOncePerPart
+  # Smaller solids and meshes remain.
+  property.Dismissal.AtFinsAndFansLosesNoSalientSample
+  unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint
+  regression.LoopBudget.MoreTrianglesThanEightBudgets)
 set(full
   # Boundaries of four and sixteen times fewer triangles stay.
   analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_16x
@@ -23,7 +35,9 @@ set(full
 # Left out of the tests under ASan that scripts/test --asan-host runs; tests/CMakeLists.txt has those of unit.
 set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
   LABELS "faults;sanitized_full")
-foreach(name ${full})
-  string(REGEX REPLACE "[.].*" "" folder "${name}")
-  set_tests_properties("${name}" PROPERTIES LABELS "${folder};full")
+foreach(tier slow full)
+  foreach(name ${${tier}})
+    string(REGEX REPLACE "[.].*" "" folder "${name}")
+    set_tests_properties("${name}" PROPERTIES LABELS "${folder};${tier}")
+  endforeach()
 endforeach()

@@ -1,5 +1,5 @@
 # Installs the build into an empty folder, moves it, and builds and runs programs of users against it: by
-# find_package, with a Vulkan of their own, by pkg-config, and with the source folder inside their own.
+# find_package, with a Vulkan of their own, and by pkg-config.
 # Needs: BUILD_DIR SOURCE_DIR CONFIG GENERATOR CXX_COMPILER CXX_FLAGS NM VERSION
 cmake_minimum_required(VERSION 3.25)
 
@@ -7,16 +7,7 @@ set(work ${BUILD_DIR}/package-test)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
 
-# run(WHAT COMMAND ...): fails the test, with the output, if the command fails. Its standard output is in `output`.
-function(run what)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE stdout ERROR_VARIABLE stderr)
-  if(NOT result EQUAL 0)
-    message("${stdout}${stderr}")
-    message(FATAL_ERROR "${what}: exit status ${result}")
-  endif()
-  message(STATUS "${what}: ok")
-  set(output "${stdout}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run_programs.cmake)
 
 # A program with a Vulkan device of its own; or no device.
 function(run_host what program)
@@ -26,29 +17,6 @@ function(run_host what program)
   elseif(NOT result EQUAL 0 OR NOT output MATCHES "[1-9][0-9]* medial spheres of a box")
     message(FATAL_ERROR "${what}: exit status ${result}\n${output}${errors}")
   endif()
-endfunction()
-
-# At most one line per medial sphere of a box of 3 x 2 x 1, each inside the box, none thicker than it; or no device.
-function(run_embed what program)
-  execute_process(COMMAND ${program} RESULT_VARIABLE result OUTPUT_VARIABLE spheres ERROR_VARIABLE errors)
-  if(result EQUAL 4)
-    message("SKIPPED: running ${what}, there is no Vulkan device: ${errors}")
-    return()
-  elseif(NOT result EQUAL 0)
-    message(FATAL_ERROR "${what}: exit status ${result}\n${errors}")
-  endif()
-  string(REGEX MATCHALL "[^\n]+\n" lines "${spheres}")
-  list(LENGTH lines count)
-  if(count LESS 100)
-    message(FATAL_ERROR "${what}: only ${count} medial spheres of the box\n${spheres}")
-  endif()
-  foreach(line IN LISTS lines)
-    if(NOT line MATCHES "^([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+)\n$" OR CMAKE_MATCH_1 GREATER 3 OR
-       CMAKE_MATCH_2 GREATER 2 OR CMAKE_MATCH_3 GREATER 1 OR CMAKE_MATCH_4 GREATER 0.5)
-      message(FATAL_ERROR "${what}: no sphere inside the box: ${line}")
-    endif()
-  endforeach()
-  message(STATUS "${what}: ${count} medial spheres of the box")
 endfunction()
 
 run("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${work}/first)
@@ -128,13 +96,5 @@ run_embed("pkg-config" ${work}/embed_pkg_config)
 run("pkg-config: build a host" ${CXX_COMPILER} -std=c++20 ${cxx_flags} ${SOURCE_DIR}/examples/minimal_host.cpp ${flags}
   -lvulkan -o ${work}/minimal_host_pkg_config)
 run_host("pkg-config" ${work}/minimal_host_pkg_config)
-
-# add_subdirectory. Compiled without optimisation and in few units, which takes a third of the time: the test concerns how
-# the two projects fit together, and the extraction of a box takes no longer.
-run("embedded: configure" ${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package/embedded -B ${work}/embedded -G ${GENERATOR}
-  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
-  -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_UNITY_BUILD=ON -DMEDIAL_VK_DIR=${SOURCE_DIR})
-run("embedded: build" ${CMAKE_COMMAND} --build ${work}/embedded --config Debug --parallel 2 --target embed)
-run_embed("add_subdirectory" ${work}/embedded/embed)
 
 file(REMOVE_RECURSE ${work})

@@ -1,0 +1,35 @@
+# Functions of the tests of the package.
+
+# run(WHAT COMMAND ...): fails the test, with the output, if the command fails. Its standard output is in `output`.
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE stdout ERROR_VARIABLE stderr)
+  if(NOT result EQUAL 0)
+    message("${stdout}${stderr}")
+    message(FATAL_ERROR "${what}: exit status ${result}")
+  endif()
+  message(STATUS "${what}: ok")
+  set(output "${stdout}" PARENT_SCOPE)
+endfunction()
+
+# At most one line per medial sphere of a box of 3 x 2 x 1, each inside the box, none thicker than it; or no device.
+function(run_embed what program)
+  execute_process(COMMAND ${program} RESULT_VARIABLE result OUTPUT_VARIABLE spheres ERROR_VARIABLE errors)
+  if(result EQUAL 4)
+    message("SKIPPED: running ${what}, there is no Vulkan device: ${errors}")
+    return()
+  elseif(NOT result EQUAL 0)
+    message(FATAL_ERROR "${what}: exit status ${result}\n${errors}")
+  endif()
+  string(REGEX MATCHALL "[^\n]+\n" lines "${spheres}")
+  list(LENGTH lines count)
+  if(count LESS 100)
+    message(FATAL_ERROR "${what}: only ${count} medial spheres of the box\n${spheres}")
+  endif()
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+) ([0-9.e-]+)\n$" OR CMAKE_MATCH_1 GREATER 3 OR
+       CMAKE_MATCH_2 GREATER 2 OR CMAKE_MATCH_3 GREATER 1 OR CMAKE_MATCH_4 GREATER 0.5)
+      message(FATAL_ERROR "${what}: no sphere inside the box: ${line}")
+    endif()
+  endforeach()
+  message(STATUS "${what}: ${count} medial spheres of the box")
+endfunction()
