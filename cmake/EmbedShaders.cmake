@@ -5,8 +5,7 @@
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
-# Of these files, the variants for lanes in lockstep and texel buffers are built again as NAME_with_8_0,
-# NAME_with_64_0_8: all specialization constants, from 0 on, have these values (bools: false or true), and code that
+# Of these files, the variants for texel buffers are built again as NAME_with_8_0, NAME_lockstep_with_8_0: all specialization constants, from 0 on, have these values (bools: false or true), and code that
 # these make unreachable is removed. For drivers that take long to translate.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
@@ -82,13 +81,17 @@ function(medial_vk_embed_shaders target shared_dir)
         COMMENT "Shader ${variant}" VERBATIM)
       list(APPEND spirv_files ${spv})
     endforeach()
-    set(usual ${name})
+    set(usual_variants ${name})
     if(uses_lanes)
-      set(usual ${name}_lockstep)
+      list(APPEND usual_variants ${name}_lockstep)
     endif()
     foreach(frozen ${arg_FROZEN})
-      if(frozen MATCHES "^${name}=(.*)$")
-        _medial_vk_freeze(${usual} ${CMAKE_MATCH_1} variant flags)
+      if(NOT frozen MATCHES "^${name}=(.*)$")
+        continue()
+      endif()
+      set(values ${CMAKE_MATCH_1})
+      foreach(usual ${usual_variants})
+        _medial_vk_freeze(${usual} ${values} variant flags)
         set(spv ${out}/${variant}.spv)
         add_custom_command(OUTPUT ${spv}
           COMMAND ${SPIRV_OPT} ${flags} -O ${out}/${usual}.spv.raw -o ${spv}
@@ -96,7 +99,7 @@ function(medial_vk_embed_shaders target shared_dir)
           DEPENDS ${out}/${usual}.spv
           COMMENT "Shader ${variant}" VERBATIM)
         list(APPEND spirv_files ${spv})
-      endif()
+      endforeach()
     endforeach()
   endforeach()
   add_custom_command(OUTPUT ${out}/embedded_shaders.cpp

@@ -38,9 +38,10 @@ const float kAngleMargin = 0.05;
 const float kSettleMargin = 0.02;  // above the last level: given-up points are at least that near the angle
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 
-// Limit of the rounds over queued pairs of an invocation: some 60 iterations each where directions at corners are
-// tested, 12 elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl). Cells with more pairs are kept.
-const uint kMostRounds = kHasUntrusted ? 512u : 4096u;
+// Limit of the rounds over queued pairs of an invocation: some 70 iterations each where directions at corners are
+// tested, 16 elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl); filling the queue and gathering
+// carriers take up to 24,000. Cells with more pairs are kept.
+const uint kMostRounds = kHasUntrusted ? 512u : 2560u;
 uint rounds = 0u;
 
 const float kParallel = 0.98;  // cosine above which aims at the same point count as one

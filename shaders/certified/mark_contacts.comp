@@ -63,6 +63,14 @@ uint name_of_lane(uint mine, uint list_entry, uint k) {
 #endif
 }
 
+// Number of entries over which a second walk fits the loop budget (docs/reliability.md): without shuffles a walk takes
+// nine iterations for eight entries.
+#ifdef LOCKSTEP
+const uint kMostWalkedTwice = kEntriesPerRound;
+#else
+const uint kMostWalkedTwice = kEntriesPerRound / 2u;
+#endif
+
 // The contacts of the parent among which witnesses are sought: the first ones touch its cube, and the nearest triangle
 // to any point of the cube, such as the child's centre, is one of them. (For other points any witness suffices.)
 uint candidates_of(Cell parent) { return parent.touching != 0u ? parent.touching : parent.list_count; }
@@ -238,8 +246,9 @@ void main() {
   // Whether Lemma L applies is known only from the nearest triangle, at the end. A witness from a sample may give too
   // large a bound: the cell is then marked once more without it, which is rare if only half of the bound is used.
   float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
+  bool may_walk_twice = is_first && is_last && parent.list_count <= kMostWalkedTwice;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
-  Prism prism = prism_at(front.distance, is_first && is_last && may_be_inside && clears_boundary(promise));
+  Prism prism = prism_at(front.distance, may_walk_twice && may_be_inside && clears_boundary(promise));
   uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
   for (uint walks = 1u;; ++walks) {
     Marks marks = mark(parent, child, centre, front, back, prism, begin, end, before);

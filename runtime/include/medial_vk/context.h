@@ -44,7 +44,8 @@ struct ContextOptions {
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
-  /// Called when a call needs programs that the context does not have yet.
+  /// Called when an extraction or a job needs programs that the context does not have yet. Queries of scenes and unions
+  /// of balls compile their few programs without a report.
   ProgramsProgress programs_progress = nullptr;
 };
 

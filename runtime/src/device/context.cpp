@@ -31,7 +31,7 @@ Result<PhysicalDevice> select_device(VkInstance instance, const std::string& dev
   const bool by_option = !device_option.empty();
   const Result<std::uint32_t> chosen =
       choose_device(descriptions, by_option ? device_option : environment("MEDIAL_VK_DEVICE"),
-                    by_option ? "device" : "MEDIAL_VK_DEVICE");
+                    by_option ? "`device`" : "MEDIAL_VK_DEVICE");
   if (!chosen.ok()) return chosen.error();
   return devices.value()[chosen.value()];
 }
@@ -80,7 +80,7 @@ void Context::Impl::query_properties() {
   subgroup.pNext = nullptr;  // the chain was on this stack frame
 
   limits = query.properties.limits;
-  const bool is_llvmpipe = driver_properties.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+  is_llvmpipe = driver_properties.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
   dispatch_threads = is_llvmpipe ? std::max(1u, std::thread::hardware_concurrency()) : 1;
   has_lockstep_lanes = is_llvmpipe && subgroup.subgroupSize % 8 == 0 &&
                        (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;

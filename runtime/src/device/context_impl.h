@@ -44,6 +44,7 @@ class Context::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   VkPhysicalDeviceSubgroupProperties subgroup{};
   VkDeviceSize max_allocation_bytes = 0;  // of one vkAllocateMemory (maxMemoryAllocationSize)
+  bool is_llvmpipe = false;               // Mesa's driver for processors (lavapipe)
   // True if eight neighbouring invocations run in lockstep in one subgroup with shuffles
   // (shaders/shared/lanes/lanes.glsl): on llvmpipe, whose subgroups are the lanes of a vector, filled in order;
   // elsewhere nothing guarantees it. Tests clear it.

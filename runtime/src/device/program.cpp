@@ -130,6 +130,30 @@ Status make_program(const ContextImpl& context, VkPipelineCache cache, const Emb
   return {};
 }
 
+/// Reports the programs of a call one by one, whether or not they succeed; the last report is of all, even if the call
+/// ends by an exception.
+class ProgramsReport {
+ public:
+  ProgramsReport(const ProgramsProgress& progress, std::size_t wanted) : progress_(progress), wanted_(wanted) {
+    if (progress_) progress_(0, wanted_);
+  }
+  ProgramsReport(const ProgramsReport&) = delete;
+  ProgramsReport& operator=(const ProgramsReport&) = delete;
+  ~ProgramsReport() {
+    if (progress_ && made_ < wanted_) progress_(wanted_, wanted_);
+  }
+  void add_one() {
+    const std::scoped_lock lock(mutex_);
+    ++made_;
+    if (progress_) progress_(made_, wanted_);
+  }
+
+ private:
+  const ProgramsProgress progress_;
+  std::mutex mutex_;
+  std::size_t wanted_, made_ = 0;
+};
+
 }  // namespace
 
 void ProgramDeleter::operator()(Program* program) const {
@@ -185,9 +209,7 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
     return found != nullptr ? found->words.size() : 0;
   };
   std::ranges::stable_sort(missing, std::greater<>{}, size);
-  std::mutex reporting;
-  std::size_t count = 0;
-  if (!missing.empty() && programs_progress) programs_progress(count, missing.size());
+  ProgramsReport report(missing.empty() ? nullptr : programs_progress, missing.size());
   std::vector<OwnedProgram> made(missing.size());
   std::vector<Status> status(missing.size());
   parallel_blocks(missing.size(), 1, host_threads, [&](std::size_t i, std::size_t) {
@@ -196,9 +218,7 @@ Status Context::Impl::make_programs(const std::set<ProgramKey>& keys) {
       made[i] = std::move(program.value());
     else
       status[i] = program.error();
-    const std::scoped_lock lock(reporting);
-    ++count;
-    if (programs_progress) programs_progress(count, missing.size());
+    report.add_one();
   });
   for (std::size_t i = 0; i < missing.size(); ++i)
     if (made[i]) programs_.emplace(*missing[i], std::move(made[i]));

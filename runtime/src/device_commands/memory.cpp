@@ -141,8 +141,9 @@ VkDeviceSize bytes_on_the_way(const ContextImpl& context) {
 }
 
 std::uint64_t bytes_of_compiler(const ContextImpl& context, std::uint64_t budget) {
-  constexpr std::uint64_t kMost = 128ull << 20;
-  return context.description.type == "cpu" ? std::min(kMost, budget / 8) : 0;
+  constexpr std::uint64_t kMost = 96ull << 20;
+  const bool takes_much = context.description.type == "cpu" && !context.is_llvmpipe;
+  return takes_much ? std::min(kMost, budget / 8) : 0;
 }
 
 Arena::Arena(Arena&& other) noexcept

@@ -2,7 +2,7 @@
 // the cheap tests are queued, so that all lanes have work in the expensive ones. All lanes call these functions.
 //
 // Loops with expensive bodies are tested at their ends: a CPU runs a body for all lanes before it tests whether any of
-// them needed it.
+// them needed it. The test at their starts always holds (docs/reliability.md, "Values that leave a loop").
 #ifndef MEDIAL_VK_PAIR_QUEUE_GLSL
 #define MEDIAL_VK_PAIR_QUEUE_GLSL
 #include "certified/aim.glsl"

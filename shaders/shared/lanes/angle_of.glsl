@@ -1,7 +1,7 @@
 // The angle of a vector, for proofs that depend on it: Vulkan allows GLSL's atan an error of 4096 units in the last
 // place. The series for |tan| <= tan(pi / 8) is from Cephes (S. L. Moshier, atanf), with an error below 2^-24 of the
 // angle; with the quotient (2.5 units) and the other roundings the error is 8 u of the angle, u = 2^-24.
-// tests/unit/device/angles_test.cpp compiles this file as C++.
+// tests/unit/shaders/angles_test.cpp compiles this file as C++.
 #ifndef MEDIAL_VK_ANGLE_OF_GLSL
 #define MEDIAL_VK_ANGLE_OF_GLSL
 

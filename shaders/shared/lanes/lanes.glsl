@@ -18,7 +18,7 @@ const uint kMostLanes = 256u;
 //   count_lanes                 the sum over the lanes before this one, and over all
 //
 // FOR_EACH_LANE(k): a loop over the eight. Shuffles from a lane that the compiler knows take less time, so the loop is
-// unrolled for them; elsewhere its body is translated once (docs/performance.md, "Programs").
+// unrolled for them; elsewhere its body is translated once (docs/performance.md, "Programs and their translation").
 
 #ifdef LOCKSTEP
 #define FOR_EACH_LANE(k) [[unroll]] for (uint k = 0u; k < kLanes; ++k)
@@ -78,12 +78,13 @@ vec4 sum_of_lanes(vec4 mine) {
     [[unroll]] for (uint k = 0; k + stride < kLanes; k += 2 * stride) sum[k] += sum[k + stride];
   return sum[0];
 }
+// Short loops are unrolled: their turns would count in the loop budget of lavapipe (docs/reliability.md).
 float least_of_lanes(float mine) {
   uint slot = gl_LocalInvocationID.x;
   barrier();
   exchanged[slot].x = mine;
   barrier();
-  for (uint k = 0; k < kLanes; ++k) mine = min(mine, exchanged[(slot & ~7u) + k].x);
+  [[unroll]] for (uint k = 0; k < kLanes; ++k) mine = min(mine, exchanged[(slot & ~7u) + k].x);
   return mine;
 }
 uint or_of_lanes(uint mine) {
@@ -91,7 +92,7 @@ uint or_of_lanes(uint mine) {
   barrier();
   exchanged_bits[slot] = mine;
   barrier();
-  for (uint k = 0; k < kLanes; ++k) mine |= exchanged_bits[(slot & ~7u) + k];
+  [[unroll]] for (uint k = 0; k < kLanes; ++k) mine |= exchanged_bits[(slot & ~7u) + k];
   return mine;
 }
 uvec2 count_lanes(uint mine) {
@@ -100,7 +101,7 @@ uvec2 count_lanes(uint mine) {
   exchanged_bits[slot] = mine;
   barrier();
   uvec2 sum = uvec2(0u);
-  for (uint k = 0; k < kLanes; ++k) {
+  [[unroll]] for (uint k = 0; k < kLanes; ++k) {
     uint theirs = exchanged_bits[(slot & ~7u) + k];
     sum += uvec2(k < (slot & 7u) ? theirs : 0u, theirs);
   }

@@ -1,4 +1,4 @@
-// Structures and numbers that C++ and GLSL share. Both compilers read this file; tests/unit/device/gpu_types_test.cpp
+// Structures and numbers that C++ and GLSL share. Both compilers read this file; tests/unit/shaders/gpu_types_test.cpp
 // compares the offsets that each of them assigns. Storage buffers use std430.
 #ifndef MEDIAL_VK_GPU_TYPES_H
 #define MEDIAL_VK_GPU_TYPES_H
@@ -242,9 +242,8 @@ MEDIAL_VK_GPU_CONSTANT kCounterCount = 20u + 12u * 24u;  // enough for those of 
 MEDIAL_VK_GPU_CONSTANT kFarthestBits = 0x7f7fffffu;
 
 // Entries of a contact list that one invocation reads in one dispatch; longer lists take several rounds of the same
-// dispatch. lavapipe ends an invocation's loops silently after 65,535 iterations in all, and mark_contacts.comp walks
-// over a list twice, with nine iterations for eight entries.
-MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 24576u;
+// dispatch. lavapipe ends an invocation's loops silently after 65,535 iterations in all.
+MEDIAL_VK_GPU_CONSTANT kEntriesPerRound = 49152u;
 MEDIAL_VK_GPU_CONSTANT kLinesPerCell = 8u;
 MEDIAL_VK_GPU_CONSTANT kSortedDepth = 1u;      // levels below the finest voxel whose lines are sorted
 MEDIAL_VK_GPU_CONSTANT kSortedPerLane = 16u;   // items of an invocation of sort_by_work.comp

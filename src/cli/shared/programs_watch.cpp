@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
 namespace medial_vk::cli {
@@ -13,7 +14,9 @@ constexpr unsigned kPatience = 60;  // seconds
 std::string too_slow;  // the message, made before a signal can come
 
 extern "C" void say_too_slow(int) {
+  const int before = errno;  // of the code that the signal interrupts
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, too_slow.data(), too_slow.size());
+  errno = before;
 }
 
 }  // namespace
@@ -22,7 +25,7 @@ void ProgramsWatch::set_device(const std::string& name) {
   too_slow = fmt::format(
       "\nmedial-vk: the driver of {} has been compiling for {} s and goes on. Ctrl-C ends this run; --list-devices "
       "shows "
-      "other devices, --device chooses one, --mode thesis needs smaller programs, --backend cpu none.\n",
+      "other devices, --device chooses one, and --backend cpu needs none.\n",
       name, kPatience);
 }
 
@@ -30,12 +33,14 @@ void ProgramsWatch::update(std::size_t made, std::size_t wanted, Progress& progr
   if (made == 0) {
     guard_.emplace();
     end_if_interrupted();
-    std::signal(SIGALRM, say_too_slow);
-    ::alarm(kPatience);
+    if (progress.is_wanted()) {
+      std::signal(SIGALRM, say_too_slow);
+      ::alarm(kPatience);
+    }
   }
   progress.update_count("programs", made, wanted);
   if (made < wanted) return;
-  ::alarm(0);
+  if (progress.is_wanted()) ::alarm(0);
   guard_.reset();
 }
 

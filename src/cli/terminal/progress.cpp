@@ -13,6 +13,8 @@ namespace medial_vk::cli {
 
 namespace {
 
+constexpr std::chrono::milliseconds kInterval(100);
+
 std::string bar(const std::string& stage, double done) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(std::lround(done * kWidth));
@@ -36,34 +38,29 @@ std::string count_line(const std::string& stage, std::size_t done, std::size_t t
   return fmt::format("{} {} of {}", bar(stage, share), done, total);
 }
 
-Progress::Progress(bool wanted) : drawing_(wanted && isatty(STDERR_FILENO) == 1) {}
-
-bool Progress::is_due(const char* stage) {
-  if (!drawing_) return false;
-  const Clock::time_point now = Clock::now();
-  const bool new_stage = stage_ != stage;
-  if (new_stage) {
-    stage_ = stage;
-    stage_start_ = now;
-  }
-  if (!new_stage && now - last_drawn_ < std::chrono::milliseconds(100)) return false;
-  last_drawn_ = now;
-  return true;
-}
+Progress::Progress(bool wanted) : wanted_(wanted), drawing_(wanted && isatty(STDERR_FILENO) == 1) {}
 
 void Progress::draw(const std::string& line) {
+  last_drawn_ = Clock::now();
   fmt::print(stderr, "\r{}\033[K", line);
   std::fflush(stderr);
   visible_ = true;
 }
 
 void Progress::update(const char* stage, double done) {
-  if (!is_due(stage)) return;
-  draw(progress_line(stage_, done, std::chrono::duration<double>(last_drawn_ - stage_start_).count()));
+  if (!drawing_) return;
+  const Clock::time_point now = Clock::now();
+  const bool new_stage = stage_ != stage;
+  if (new_stage) {
+    stage_ = stage;
+    stage_start_ = now;
+  }
+  if (!new_stage && now - last_drawn_ < kInterval) return;
+  draw(progress_line(stage_, done, std::chrono::duration<double>(now - stage_start_).count()));
 }
 
 void Progress::update_count(const char* stage, std::size_t done, std::size_t total) {
-  if (is_due(stage)) draw(count_line(stage_, done, total));
+  if (drawing_ && (done == 0 || Clock::now() - last_drawn_ >= kInterval)) draw(count_line(stage, done, total));
 }
 
 void Progress::clear() {

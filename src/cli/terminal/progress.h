@@ -21,20 +21,22 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { clear(); }
+  /// Whether the user wants messages, on a terminal or elsewhere.
+  bool is_wanted() const { return wanted_; }
 
   /// Draws at most ten times a second. A new stage starts its own clock.
   void update(const char* stage, double done);
-  /// The same with numbers instead of the share and the time that is left.
+  /// Draws numbers instead, and leaves the clock of the stage.
   void update_count(const char* stage, std::size_t done, std::size_t total);
   /// Removes the line, so that other messages can be written.
   void clear();
 
  private:
-  bool is_due(const char* stage);
   void draw(const std::string& line);
 
   using Clock = std::chrono::steady_clock;
 
+  bool wanted_;
   bool drawing_;
   bool visible_ = false;
   std::string stage_;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "support/device/device.h"
@@ -49,7 +50,10 @@ inline SharedContext* const shared_context = add_shared_context(true);
 inline SharedContext* const quick_context = add_shared_context(false);
 
 /// Without validation, for tests that have tested for a device and that leave the context as it is.
-inline Context& quick_device() { return *quick_context->get(); }
+inline Context& quick_device() {
+  if (quick_context->get() == nullptr) throw std::runtime_error("the device cannot be opened without validation");
+  return *quick_context->get();
+}
 
 /// Uses the context that all tests of the program share; messages of the validation layer are failures. Skipped without
 /// a device.
