@@ -174,8 +174,8 @@ struct Budget {
 Budget budget_of(std::string_view name) {
   static const std::pair<std::string_view, Budget> kBudgets[] = {
       {"judge_pairs_lockstep_with", {70'000, 3'900, 120}},
-      {"judge_pairs_with", {71'000, 3'950, 120}},
-      {"judge_pairs", {112'000, 6'200, 120}},
+      {"judge_pairs_with", {72'000, 4'000, 120}},
+      {"judge_pairs", {114'000, 6'250, 120}},
       {"mark_contacts_lockstep", {88'000, 4'500, 310}},  // unrolled for lavapipe
       {"measure_balls", {88'000, 5'000, 150}},
       {"mark_samples", {30'000, 1'500, 610}},
