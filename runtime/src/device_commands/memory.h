@@ -43,8 +43,8 @@ struct Buffer {
 /// Bytes of staging memory for the upload of a mesh (uploads.h) and the download of points; 0 where the host can map
 /// all memory.
 VkDeviceSize bytes_on_the_way(const ContextImpl& context);
-/// Of this budget, the part that is left to the compiler of a processor's driver, which has the same memory; 0 for GPUs and
-/// llvmpipe. SwiftShader takes up to 150 MiB, for a moment.
+/// Of this budget, the part that is left to the compiler of a processor's driver, which has the same memory; 0 for GPUs
+/// and llvmpipe. SwiftShader takes up to 150 MiB, for a moment.
 std::uint64_t bytes_of_compiler(const ContextImpl& context, std::uint64_t budget);
 /// The rest of a memory budget beside `held` bytes; at least a quarter of the budget, so that the sum may exceed it.
 inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
