@@ -78,6 +78,9 @@ const kKeys = {
   ArrowLeft: 37, ArrowUp: 38, ArrowRight: 39, ArrowDown: 40, Escape: 27, Enter: 13, Tab: 9, Home: 36, End: 35,
 };
 
+/** Remarks of the browser's driver on speed, which depend on the machine's load: a picked point is read back. */
+const kPerformance = /GL Driver Message \(OpenGL, Performance/;
+
 export class Page {
   constructor(browser, session) {
     this.browser = browser;
@@ -94,7 +97,8 @@ export class Page {
       this.complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
     } else if (method === 'Runtime.consoleAPICalled' && ['error', 'warning', 'assert'].includes(params.type)) {
       this.complaints.push(params.args.map((arg) => arg.value ?? arg.description).join(' '));
-    } else if (method === 'Log.entryAdded' && ['error', 'warning'].includes(params.entry.level)) {
+    } else if (method === 'Log.entryAdded' && ['error', 'warning'].includes(params.entry.level) &&
+               !kPerformance.test(params.entry.text)) {
       this.complaints.push(`${params.entry.text} ${params.entry.url ?? ''}`);
     } else if (method === 'Network.requestWillBeSent' && params.request.url !== this.url) {
       this.requests.push(params.request.url);
