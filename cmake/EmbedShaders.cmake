@@ -5,8 +5,9 @@
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
-# Of these files, the variants for texel buffers are built again as NAME_with_8_0, NAME_lockstep_with_8_0: all specialization constants, from 0 on, have these values (bools: false or true), and code that
-# these make unreachable is removed. For drivers that take long to translate.
+# Of these files, the variants for texel buffers are built again as NAME_with_8_0, NAME_lockstep_with_8_0: all
+# specialization constants, from 0 on, have these values (bools: false or true), and code that these make unreachable is
+# removed. For drivers that take long to translate.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)

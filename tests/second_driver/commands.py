@@ -5,7 +5,7 @@
 
 DEVICE is part of the name of its device. Every command must end with 0, with --check where there is one, and write its
 files. The commands marked TWICE must write the same bytes when they are run again (the report, with its times, is not
-compared).
+compared). SIGTERM must end a run within a second while the driver compiles.
 """
 import pathlib
 import signal
@@ -49,7 +49,8 @@ def make_inputs(folder, make_model, make_arm):
 
 def end_while_compiling(folder, medial_vk):
     """The driver compiles for seconds; SIGTERM ends the program meanwhile."""
-    run = subprocess.Popen([medial_vk, "model.obj", "--threads", "1", "-o", "never.ply"], cwd=folder, stderr=subprocess.DEVNULL)
+    arguments = ["model.obj", "--threads", "1", "-o", "never.ply"]
+    run = subprocess.Popen([medial_vk, *arguments], cwd=folder, stderr=subprocess.DEVNULL)
     time.sleep(1)
     if run.poll() is not None:
         sys.exit("the driver compiled all programs, and the run ended, within a second")

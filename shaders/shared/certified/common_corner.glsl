@@ -151,7 +151,8 @@ bool can_meet_at_corner(uint first, uint second, float sine) {
   }
   if (i == 3u) return true;
   Leaving from_a, from_b;
-  for (uint k = 0u; k < 2u;) {  // a loop, so that drivers translate its body once; and one call for all three kinds of pairs
+  // A loop, and one call for the three kinds of pairs, so that drivers translate the code once.
+  for (uint k = 0u; k < 2u;) {
     from_a = from_b;
     from_b = leaving(k == 0u ? first : second, k == 0u ? i : j);
     if (++k == 2u) break;

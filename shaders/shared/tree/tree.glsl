@@ -36,9 +36,8 @@ uint tested_nodes = 0u, tested_triangles = 0u;
 // together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum for any
 // behaviour of the neighbours: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more
 // rounds reports that, and all triangles are examined for its query (resolve_*.comp).
-// Loops are tested at the bottom (at the top only as docs/reliability.md says, "Values that leave a loop") and conditions are
-// selects: untaken branches and masked loop bodies cost their full
-// time.
+// Loops are tested at the bottom (at the top only as docs/reliability.md says, "Values that leave a loop") and conditions
+// are selects: untaken branches and masked loop bodies cost their full time.
 const uint kDescents = 8u;
 const uint kPops = 4u;
 const uint kRounds = 60000u / (kDescents + kMostLeafTriangles + kPops + 1u);

@@ -23,9 +23,8 @@ extern "C" void say_too_slow(int) {
 
 void ProgramsWatch::set_device(const std::string& name) {
   too_slow = fmt::format(
-      "\nmedial-vk: the driver of {} has been compiling for {} s and goes on. Ctrl-C ends this run; --list-devices "
-      "shows "
-      "other devices, --device chooses one, and --backend cpu needs none.\n",
+      "\nmedial-vk: the driver of {} has been compiling for {} s and goes on. Ctrl-C ends this run; "
+      "--list-devices shows other devices, --device chooses one, and --backend cpu needs none.\n",
       name, kPatience);
 }
 

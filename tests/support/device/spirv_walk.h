@@ -28,9 +28,12 @@ enum Code : std::uint32_t {
   kConstantComposite = 44,
   kSpecConstant = 50,
   kFunction = 54,
+  kFunctionEnd = 56,
   kVariable = 59,
+  kLoad = 61,
   kDecorate = 71,
   kMemberDecorate = 72,
+  kImageFetch = 95,
   kBitcast = 124,
   kFNegate = 127,
   kFAdd = 129,
@@ -45,7 +48,14 @@ enum Code : std::uint32_t {
   kDot = 148,
   kSelect = 169,
   kIEqual = 170,
-  kBitwiseAnd = 199
+  kBitwiseAnd = 199,
+  kFirstAtomic = 227,  // atomics and those of subgroups: the first and the last
+  kLastAtomic = 242,
+  kPhi = 245,
+  kLoopMerge = 246,
+  kLabel = 248,
+  kFirstSubgroup = 333,
+  kLastSubgroup = 366
 };
 
 /// Calls `visit(code, words)` for every instruction, up to one that does not fit into the module; `words` begin with

@@ -14,28 +14,17 @@
 #include <vector>
 
 #include "device/embedded_shaders.h"
+#include "support/device/spirv_walk.h"
 
 namespace medial_vk {
 namespace {
 
-// Numbers of instructions, from the specification of SPIR-V.
-enum Opcode : std::uint16_t {
-  kFunctionEnd = 56,
-  kLoad = 61,
-  kImageFetch = 95,
-  kPhi = 245,
-  kLoopMerge = 246,
-  kLabel = 248,
-  kFirstAtomic = 227,
-  kLastAtomic = 242,
-  kFirstSubgroup = 333,
-  kLastSubgroup = 366,
-};
+using namespace test::spirv;  // the codes of instructions
 
 struct Instruction {
-  std::uint16_t opcode = 0;
+  std::uint32_t opcode = 0;
   std::uint32_t result = 0;        // 0: none
-  std::vector<std::uint32_t> ids;  // operands that are values, labels or types
+  std::vector<std::uint32_t> ids;  // operands that are values or labels
 };
 
 using Block = std::vector<Instruction>;
@@ -93,7 +82,7 @@ std::set<std::uint32_t> blocks_of_loop(const Module& module, std::uint32_t heade
   return body;
 }
 
-bool depends_on_memory_or_path(std::uint16_t opcode) {
+bool depends_on_memory_or_path(std::uint32_t opcode) {
   return opcode == kLoad || opcode == kImageFetch || opcode == kPhi ||
          (opcode >= kFirstAtomic && opcode <= kLastAtomic) || (opcode >= kFirstSubgroup && opcode <= kLastSubgroup);
 }
