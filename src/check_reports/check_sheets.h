@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "check_reports/check_report.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

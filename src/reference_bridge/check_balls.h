@@ -6,7 +6,7 @@
 
 #include "check_reports/check_report.h"
 #include "medial_vk/ball.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 
 namespace medial_vk {

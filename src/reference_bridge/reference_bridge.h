@@ -3,7 +3,7 @@
 
 #include "cpu_reference/extract.h"
 #include "cpu_reference/mesh.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 
 namespace medial_vk {

@@ -71,23 +71,37 @@ class PartLoader {
       part.volume = primitive_volume(geometry);
       return {};
     }
-    Mesh mesh;
-    if (geometry.kind == GeometryKind::kMesh) {
-      Result<const Mesh*> file = mesh_file(geometry.mesh, origin.file);
-      if (!file) return file.error();
-      mesh = *file.value();
-      scale_mesh(geometry.scale, mesh);
-      if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
-    } else {
-      mesh = make_primitive(geometry, side_);
-      origin.facet_share = facet_share(geometry.kind);
-      part.volume = primitive_volume(geometry);
+    if (geometry.kind == GeometryKind::kMesh) return fill_from_file(geometry, part, origin);
+    origin.facet_share = facet_share(geometry.kind);
+    part.volume = primitive_volume(geometry);
+    return index(make_primitive(geometry, side_), part);
+  }
+
+  Status fill_from_file(const Geometry& geometry, Part& part, PartOrigin& origin) {
+    Result<const Mesh*> file = mesh_file(geometry.mesh, origin.file);
+    if (!file) return file.error();
+    const auto key = std::make_pair(origin.file, geometry.scale);
+    const auto known = indexed_.find(key);
+    if (known != indexed_.end()) {
+      part.mesh = known->second;
+      return {};
     }
+    Mesh mesh = *file.value();
+    scale_mesh(geometry.scale, mesh);
+    if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
+    if (Status status = index(std::move(mesh), part); !status) return status;
+    indexed_.emplace(key, *part.mesh);
+    return {};
+  }
+
+  Status index(Mesh mesh, Part& part) const {
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads_);
     if (!prepared) {
       return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
     }
-    part.mesh = std::move(prepared).value();
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), threads_);
+    if (!indexed) return indexed.error();
+    part.mesh = std::move(indexed).value();
     return {};
   }
 
@@ -109,6 +123,7 @@ class PartLoader {
   const std::string& name_;
   unsigned threads_;
   std::map<std::string, Mesh> files_;
+  std::map<std::pair<std::string, Point>, IndexedMesh> indexed_;  // by file and scale
 };
 
 }  // namespace

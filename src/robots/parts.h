@@ -22,8 +22,9 @@ struct RobotParts {
   std::vector<PartOrigin> origins;  ///< In the same order.
 };
 
-/// `side` applies to the facets of curved primitives. A mesh used several times is read once. `threads`: as in
-/// prepare_mesh(). Errors: kInvalidMesh, naming the file, link and mesh; also if no link has such geometry.
+/// `side` applies to the facets of curved primitives. A mesh used several times is read once, and indexed once for each
+/// scale. `threads`: as in prepare_mesh(). Errors: kInvalidMesh, naming the file, link and mesh; also if no link has
+/// such geometry.
 Result<RobotParts> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
                               const std::string& name, unsigned threads = 0);
 

@@ -10,6 +10,7 @@
 #include "device_mesh/device_mesh.h"
 #include "medial_vk/medial_vk.h"
 #include "support/device/device.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace {
@@ -57,9 +58,9 @@ Mesh large_mesh() { return test::make_torus(1.0, 0.4, 260, 140, 0.5); }
 std::vector<Part> two_boxes(unsigned threads) {
   std::vector<Part> parts(2);
   parts[0].link = parts[0].name = "upper";
-  parts[0].mesh = prepare_mesh(test::make_box({1, 0.7, 0.45}), threads).value();
+  parts[0].mesh = test::indexed(prepare_mesh(test::make_box({1, 0.7, 0.45}), threads).value(), threads);
   parts[1].link = parts[1].name = "lower";
-  parts[1].mesh = prepare_mesh(test::make_box({0.6, 0.5, 0.3}), threads).value();
+  parts[1].mesh = test::indexed(prepare_mesh(test::make_box({0.6, 0.5, 0.3}), threads).value(), threads);
   parts[1].pose = make_pose({0, 0, -1}, {0.1, 0, 0});
   return parts;
 }
@@ -115,10 +116,10 @@ TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
 // Balls that are distributed by need take two passes over the parts; the method source searches for other grids in
 // each.
 TEST_F(WorkCounts, AFitOfPartsBuildsOneTreeAndUploadsOncePerPart) {
-  const std::vector<Part> parts = two_boxes(1);
   for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {
     for (const SphereContract contract : {SphereContract::kInside, SphereContract::kCover}) {
       trees = uploads = 0;
+      const std::vector<Part> parts = two_boxes(1);
       PartFitOptions options;
       options.spheres.method = method;
       options.spheres.contract = contract;
@@ -161,7 +162,7 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   PartFitOptions of_parts;
   of_parts.spheres.resolution = 16;
   of_parts.total = 20;
-  of_parts.threads = 1;
+  of_parts.spheres.threads = 1;
   ASSERT_TRUE(fit_parts(two_boxes(1), of_parts, *context_).ok());
   EXPECT_EQ(threads, 0);
 }

@@ -10,38 +10,38 @@
 namespace medial_vk::fuzz {
 namespace {
 
-void require_in_range(const SphereOptions& request) {
-  require(request.count <= 1'000'000, "--count keeps its range");
-  require(request.error >= 0 && request.error < 1, "--error keeps its range");
-  require(request.max_gap >= 0 && std::isfinite(request.max_gap), "--max-gap keeps its range");
-  require(request.resolution <= 4096, "--resolution keeps its range");
-  require(request.object_angle > 0 && request.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
-  require(request.threads <= 1024, "--threads keeps its range");
+void require_in_range(const SphereOptions& fit) {
+  require(fit.count <= 1'000'000, "--count keeps its range");
+  require(fit.error >= 0 && fit.error < 1, "--error keeps its range");
+  require(fit.max_gap >= 0 && std::isfinite(fit.max_gap), "--max-gap keeps its range");
+  require(fit.resolution <= 4096, "--resolution keeps its range");
+  require(fit.object_angle > 0 && fit.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
+  require(fit.threads <= 1024, "--threads keeps its range");
 }
 
 void require_goal(const cli::SpheresOptions& options) {
-  const SphereOptions& request = options.request;
-  const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
-  require(request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
-              request.max_gap > 0 || by_resolution,
+  const SphereOptions& fit = options.spheres;
+  const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
+  require(fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 ||
+              fit.max_gap > 0 || by_resolution,
           "there is a goal");
   require(options.count_per_link <= 1'000'000 && options.total <= 1'000'000, "counts keep their range");
   require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
-  require(options.is_robot ? request.count == 0 : options.count_per_link == 0 && options.total == 0,
+  require(options.is_robot ? fit.count == 0 : options.count_per_link == 0 && options.total == 0,
           "a mesh and a robot have counts of their own");
-  const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
-  require(!by_source || (request.error == 0 && request.max_gap == 0), "the source has goals of balls inside only");
-  require(request.contract != SphereContract::kCover || request.max_gap == 0, "covers leave no gap");
+  const bool by_source = fit.method == SphereMethod::kSource && fit.contract != SphereContract::kInside;
+  require(!by_source || (fit.error == 0 && fit.max_gap == 0), "the source has goals of balls inside only");
+  require(fit.contract != SphereContract::kCover || fit.max_gap == 0, "covers leave no gap");
 }
 
 void require_usable(const cli::SpheresOptions& options) {
-  require_in_range(options.request);
+  require_in_range(options.spheres);
   require_goal(options);
   require(!options.input.empty(), "there is an input");
   require(!options.output.empty(), "there is an output");
-  require(!options.request.levels || has_levels(options.format), "the format has levels, if they are requested");
+  require(!options.spheres.levels || has_levels(options.format), "the format has levels, if they are requested");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
-  require(!options.check || options.request.contract != SphereContract::kBalanced,
+  require(!options.check || options.spheres.contract != SphereContract::kBalanced,
           "only a promised contract is checked");
   require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
   require(!options.is_robot || options.histogram.empty(), "a histogram is of one mesh");

@@ -164,9 +164,9 @@ Case make_case(std::uint64_t seed) {
   // One sphere in five reaches the boundary.
   const double share = random.whole(0, 4) == 0 ? random(1, 1.5) : random(0.2, 1);
   const Ball sphere = {to_point(centre), share * out.boundary.distance(centre)};
-  const SphereSampling sampling = {.count = static_cast<std::uint32_t>(random.whole(1, 12)),
-                                   .deep_samples = random.whole(0, 3) != 0,
-                                   .query_error = kQueryError};
+  const SphereSamplingOptions sampling = {.count = static_cast<std::uint32_t>(random.whole(1, 12)),
+                                          .deep_samples = random.whole(0, 3) != 0,
+                                          .query_error = kQueryError};
   out.samples = sample_sphere(sphere, sampling, out.boundary.queries()).value();
   const BruteHull hull(out.samples.samples);
   out.medial = medial_points(out.boundary, sphere, random, out.samples.holds_medial_point ? 60 : 600);

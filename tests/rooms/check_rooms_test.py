@@ -23,6 +23,7 @@ room kernels
   uses shared/types
 tree runtime/src library
 room base
+  declares mesh.h
   doors *
   outer_doors clock.h
 room device
@@ -51,6 +52,7 @@ FILES = {
     "cpu_reference/include/cpu_reference/check.h": "",
     "src/judge/judge.h": '#include "cpu_reference/check.h"\n',
     "src/judge/inner.h": "",
+    "src/cli/used.h": '#include "base/clock.h"\n#include "judge/judge.h"\n',
     "src/cli/run.cpp": '#include "base/clock.h"\n#include "judge/judge.h"\n#include "page.vert.h"\n',
     "examples/embed.cpp": '#include "medial_vk/mesh.h"\n',
     "tests/any_test.cpp": '#include "device/inner.h"\n#include "cpu_reference/check.h"\n',
@@ -92,6 +94,24 @@ class CheckRooms(unittest.TestCase):
         self.check([(f"cmake/rooms.txt:{text.splitlines().index('  uses device') + 1}:", "no room above it")],
                    files={"cmake/rooms.txt": text})
 
+    def test_public_headers_belong_to_rooms(self):
+        with_device = ROOMS.replace("room device\n", "room device\n  declares device.h\n")
+        public = {"cmake/rooms.txt": with_device, "runtime/include/medial_vk/device.h": '#include "medial_vk/mesh.h"\n'}
+        self.check(None, files=public)
+        self.check([("runtime/src/base/clock.h:1:", "a room below it")],
+                   files={**public, "runtime/src/base/clock.h": '#include "medial_vk/device.h"\n'})
+        self.check([("runtime/include/medial_vk/mesh.h:1:", "a room below it")],
+                   files={**public, "runtime/include/medial_vk/mesh.h": '#include "medial_vk/device.h"\n'})
+        self.check([("runtime/include/medial_vk/new.h:1:", "no room")], files={"runtime/include/medial_vk/new.h": ""})
+        self.check([("cmake/rooms.txt:", "declared by base, too")],
+                   files={"cmake/rooms.txt": ROOMS.replace("room device\n", "room device\n  declares mesh.h\n")})
+        self.check([("cmake/rooms.txt:", "no public header gone.h")],
+                   files={"cmake/rooms.txt": ROOMS.replace("declares mesh.h", "declares mesh.h gone.h")})
+
+    def test_declared_but_not_used(self):
+        self.check([("cmake/rooms.txt:", "includes none of its headers")],
+                   files={"runtime/src/device/device.h": '#include "types.h"\n'})
+
     def test_private_header_of_another_room(self):
         self.check([("src/cli/run.cpp:1:", "private to judge")], files={"src/cli/run.cpp": '#include "judge/inner.h"\n'})
 
@@ -108,7 +128,7 @@ class CheckRooms(unittest.TestCase):
         self.check([("cmake/rooms.txt:", "is not for runtime/src/judge")],
                    files={"cmake/rooms.txt": ROOMS.replace("tree src product", "tree runtime/src library\nroom judge\n"
                                                            "  uses cpu_reference\ntree src product"),
-                          "runtime/src/judge/a.h": ""})
+                          "runtime/src/judge/a.h": '#include "cpu_reference/check.h"\n'})
 
     def test_public_header_with_a_private_one(self):
         self.check([("runtime/include/medial_vk/mesh.h:1:", "a public header includes runtime/src/base/clock.h")],
@@ -129,7 +149,7 @@ class CheckRooms(unittest.TestCase):
     def test_sizes(self):
         many = {f"tests/many/a{i}.h": "" for i in range(26)}
         self.check([("tests/many:1:", "26 sources")], files=many)
-        many = {f"src/cli/a{i}.h": "" for i in range(25)}
+        many = {f"src/cli/a{i}.h": "" for i in range(24)}
         self.check([("src/cli:1:", "26 sources")], files=many)
         self.check(None, files={**many, "cmake/rooms.txt": ROOMS + "  many one for each option\n"})
         self.check([("tests/big.h:1:", "401 lines")], files={"tests/big.h": "\n" * 401})

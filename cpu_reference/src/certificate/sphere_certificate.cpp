@@ -53,9 +53,9 @@ class Row {
 using Corners = std::array<Vector3d, 3>;
 
 /// Cuts a triangle at the middle of its longest side until each part is in one ball.
-class Pieces {
+class TriangleParts {
  public:
-  explicit Pieces(const std::vector<UnionBall>& balls) : balls_(balls) {}
+  explicit TriangleParts(const std::vector<UnionBall>& balls) : balls_(balls) {}
 
   /// The margin by which the worst part is inside its ball; negative: a part is in none, and `where` lies in it.
   double cover(const Corners& triangle, const std::vector<int>& near, double moved, Vector3d& where) {
@@ -71,23 +71,23 @@ class Pieces {
  private:
   /// A ball holds a triangle if it holds its corners. Every cut may round a corner by half a unit in the last place of
   /// each coordinate; a distance is wrong by some units in its last place.
-  double depth_in(const UnionBall& ball, const Corners& piece) const {
+  double depth_in(const UnionBall& ball, const Corners& part) const {
     double farthest = 0;
-    for (const Vector3d& corner : piece) farthest = std::max(farthest, (corner - ball.centre).norm());
+    for (const Vector3d& corner : part) farthest = std::max(farthest, (corner - ball.centre).norm());
     return ball.radius - farthest - 8 * kUnit * ball.radius - moved_;
   }
 
-  bool cut(const Corners& piece, const std::vector<int>& near, int depth) {
-    const Vector3d middle = (piece[0] + piece[1] + piece[2]) / 3;
+  bool cut(const Corners& part, const std::vector<int>& near, int depth) {
+    const Vector3d middle = (part[0] + part[1] + part[2]) / 3;
     double around = 0, best = -std::numeric_limits<double>::infinity();
-    for (const Vector3d& corner : piece) around = std::max(around, (corner - middle).norm());
+    for (const Vector3d& corner : part) around = std::max(around, (corner - middle).norm());
     std::vector<int> nearer;
     bool middle_is_in = false;
     for (const int i : near) {
       const double gap = (middle - balls_[i].centre).norm() - balls_[i].radius;
       if (gap <= 0) middle_is_in = true;
       if (gap <= around) nearer.push_back(i);
-      best = std::max(best, depth_in(balls_[i], piece));
+      best = std::max(best, depth_in(balls_[i], part));
     }
     if (best >= 0) {
       least_ = std::min(least_, best);
@@ -97,9 +97,9 @@ class Pieces {
     if (!middle_is_in || depth == kHalvings || --left_ < 0) return false;
     int longest = 0;
     for (int k = 1; k < 3; ++k) {
-      if ((piece[k] - piece[(k + 1) % 3]).norm() > (piece[longest] - piece[(longest + 1) % 3]).norm()) longest = k;
+      if ((part[k] - part[(k + 1) % 3]).norm() > (part[longest] - part[(longest + 1) % 3]).norm()) longest = k;
     }
-    const Vector3d &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
+    const Vector3d &a = part[longest], &b = part[(longest + 1) % 3], &c = part[(longest + 2) % 3];
     const Vector3d half = (a + b) / 2;
     return cut({a, half, c}, nearer, depth + 1) && cut({half, b, c}, nearer, depth + 1);
   }
@@ -164,7 +164,7 @@ class CoverCheck {
   }
 
   void surface() {
-    Pieces pieces(balls_);
+    TriangleParts parts(balls_);
     const double moved = kHalvings * 1.7320508075688775 * kUnit * magnitude_;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const Eigen::Vector3i& c = mesh_.triangles[t];
@@ -177,7 +177,7 @@ class CoverCheck {
         if ((balls_[i].centre - middle).norm() - balls_[i].radius <= around) near.push_back(static_cast<int>(i));
       }
       Vector3d where;
-      const double margin = pieces.cover(corners, near, moved, where);
+      const double margin = parts.cover(corners, near, moved, where);
       surface_.test(margin, "triangle", t, where);
     }
   }

@@ -12,6 +12,7 @@
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/measurements.h"
 #include "medial_vk/medial_mesh.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 
@@ -36,8 +37,8 @@ struct AnalysisOptions {
   bool keep_topology = false;
   bool removal_orders = false;  ///< Find the complete orders of removal by both rules.
   bool medial_mesh = false;     ///< Join the points to a surface with the topology of the union.
-  /// Threads of the host for every step, 0: one per core; `threads` of the options above is not read. No result depends
-  /// on it.
+  /// Of the host, for every step, 0: one per core. No result depends on it. `threads` of the options above is 0, or the
+  /// same number; another one is the error kUsage.
   unsigned threads = 0;
 };
 
@@ -53,8 +54,11 @@ struct Analysis {
   Sheets sheets;
   /// Of the union before removal; `of_ball` and `areas` are by index into `spheres`.
   std::optional<Significance> significance;
-  std::optional<SheetRemoval> by_significance;   ///< Order of removal by RemovalRule::kSignificance.
-  std::optional<SheetRemoval> keeping_topology;  ///< By RemovalRule::kTopology.
+  /// The order of removal in which the least significant sheet goes first (6.3).
+  std::optional<SheetRemoval> by_significance;
+  /// The order in which the least significant sheet goes first, among those without which the union has as many
+  /// components, tunnels and cavities as the whole (6.4.1).
+  std::optional<SheetRemoval> keeping_topology;
   std::optional<SheetRemoval> removal;  ///< The first part of one of these orders: the sheets removed by `keep_volume`.
   std::optional<MedialMesh> medial_mesh;
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, with a medial mesh, if the mesh is closed.
@@ -63,9 +67,9 @@ struct Analysis {
 };
 
 /// Analyses a mesh with the medial spheres that `extractor` finds. `progress` is called with the stages "extract",
-/// "certify", "simplify" (with the grouping into sheets), "volume", "sheets" and "topology" (the orders of removal) and
-/// "medial mesh", and the finished share of each; a request to `stop`, from any thread, the callback included, ends the
-/// call within the stages "extract", "sheets" and "topology", and at the end of any other. Does not throw. Errors:
+/// "certify", "sheets" (simplification and grouping), "volumes" (with the orders of removal) and "medial mesh", as far
+/// as they run, and the finished share of each; a request to `stop`, from any thread, the callback included, ends the
+/// call within the stages "extract" and "volumes", and at the end of any other. Does not throw. Errors:
 /// kUsage (an option out of range), kInvalidMesh, kOutOfMemory, kInterrupted, kInternal.
 Result<Analysis> analyse(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
                          const StageProgress& progress = {}, const std::stop_token& stop = {});

@@ -13,28 +13,13 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
+#include "medial_vk/dual_complex.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
 
 class Context;
-
-/// Simplices over balls, by their indices, ascending within a simplex and among simplices: the nerve of the balls, each
-/// restricted to its power cell (zero alpha complex; H. Edelsbrunner, "The union of balls and its dual shape", 1995).
-/// It has the homotopy type of the union. It contains every face of its simplices.
-struct DualComplex {
-  std::vector<std::uint32_t> vertices;  ///< Balls that are not hidden: those with a share of the union.
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
-};
-
-/// A point of the envelope at which three spheres meet.
-struct EnvelopeVertex {
-  Point at;
-  std::array<std::uint32_t, 3> balls;  ///< Ascending.
-};
 
 struct BallUnionOptions {
   unsigned threads = 0;  ///< 0: one per core. The result does not depend on it.

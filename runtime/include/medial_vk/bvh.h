@@ -3,10 +3,8 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "medial_vk/mesh_view.h"
@@ -61,25 +59,11 @@ class Bvh {
 
   /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
-  /// Prepares several closest-point queries near one another: leaf positions of all triangles within `radius` of
-  /// `centre`, and of some triangles beyond it, replace `positions`; closest_of() and find_within() then test no
-  /// others. Throws std::bad_alloc.
-  void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
-  /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`. Throws
-  /// std::bad_alloc.
-  void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
-  /// As closest(), among the triangles at these leaf positions and `best`, the best hit of other triangles.
-  BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {}) const;
-  /// Index in `positions` of the first triangle closer to p than `radius` (positive), or positions.size() if there is
-  /// none.
-  std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
   /// True if a point of the mesh lies at a distance below `radius` from `centre`. Stops at the first.
   bool any_within(const Point& centre, double radius) const;
 
  private:
   void take_corners(const MeshView& mesh, unsigned threads);
-  /// Makes the triangle at a leaf position the best hit if it is nearer, or equally near and of a smaller index.
-  void improve(const Point& p, std::uint32_t position, BvhHit& best) const;
 
   std::vector<BvhNode> nodes_;
   std::vector<std::uint32_t> order_;

@@ -7,6 +7,7 @@
 
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

@@ -1,116 +1,18 @@
 // Extraction: medial spheres of a mesh, found on the device.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <stop_token>
-#include <vector>
 
 #include "medial_vk/indexed_mesh.h"
-#include "medial_vk/measurements.h"
-#include "medial_vk/mesh_view.h"
+#include "medial_vk/medial_spheres.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
 
 class Context;
 class Scene;
-
-enum class Mode : std::uint32_t {
-  kThesis,     ///< Sections 2.3 to 2.4 as published (with the corrected sign of 2.4.2).
-  kCertified,  ///< Proved dismissal, inherited contacts, aimed search, subdivision (docs/theory.md).
-};
-
-/// Options of mode thesis only.
-struct ThesisOptions {
-  bool narrow_features = true;  ///< Also search voxels whose sphere meets the boundary (2.4.3).
-  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, from coarse to fine.
-
-  bool operator==(const ThesisOptions&) const = default;
-};
-
-/// Options of an extraction. Lengths are fractions, so that they do not depend on the units of the mesh.
-struct ExtractionOptions {
-  Mode mode = Mode::kCertified;
-  std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
-  double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
-  double radius = 0.0;             ///< Radius threshold as a fraction of the longest side; 0: off (angle only).
-  /// Certified, with a radius threshold: the least object angle of a point of that radius (never above object_angle),
-  /// radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
-  double deep_angle = 0.15;
-  double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
-  std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
-  ThesisOptions thesis;            ///< Of mode thesis only.
-  /// Upper limit of device memory in bytes. It includes the mesh and the staging memory of copies, but not the staging
-  /// memory of moved vertices (ExtractionJob). Beside a mesh that takes more than three quarters of it, the rest still
-  /// gets a quarter, and the total exceeds the limit.
-  std::uint64_t memory_budget = 1ull << 30;
-  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
-  MeasurementOptions measurements;
-
-  bool operator==(const ExtractionOptions&) const = default;
-};
-
-/// The voxel grid of the output, in the units of the mesh. Voxel of p: floor((p - origin) / voxel_size).
-struct VoxelGrid {
-  Point origin = {0, 0, 0};
-  double voxel_size = 0;
-  std::array<std::uint32_t, 3> size = {0, 0, 0};
-};
-
-/// One medial sphere, in the units of the mesh.
-struct MedialSphere {
-  Point centre;
-  double radius = 0;                   ///< Distance from the centre to the mesh; certify_spheres() rounds it down.
-  std::array<float, 3> spoke_a;        ///< Unit vector from the centre to its nearest boundary point.
-  std::array<float, 3> spoke_b;        ///< Unit vector to the boundary point on the other side of the medial sheet.
-  float object_angle = 0;              ///< Half the angle between the spokes, radians.
-  float flux = 0;                      ///< Average outward flux through the sphere around its voxel (2.4).
-  std::int32_t sheet = -1;             ///< -1 until sheets are found (Section 2.5).
-  std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
-};
-
-/// The reason why a finest voxel stayed undecided, as a property of any salient medial point that it may still hold.
-/// The first kind that applies is given (docs/theory.md, "What undecided means").
-enum class UndecidedKind : std::uint32_t {
-  kNearFace,   ///< It lies within 1/64 of the voxel side of a face of its voxel.
-  kNearAngle,  ///< Its object angle is below object_angle + 0.05.
-  /// Its radius is below 1/8 of the voxel side, or the boundary passes through that part of the voxel with triangles
-  /// whose normals are not trusted.
-  kBoundary,
-  kOther,
-};
-inline constexpr std::size_t kUndecidedKinds = 4;
-
-/// A finest voxel with neither a point found nor a proof that it holds none.
-struct UndecidedVoxel {
-  std::array<std::uint32_t, 3> voxel;
-  UndecidedKind kind = UndecidedKind::kOther;
-  /// The greatest distance of the two contacts of a salient medial point that the voxel may hold: the width of equation
-  /// 3.1, in the units of the mesh.
-  float width = 0;
-};
-
-/// Voxel order: z slowest, then y, then x.
-inline bool is_earlier_voxel(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
-  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
-}
-
-struct Extraction {
-  VoxelGrid grid;
-  std::vector<MedialSphere> spheres;      ///< In voxel order.
-  std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order.
-  ExtractionMeasurements measurements;
-};
-
-/// Called with the finished share, 0 to 1, between steps of the work and every ten milliseconds while the device
-/// computes.
-using ProgressCallback = std::function<void(double done)>;
-/// The same for calls with several stages; their descriptions list the names of the stages.
-using StageProgress = std::function<void(const char* stage, double done)>;
 
 /// Finds the medial spheres of `mesh` on the device of `context`. Blocks until it is done, or until `stop` is requested
 /// from any thread, the callback included: the device then finishes its current dispatch, and the context is as before.

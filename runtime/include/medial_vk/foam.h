@@ -104,7 +104,7 @@ struct SphereSamples {
   bool holds_medial_point = false;
 };
 
-struct SphereSampling {
+struct SphereSamplingOptions {
   std::uint32_t count = 50;  ///< Spiral points on the sphere (2.3.2); the opposite of each is sampled too.
   bool deep_samples = true;  ///< Also c_in and c_out (3.2).
   double query_error = 0;    ///< The greatest error of the answers of `nearest`, as in Foam::build.
@@ -113,7 +113,7 @@ struct SphereSampling {
 /// Algorithm 3 on spiral points, their opposites and the deep samples. A pair counts as different only if the ball at
 /// its far end is not empty by more than rounding and twice the query error, so that the answer 'True' is certain.
 /// Errors: kUsage (a radius that is not positive, a wrong number of answers), kOutOfMemory, and those of `nearest`.
-Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
+Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSamplingOptions& sampling,
                                     const NearestPointsFunction& nearest);
 
 /// One step of iterated foam sampling (3.5, problem 2): adds the centres of the full foam's balls of types 2 to 4. Such

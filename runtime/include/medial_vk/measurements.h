@@ -1,4 +1,4 @@
-// Counts and times of an extraction, for measurements; results do not depend on them.
+// Counts and times of extractions and fits, for measurements; results do not depend on them.
 #pragma once
 
 #include <cstdint>
@@ -59,6 +59,11 @@ struct ExtractionMeasurements {
   /// "certify", analyse() also "sheets", "volumes" and "medial mesh", as far as they ran. Empty for an extraction
   /// alone.
   std::vector<StageTime> host_times;
+};
+
+/// Measurements of the fit of one part.
+struct FitMeasurements {
+  double seconds = 0;  ///< Wall-clock time, without the distribution of balls among parts.
 };
 
 }  // namespace medial_vk

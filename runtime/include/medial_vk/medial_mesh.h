@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "medial_vk/ball_union.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh_view.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"

@@ -12,8 +12,10 @@
 #include "medial_vk/ball.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
-#include "medial_vk/mesh.h"
+#include "medial_vk/indexed_mesh.h"
+#include "medial_vk/measurements.h"
 #include "medial_vk/pose.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sphere_measures.h"
 #include "medial_vk/spheres.h"
@@ -23,10 +25,11 @@ namespace medial_vk {
 /// A solid of an assembly: a mesh, or a ball. The parts of a link move together and have one frame. The lengths of all
 /// parts are in one unit.
 struct Part {
-  std::string link;          ///< The name of its link. Parts with the same name belong together.
-  std::string name;          ///< Messages contain both names.
-  Pose pose;                 ///< From the frame of the part to that of its link.
-  PreparedMesh mesh;         ///< In the frame of the part. Not read if there is a ball.
+  std::string link;  ///< The name of its link. Parts with the same name belong together.
+  std::string name;  ///< Messages contain both names.
+  Pose pose;         ///< From the frame of the part to that of its link.
+  /// In the frame of the part; without a value if the part is a ball. Parts of the same shape may share one mesh.
+  std::optional<IndexedMesh> mesh;
   std::optional<Ball> ball;  ///< The part itself, in its own frame; it is approximated by one ball, which is exact.
   /// The exact volume of the shape that the mesh approximates, such as a cylinder, in cubed mesh units; errors are then
   /// those against the shape. With contract inside the mesh lies inside the shape; with contract cover it encloses it.
@@ -36,11 +39,10 @@ struct Part {
 
 /// All given goals must be met, as in SphereOptions.
 struct PartFitOptions {
-  /// Of each part. `count` is not read if one of the next two numbers is given, nor is `threads`.
+  /// Of each part, and the threads of all. `count` is not read if one of the next two numbers is given.
   SphereOptions spheres;
   std::size_t count_per_link = 0;  ///< Greatest number of balls of each link, for its parts together; 0: no such goal.
   std::size_t total = 0;           ///< Greatest number of balls of all parts together; 0: no such goal.
-  unsigned threads = 0;            ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const PartFitOptions&) const = default;
 };
@@ -52,14 +54,14 @@ struct PartFit {
   /// fewer sets repeats its smallest.
   std::vector<std::vector<Ball>> levels;
   std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances that balls reach out of the part.
-  std::size_t wanted = 0;       ///< The number of balls assigned to the part; 0: as many as its other goals require.
+  std::size_t count = 0;        ///< The number of balls assigned to the part; 0: as many as its other goals require.
   std::optional<double> solid_volume;  ///< Part::volume if `of_shape`, else of its mesh if that encloses one cleanly.
   bool of_shape = false;  ///< `solid_volume` and the volume errors are those of the shape: of a ball, or Part::volume.
   std::optional<double> spheres_volume;    ///< Of the union of the last level.
   std::optional<SphereMeasures> measures;  ///< Of `proved`. Without a value for a part that is a ball.
   /// The last level in the frame of the part, where its contract was proved. Empty for a part that is a ball.
   std::vector<Ball> proved;
-  double seconds = 0;  ///< Wall-clock time of the fit, without that of the distribution.
+  FitMeasurements measurements;
 };
 
 /// Fits balls to every part and proves the contract, as fit_spheres() does; the results are in the order of the parts.
@@ -68,12 +70,12 @@ struct PartFit {
 /// the part where it covers the most volume that is not yet covered (measure_coverage_curve()), for every contract.
 /// With the method best, a larger number gives no part fewer balls, and no part of contract inside a larger error.
 ///
-/// Every part is indexed once, and `extractor` is called once for each part and ExtractionOptions. `progress` is called
-/// with the stages of fit_spheres() and the finished share of all parts, one call at a time but from any thread; a
-/// request to `stop` soon ends the call. Does not throw. Errors: those of fit_spheres(), with the names of link and
-/// part; kUsage (fewer balls than parts, both `count_per_link` and `total`, a pose that is no rigid motion, a radius or
-/// volume that is not positive and finite); kInvalidMesh (a part too far from the origin of its link for double
-/// precision).
+/// `extractor` is called once for each part and ExtractionOptions. `progress` is called with the stages of
+/// fit_spheres() and the finished share of all parts, one call at a time but from any thread; a request to `stop` soon
+/// ends the call. Does not throw. Errors: those of fit_spheres(), with the names of link and part; kUsage (fewer balls
+/// than parts, both `count_per_link` and `total`, a part with neither mesh nor ball or with both, a pose that is no
+/// rigid motion, a radius or volume that is not positive and finite); kInvalidMesh (a part too far from the origin of
+/// its link for double precision).
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options,
                                        const Extractor& extractor, const StageProgress& progress = {},
                                        const std::stop_token& stop = {});

@@ -14,11 +14,9 @@ namespace medial_vk {
 /// index out of range, a coordinate that is not finite; nothing is left, or nothing is enclosed), kOutOfMemory.
 Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads = 0);
 
-/// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4).
-void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed);
-
-/// The same for a prepared mesh, which is then prepared again, as moved faces may cross: corners that coincide move
-/// together. The report covers both preparations. Errors: those of prepare_mesh().
+/// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4), and
+/// prepares the mesh again, as moved faces may cross. Corners that coincide move together. The report covers both
+/// preparations. Errors: those of prepare_mesh().
 Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads = 0);
 
 }  // namespace medial_vk

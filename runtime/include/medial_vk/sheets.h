@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "medial_vk/ball_union.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -26,6 +26,7 @@ struct SheetOptions {
   double width = 0.17;
   /// Components of fewer points are absorbed too; 0: none.
   std::uint64_t absorb_fragments = 0;
+  bool areas = true;     ///< Measure the areas of points and sheets, which volumes require.
   unsigned threads = 0;  ///< Of the host, 0: one per core. The sheets do not depend on it.
 
   bool operator==(const SheetOptions&) const = default;
@@ -66,21 +67,14 @@ struct Sheets {
   std::uint64_t rim_points = 0;
 };
 
-/// Volumes require areas, the grouping does not; kLeftOut: areas of sheets stay 0.
-enum class SheetAreas { kMeasured, kLeftOut };
-
 /// Groups the points. The sheet of a point depends on neither the order of the points nor the number of threads.
 /// `extraction` gives the object angle and epsilon of the points. Precondition: at most one point per voxel of `grid`.
 /// Error: kOutOfMemory.
 Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
-                           const ExtractionOptions& extraction, const SheetOptions& options,
-                           SheetAreas areas = SheetAreas::kMeasured);
+                           const ExtractionOptions& extraction, const SheetOptions& options);
 
 // The share of the volume that each sheet accounts for, and the order in which sheets are removed (Chapter 6).
 // docs/theory.md, "Significance".
-
-/// A ball belongs to the sheets with points within this fraction of its radius around its centre.
-inline constexpr double kSeamReach = 0.7;
 
 struct Significance {
   double volume = 0;            ///< Of the union of the balls.
@@ -88,7 +82,7 @@ struct Significance {
   BettiNumbers topology;        ///< Of the union.
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
   /// lambda(T), equation 6.2; sums to 1. A ball at a seam belongs to all sheets there: its share is divided among their
-  /// points at a distance d below R, the larger of kSeamReach times its radius and two voxels, in proportion to the
+  /// points at a distance d below R, the larger of 0.7 times its radius and two voxels, in proportion to the
   /// areas of the points and to 1 - d / R.
   std::vector<double> of_sheet;
   std::vector<double> areas;  ///< Per ball: of the part of its sphere on the envelope.
@@ -99,13 +93,6 @@ struct SheetRemoval {
   std::vector<std::uint32_t> sheets;  ///< The first removed comes first.
   std::vector<double> volume_left;    ///< After each removal: share of the volume of the whole union.
   std::vector<std::uint32_t> kept;    ///< The remaining sheets, by decreasing significance.
-};
-
-enum class RemovalRule {
-  kSignificance,  ///< The least significant sheet is removed first (Section 6.3).
-  /// The least significant sheet is removed first, among those without which the union has as many components, tunnels
-  /// and cavities as the whole (Section 6.4.1).
-  kTopology,
 };
 
 }  // namespace medial_vk

@@ -10,6 +10,7 @@
 #include "medial_vk/ball.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sphere_measures.h"
 

@@ -9,6 +9,7 @@
 #include "base/point_ops.h"
 #include "bvh/bvh_boxes.h"
 #include "bvh/bvh_builder.h"
+#include "bvh/nearby_triangles.h"
 #include "bvh/triangle_distance.h"
 
 namespace medial_vk {
@@ -72,11 +73,6 @@ std::vector<BvhPrimitive> make_primitives(const MeshView& mesh, unsigned threads
   return primitives;
 }
 
-double squared_distance(const BvhBox& box, const Point& p) {
-  const Point outside = greatest(greatest(box.lower - p, p - box.upper), Point{0, 0, 0});
-  return dot(outside, outside);
-}
-
 /// Depth-first walk, nearer child first. `limit()` is the squared distance beyond which a box is skipped (at the limit
 /// it is not), `visit(position)` tests one triangle and returns true to end the walk.
 template <class Limit, class Visit>
@@ -103,29 +99,6 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       if (visit(i)) return;
     }
-  }
-}
-
-/// The same for a constant limit: calls `visit` with every leaf. Boxes are tested before they are pushed onto the
-/// stack, so most never are.
-template <class Visit>
-void for_each_leaf(const std::vector<BvhNode>& nodes, const Point& p, double squared_limit, Visit visit) {
-  std::array<std::uint32_t, Bvh::kMaxDepth + 1> stack;
-  std::size_t size = 0;
-  if (squared_distance(nodes[0].box, p) <= squared_limit) stack[size++] = 0;
-  while (size > 0) {
-    std::uint32_t node = stack[--size];
-    bool is_near = true;
-    while (is_near && nodes[node].count == 0) {
-      const std::uint32_t first = nodes[node].first;
-      const double to_first = squared_distance(nodes[first].box, p);
-      const double to_second = squared_distance(nodes[first + 1].box, p);
-      const std::uint32_t nearer = to_second < to_first ? 1 : 0;
-      is_near = std::min(to_first, to_second) <= squared_limit;
-      if (std::max(to_first, to_second) <= squared_limit) stack[size++] = first + 1 - nearer;
-      node = first + nearer;
-    }
-    if (is_near) visit(node);
   }
 }
 
@@ -189,51 +162,11 @@ BvhHit Bvh::closest(const Point& p, double bound) const {
   walk_near_first(
       nodes_, p, [&] { return best.squared_distance; },
       [&](std::uint32_t i) {
-        improve(p, i, best);
+        improve_hit(*this, p, i, best);
         return false;
       });
   if (best.triangle == 0xffffffffu) best.squared_distance = std::numeric_limits<double>::infinity();
   return best;
-}
-
-void Bvh::improve(const Point& p, std::uint32_t position, BvhHit& best) const {
-  if (clearly_beyond(p, corners_[position], best.squared_distance)) return;
-  const NearestOffset nearest = nearest_on_triangle(p, corners_[position]);
-  const std::uint32_t triangle = order_[position];
-  const bool tie = nearest.squared_distance == best.squared_distance && best.triangle != 0xffffffffu;
-  if (nearest.squared_distance < best.squared_distance || (tie && triangle < best.triangle)) {
-    best = {nearest.squared_distance, p + nearest.offset, triangle};
-  }
-}
-
-void Bvh::gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const {
-  positions.clear();
-  const double limit = radius * radius;
-  for_each_leaf(nodes_, centre, limit, [&](std::uint32_t leaf) {
-    const std::uint32_t end = nodes_[leaf].first + nodes_[leaf].count;
-    for (std::uint32_t i = nodes_[leaf].first; i < end; ++i)
-      if (!clearly_beyond(centre, corners_[i], limit)) positions.push_back(i);
-  });
-}
-
-void Bvh::gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const {
-  leaves.clear();
-  for_each_leaf(nodes_, centre, radius * radius, [&](std::uint32_t leaf) { leaves.push_back(leaf); });
-}
-
-BvhHit Bvh::closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best) const {
-  for (const std::uint32_t position : positions) improve(p, position, best);
-  return best;
-}
-
-std::size_t Bvh::find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const {
-  // Slightly above the square, so that no skipped triangle could be found by rounding.
-  const double limit = radius * radius * (1 + 1e-12);
-  const auto found = std::ranges::find_if(positions, [&](std::uint32_t i) {
-    return !clearly_beyond(p, corners_[i], limit) &&
-           std::sqrt(nearest_on_triangle(p, corners_[i]).squared_distance) < radius;
-  });
-  return static_cast<std::size_t>(found - positions.begin());
 }
 
 bool Bvh::any_within(const Point& centre, double radius) const {

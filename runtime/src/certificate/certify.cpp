@@ -11,6 +11,8 @@
 
 #include "base/host_memory.h"
 #include "base/parallel.h"
+#include "base/voxel_order.h"
+#include "bvh/nearby_triangles.h"
 #include "certificate/near_triangles.h"
 #include "solid/solid.h"
 
@@ -86,7 +88,7 @@ class Certifier {
     BvhHit nearest = triangles_.closest_of(s.centre, std::span(nearby).first(inner), around.bounds);
     if (!(nearest.squared_distance <= expected * expected)) {
       nearest = bvh_.closest(s.centre);
-      bvh_.gather_within(s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);
+      gather_within(bvh_, s.centre, std::sqrt(nearest.squared_distance) + 2 * epsilon_, nearby);
     }
     const double distance = std::sqrt(nearest.squared_distance);
     if (distance <= 2 * rounding_) return false;
@@ -101,7 +103,7 @@ class Certifier {
     if (!any_within(grown_centre, distance + epsilon_ - 4 * rounding_, nearby)) return false;
     if (near && is_salient(s)) return set_angle(s);
     // Where many contacts tie (the centre of a sphere), the exact nearest one may lie between the two of the device.
-    s.spoke_b = unit_float(bvh_.closest_of(grown_centre, nearby).point - grown_centre);
+    s.spoke_b = unit_float(closest_of(bvh_, grown_centre, nearby).point - grown_centre);
     return tip_is_near(s, nearby) && is_salient(s) && set_angle(s);
   }
 
@@ -168,7 +170,7 @@ class Certifier {
   // True if one of the nearby triangles is closer to p than that. It is moved to the front, as the next query often
   // concerns it too.
   bool any_within(const Point& p, double radius, std::vector<std::uint32_t>& nearby) const {
-    const std::size_t found = bvh_.find_within(p, radius, nearby);
+    const std::size_t found = find_within(bvh_, p, radius, nearby);
     if (found == nearby.size()) return false;
     std::swap(nearby.front(), nearby[found]);
     return true;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/point_ops.h"
+#include "bvh/nearby_triangles.h"
 #include "certificate/float_lanes.h"
 
 namespace medial_vk {
@@ -72,7 +73,7 @@ float NearTriangles::squared_limit(double radius) const {
 void NearTriangles::surround(const Point& centre, double radius, Region& region) const {
   region.centre = centre;
   region.radius = radius;
-  bvh_.gather_leaves(centre, radius, region.leaves);
+  gather_leaves(bvh_, centre, radius, region.leaves);
   for (std::vector<float>& side : region.boxes) side.resize(region.leaves.size() + kLanes);
   for (std::size_t i = 0; i < region.leaves.size(); ++i) {
     const BvhBox& box = bvh_.nodes()[region.leaves[i]].box;
@@ -112,7 +113,7 @@ std::size_t NearTriangles::gather(const Region& region, const Point& centre, dou
                                   std::vector<std::uint32_t>& positions) const {
   const Query query = {rounded(centre), squared_limit(radius), squared_limit(inner_radius)};
   if (!is_in_reach(query.centre) || length(centre - region.centre) + radius > region.radius) {
-    bvh_.gather_within(centre, radius, positions);
+    gather_within(bvh_, centre, radius, positions);
     return positions.size();
   }
   std::size_t inner_count = 0;
@@ -144,19 +145,19 @@ std::array<float, NearTriangles::kLanes> NearTriangles::squared_bounds(const std
 
 BvhHit NearTriangles::closest_of(const Point& p, std::span<std::uint32_t> positions, std::vector<float>& bounds) const {
   const std::array<float, 3> centre = rounded(p);
-  if (positions.empty() || !is_in_reach(centre)) return bvh_.closest_of(p, positions);
+  if (positions.empty() || !is_in_reach(centre)) return medial_vk::closest_of(bvh_, p, positions);
   bounds.resize(positions.size() + kLanes);
   for (std::size_t first = 0; first < positions.size(); first += kLanes)
     std::ranges::copy(squared_bounds(centre, positions.subspan(first)),
                       bounds.begin() + static_cast<std::ptrdiff_t>(first));
   const auto end = bounds.begin() + static_cast<std::ptrdiff_t>(positions.size());
   const auto likely = static_cast<std::size_t>(std::min_element(bounds.begin(), end) - bounds.begin());
-  const BvhHit hit = bvh_.closest_of(p, positions.subspan(likely, 1));
+  const BvhHit hit = medial_vk::closest_of(bvh_, p, positions.subspan(likely, 1));
   const float limit = squared_limit(std::sqrt(hit.squared_distance));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (i != likely && !(bounds[i] > limit)) std::swap(positions[i], positions[kept++]);
-  return bvh_.closest_of(p, positions.first(kept), hit);
+  return medial_vk::closest_of(bvh_, p, positions.first(kept), hit);
 }
 
 void NearTriangles::gather_leaf(const Query& query, std::uint32_t leaf, std::size_t& inner_count,

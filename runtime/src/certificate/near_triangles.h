@@ -25,11 +25,11 @@ class NearTriangles {
   explicit NearTriangles(const Bvh& bvh);
 
   void surround(const Point& centre, double radius, Region& region) const;
-  /// As Bvh::gather_within(), in another order; fast where the ball lies in `region`. The first ones, whose number is
+  /// As gather_within(), in another order; fast where the ball lies in `region`. The first ones, whose number is
   /// returned, are all those that may reach into the smaller ball of `inner_radius`.
   std::size_t gather(const Region& region, const Point& centre, double radius, double inner_radius,
                      std::vector<std::uint32_t>& positions) const;
-  /// As Bvh::closest_of(); the order of `positions` changes, and `bounds` is scratch memory.
+  /// As closest_of(); the order of `positions` changes, and `bounds` is scratch memory.
   BvhHit closest_of(const Point& p, std::span<std::uint32_t> positions, std::vector<float>& bounds) const;
 
  private:

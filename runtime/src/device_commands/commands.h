@@ -9,7 +9,7 @@
 
 #include "device/internals.h"
 #include "device_commands/recorder.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/measurements.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

@@ -12,7 +12,7 @@
 #include "device/internals.h"
 #include "device/program.h"
 #include "device_commands/memory.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/measurements.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

@@ -7,9 +7,10 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "device_commands/memory.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/progress.h"
 
 namespace medial_vk {
 

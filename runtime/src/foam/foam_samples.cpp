@@ -79,7 +79,7 @@ void add_segment(const Ball& sphere, const FoamSample& sample, std::vector<Segme
 
 Ball sphere_around_voxel(const Point& centre, double side) { return {centre, std::sqrt(0.75) * side}; }
 
-Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSampling& sampling,
+Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSamplingOptions& sampling,
                                     const NearestPointsFunction& nearest) try {
   if (!(sphere.radius > 0)) return Error{ErrorCode::kUsage, "foam: the radius of `sphere` must be positive"};
   std::vector<Point> queries;

@@ -48,8 +48,6 @@ void carry_over(const MeshReport& before, MeshReport& after) {
   after.assumptions = std::move(assumptions);
 }
 
-}  // namespace
-
 void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed) {
   if (mesh.vertices.empty()) return;
   Point lower = mesh.vertices[0], upper = mesh.vertices[0];
@@ -70,6 +68,8 @@ void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed) {
     for (int k = 0; k < 3; ++k) p[k] += amplitude * longest * offset[k];
   }
 }
+
+}  // namespace
 
 Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads) try {
   const MeshReport before = std::move(mesh.report);

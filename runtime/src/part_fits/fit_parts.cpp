@@ -38,12 +38,6 @@ struct Group {
   std::size_t balls = 0;
 };
 
-/// What the curve of a part and its spheres share.
-struct PartWork {
-  IndexedMesh mesh;
-  Extractor extractor;
-};
-
 /// An open mesh has no volume; the volume between its surface and the middle of its box serves instead.
 double enclosed_with_middle(const PreparedMesh& mesh) {
   const Point middle = 0.5 * (mesh.report.lower + mesh.report.upper);
@@ -64,7 +58,7 @@ class Fitting {
         make_extractor_(make_extractor),
         progress_(progress),
         stop_(stop),
-        work_(parts.size()),
+        extractors_(parts.size()),
         fits_(parts.size()) {}
 
   Result<std::vector<PartFit>> run() {
@@ -108,6 +102,8 @@ class Fitting {
   }
 
   static Status check(const Part& part) {
+    if (!part.mesh && !part.ball) return Error{ErrorCode::kUsage, "it has neither `mesh` nor `ball`"};
+    if (part.mesh && part.ball) return Error{ErrorCode::kUsage, "it has both `mesh` and `ball`"};
     if (!is_rigid(part.pose)) return Error{ErrorCode::kUsage, "its `pose` is no rigid motion"};
     if (part.ball && (!is_positive(part.ball->radius) || !std::isfinite(length(part.ball->centre)))) {
       return Error{ErrorCode::kUsage, "its `ball` has no finite centre and positive radius"};
@@ -128,12 +124,6 @@ class Fitting {
     return Error{ErrorCode::kUsage,
                  fmt::format("link {} has {} parts, which need a ball each; raise `count_per_link` from {}", link,
                              parts, group.balls)};
-  }
-
-  SphereOptions spheres_of_part() const {
-    SphereOptions spheres = options_.spheres;
-    spheres.threads = options_.threads;
-    return spheres;
   }
 
   Status fit(const Group& group) {
@@ -188,25 +178,23 @@ class Fitting {
     NeedCurve curve;
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
-    if (Status status = begin(number); !status) return named(part, status.error());
-    SphereOptions options = spheres_of_part();
+    SphereOptions options = options_.spheres;
     options.count = count;
     const Result<CoverageCurve> found =
-        measure_coverage_curve(work_[number]->mesh, options, work_[number]->extractor, reporter(), stop_);
+        measure_coverage_curve(*part.mesh, options, extractor_of(number), reporter(), stop_);
     if (!found) return named(part, found.error());
     ++done_;
-    const double whole = part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh)));
+    const double whole =
+        part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh->prepared())));
     for (const double covered : found.value().covered) curve.uncovered.push_back(whole - covered);
     curve.ends = found.value().ends;
     return curve;
   }
 
-  Status begin(std::size_t number) {
-    if (work_[number]) return {};
-    Result<IndexedMesh> mesh = IndexedMesh::build(parts_[number].mesh, options_.threads);
-    if (!mesh) return mesh.error();
-    work_[number].emplace(PartWork{std::move(mesh).value(), kept_extractions(make_extractor_())});
-    return {};
+  /// The curve of a part and its spheres share the extractor, and so its medial spheres.
+  const Extractor& extractor_of(std::size_t number) {
+    if (!extractors_[number]) extractors_[number] = kept_extractions(make_extractor_());
+    return extractors_[number];
   }
 
   StageProgress reporter() const {
@@ -219,7 +207,7 @@ class Fitting {
   Status fit_part(std::size_t number, std::size_t count) {
     const Part& part = parts_[number];
     PartFit& fit = fits_[number];
-    fit.wanted = count;
+    fit.count = count;
     if (part.ball) {
       fit.levels = {{placed(part, *part.ball)}};
       fit.reach = {{}};
@@ -229,15 +217,14 @@ class Fitting {
     }
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    if (Status status = begin(number); !status) return named(part, status.error());
-    SphereOptions options = spheres_of_part();
+    SphereOptions options = options_.spheres;
     options.count = count;
-    Result<SphereFit> fitted = fit_spheres(work_[number]->mesh, options, work_[number]->extractor, reporter(), stop_);
+    Result<SphereFit> fitted = fit_spheres(*part.mesh, options, extractor_of(number), reporter(), stop_);
     if (!fitted) return named(part, fitted.error());
-    work_[number].reset();
+    extractors_[number] = {};
     ++done_;
     take(part, std::move(fitted).value(), fit);
-    fit.seconds = stopwatch.lap();
+    fit.measurements.seconds = stopwatch.lap();
     return {};
   }
 
@@ -245,7 +232,7 @@ class Fitting {
   /// remain true to the digits that are shown.
   static Status check_position(const Part& part) {
     constexpr double kMost = 1e-6;  // of the diagonal
-    const MeshReport& report = part.mesh.report;
+    const MeshReport& report = part.mesh->prepared().report;
     double reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       reach = std::max({reach, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
@@ -310,7 +297,7 @@ class Fitting {
   const MakeExtractor& make_extractor_;
   const StageProgress& progress_;
   const std::stop_token& stop_;
-  std::vector<std::optional<PartWork>> work_;  // by part, while it is needed
+  std::vector<Extractor> extractors_;  // by part, while it is needed; else empty functions
   std::vector<PartFit> fits_;
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };

@@ -109,7 +109,7 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
 }  // namespace
 
 Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
-                           const ExtractionOptions& extraction, const SheetOptions& options, SheetAreas areas) try {
+                           const ExtractionOptions& extraction, const SheetOptions& options) try {
   const VoxelGraph graph(spheres, options.threads);
   std::vector<std::uint32_t> component_of = grow_components(graph, extraction.object_angle, options);
   join_components(graph, options, component_of);
@@ -125,7 +125,7 @@ Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGri
   for (std::uint32_t position = 0; position < graph.size(); ++position) {
     if (absorbed.is_small[position]) out.marks[graph.index(position)] |= kSmall;
   }
-  if (areas == SheetAreas::kMeasured) measure_areas(graph, grid, extraction.epsilon, sheet_of, options.threads, out);
+  if (options.areas) measure_areas(graph, grid, extraction.epsilon, sheet_of, options.threads, out);
   return out;
 } catch (const std::bad_alloc&) {
   return out_of_memory("finding sheets", "try a lower `resolution`");

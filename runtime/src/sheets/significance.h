@@ -14,6 +14,16 @@
 
 namespace medial_vk {
 
+/// A ball belongs to the sheets with points within this fraction of its radius around its centre.
+inline constexpr double kSeamReach = 0.7;
+
+enum class RemovalRule {
+  kSignificance,  ///< The least significant sheet is removed first (Section 6.3).
+  /// The least significant sheet is removed first, among those without which the union has as many components, tunnels
+  /// and cavities as the whole (Section 6.4.1).
+  kTopology,
+};
+
 /// Balls in sheets: sheet_of[i] is the sheet of ball i, from 0 to `sheets` - 1.
 struct SheetBalls {
   std::span<const Ball> balls;

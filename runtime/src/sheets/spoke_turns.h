@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/point_ops.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "sheets/tangent_frame.h"
 
 namespace medial_vk {

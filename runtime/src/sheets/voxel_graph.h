@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

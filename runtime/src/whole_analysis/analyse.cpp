@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "mesh/inspect_mesh.h"
 #include "whole_analysis/measure_sheets.h"
-#include "whole_analysis/simplify.h"
+#include "simplification/simplify_spheres.h"
 
 namespace medial_vk {
 namespace {
@@ -19,16 +19,16 @@ class AnalysisRun {
   AnalysisRun(const IndexedMesh& mesh, const AnalysisOptions& options, const Extractor& extractor,
               const StageProgress& progress, const std::stop_token& stop)
       : mesh_(mesh), options_(options), extractor_(extractor), progress_(progress), stop_(stop) {
-    options_.extraction.threads = options_.threads;
-    if (options_.sheets) options_.sheets->threads = options_.threads;
+    if (options_.sheets) options_.sheets->areas = options_.sheets->areas || measures();
   }
 
   Result<Analysis> run() {
     if (!options_.sheets && (measures() || options_.medial_mesh)) {
       return Error{ErrorCode::kUsage, "`volumes`, `keep_volume`, `removal_orders` and `medial_mesh` require `sheets`"};
     }
+    if (Status status = take_threads(); !status) return status.error();
     if (Status status = extract(); !status) return status.error();
-    if (Status status = reached("simplify"); !status) return status.error();
+    if (Status status = reached("sheets"); !status) return status.error();
     simplify();
     if (Status status = group(); !status) return status.error();
     if (Status status = measure(); !status) return status.error();
@@ -38,6 +38,19 @@ class AnalysisRun {
   }
 
  private:
+  Status take_threads() {
+    unsigned* const nested[] = {&options_.extraction.threads, options_.sheets ? &options_.sheets->threads : nullptr};
+    for (unsigned* const threads : nested) {
+      if (!threads) continue;
+      if (*threads != 0 && *threads != options_.threads) {
+        return Error{ErrorCode::kUsage,
+                     "`threads` of the extraction or of the sheets is neither 0 nor that of the analysis"};
+      }
+      *threads = options_.threads;
+    }
+    return {};
+  }
+
   Status reached(const char* stage) const {
     if (progress_) progress_(stage, 0);
     return stop_.stop_requested() ? Status(Error{ErrorCode::kInterrupted, "interrupted"}) : Status();
@@ -64,8 +77,7 @@ class AnalysisRun {
   Status group() {
     if (!options_.sheets) return {};
     Stopwatch stopwatch;
-    Result<Sheets> sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets,
-                                        measures() ? SheetAreas::kMeasured : SheetAreas::kLeftOut);
+    Result<Sheets> sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets);
     if (!sheets) return sheets.error();
     out_.sheets = std::move(sheets).value();
     for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
@@ -77,7 +89,7 @@ class AnalysisRun {
 
   Status measure() {
     if (!measures()) return {};
-    if (Status status = reached("volume"); !status) return status;
+    if (Status status = reached("volumes"); !status) return status;
     Stopwatch stopwatch;
     if (Status status = measure_sheets(options_, progress_, stop_, out_); !status) return status;
     out_.measurements.host_times.push_back({"volumes", stopwatch.lap()});

@@ -61,9 +61,9 @@ class SheetMeasuring {
   }
 
   Result<SheetRemoval> order(RemovalRule rule, double least_volume) {
-    const char* const stage = rule == RemovalRule::kTopology ? "topology" : "sheets";
-    return remove_sheets(sheets_, *out_.significance, rule, least_volume, options_.threads, [&, stage](double done) {
-      if (progress_) progress_(stage, done);
+    const double begin = rule == RemovalRule::kTopology ? 0.5 : 0;  // of the two orders
+    return remove_sheets(sheets_, *out_.significance, rule, least_volume, options_.threads, [&, begin](double done) {
+      if (progress_) progress_("volumes", begin + done / 2);
       return !stop_.stop_requested();
     });
   }

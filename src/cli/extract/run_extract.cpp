@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <stop_token>
@@ -51,6 +52,7 @@ AnalysisOptions analysis_options(const Options& options) {
   AnalysisOptions out;
   out.extraction = options.extraction;
   out.sheets = options.sheets;
+  out.sheets->areas = false;  // unless volumes are measured
   out.simplify = options.simplify;
   out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
   out.keep_volume = options.keep_volume;
@@ -174,7 +176,7 @@ class ExtractionRun {
     record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
     for (StageTime& time : analysis_.measurements.host_times) {
       if (time.stage == "extract" && !reports_index()) time.seconds += index_seconds_;
-      if (time.stage != "medial mesh") record_.host_times.push_back(std::move(time));
+      (time.stage == "medial mesh" ? medial_mesh_times_ : record_.host_times).push_back(std::move(time));
     }
   }
 
@@ -211,7 +213,7 @@ class ExtractionRun {
     files_.push_back(
         {options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, analysis_.spheres, record_.sheets,
                                                   *analysis_.medial_mesh, options_.ascii)});
-    record_.host_times.push_back(std::move(analysis_.measurements.host_times.back()));
+    std::ranges::move(medial_mesh_times_, std::back_inserter(record_.host_times));
   }
 
   Status encode() {
@@ -311,7 +313,8 @@ class ExtractionRun {
   MedialHeader header_;
   std::vector<OutputFile> files_;
   double index_seconds_ = 0;
-  std::size_t points_file_ = 0;  // its index among them
+  std::vector<StageTime> medial_mesh_times_;  // reported last
+  std::size_t points_file_ = 0;               // its index among them
   RunRecord record_;
 };
 

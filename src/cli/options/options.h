@@ -9,7 +9,7 @@
 
 #include "cli/options/parse_picture.h"
 #include "common/backend.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 #include "output/medial_ply/medial_file.h"

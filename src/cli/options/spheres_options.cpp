@@ -28,7 +28,7 @@ struct Given {
 };
 
 void declare(CLI::App& app, SpheresOptions& options, Given& given) {
-  SphereOptions& request = options.request;
+  SphereOptions& fit = options.spheres;
   Declarations add(app);
   add.text("INPUT", "file", options.input);
   add.text("-o,--output", "file", options.output);
@@ -40,20 +40,19 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
                                            {"xrdf", SphereFormat::kXrdf},
                                            {"urdf", SphereFormat::kUrdf}},
                                           given.format);
-  add.whole("--count", 1, kMostSpheres, " spheres", request.count);
+  add.whole("--count", 1, kMostSpheres, " spheres", fit.count);
   add.whole("--count-per-link", 1, kMostSpheres, " spheres", options.count_per_link);
   add.whole("--total", 1, kMostSpheres, " spheres", options.total);
-  add.real("--error", {0, 1, false}, " of the volume", request.error);
-  add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", request.max_gap);
-  add.whole("--resolution", 1, 4096, " voxels", request.resolution);
-  add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}},
-                           request.method);
+  add.real("--error", {0, 1, false}, " of the volume", fit.error);
+  add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", fit.max_gap);
+  add.whole("--resolution", 1, 4096, " voxels", fit.resolution);
+  add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}}, fit.method);
   add.choice<SphereContract>(
       "--contract",
       {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}, {"balanced", SphereContract::kBalanced}},
-      request.contract);
+      fit.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
-  add.flag("--levels", options.request.levels);
+  add.flag("--levels", options.spheres.levels);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
   app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);
@@ -65,7 +64,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.up("--up", options.view.up);
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
-  add.whole("--threads", 0, 1024, " threads", request.threads);
+  add.whole("--threads", 0, 1024, " threads", fit.threads);
   add.flag("-q,--quiet", options.quiet);
   add.flag("-v,--verbose", options.verbose);
   add.flag("-h,--help", options.help);
@@ -96,31 +95,31 @@ Status check_input(SpheresOptions& options, const Given& given) {
 }
 
 Status check_goals(const SpheresOptions& options) {
-  const SphereOptions& request = options.request;
-  if (options.is_robot && request.count > 0) {
+  const SphereOptions& fit = options.spheres;
+  if (options.is_robot && fit.count > 0) {
     return usage_error("--count is for one mesh; of a robot use --count-per-link N or --total N");
   }
   if (options.count_per_link > 0 && options.total > 0) {
     return usage_error("--count-per-link and --total cannot be used together");
   }
-  if (request.contract == SphereContract::kCover && request.max_gap > 0) {
+  if (fit.contract == SphereContract::kCover && fit.max_gap > 0) {
     return usage_error("--max-gap: spheres that cover leave no gap; use --error E, or a number of spheres");
   }
-  const bool by_source = request.method == SphereMethod::kSource && request.contract != SphereContract::kInside;
-  if (by_source && (request.error > 0 || request.max_gap > 0)) {
+  const bool by_source = fit.method == SphereMethod::kSource && fit.contract != SphereContract::kInside;
+  if (by_source && (fit.error > 0 || fit.max_gap > 0)) {
     return usage_error(
         "--error and --max-gap: with --method source for --contract inside only; use a number of spheres");
   }
-  const bool by_resolution = request.method == SphereMethod::kSource && request.resolution > 0;
-  const bool any = request.count > 0 || options.count_per_link > 0 || options.total > 0 || request.error > 0 ||
-                   request.max_gap > 0 || by_resolution;
+  const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
+  const bool any = fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 ||
+                   fit.max_gap > 0 || by_resolution;
   if (any) return {};
   return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
                                       : "no goal is given: use --count N, --error E or --max-gap G");
 }
 
 Status complete_output(SpheresOptions& options, const Given& given) {
-  const SphereFormat usual = options.request.levels ? SphereFormat::kJson
+  const SphereFormat usual = options.spheres.levels ? SphereFormat::kJson
                              : options.is_robot     ? SphereFormat::kUrdf
                                                     : SphereFormat::kCsv;
   options.format = given.format.value_or(usual);
@@ -133,7 +132,7 @@ Status complete_output(SpheresOptions& options, const Given& given) {
     if (!format) return usage_error("--output: " + format.error().message);
     options.format = format.value();
   }
-  if (options.request.levels && !has_levels(options.format)) {
+  if (options.spheres.levels && !has_levels(options.format)) {
     return usage_error(fmt::format("--levels: the format {} has one set of spheres only; use csv, json or foam",
                                    name_of(options.format)));
   }
@@ -157,10 +156,10 @@ Status complete_files(SpheresOptions& options, const Given& given) {
 }
 
 Status check_combinations(const SpheresOptions& options, const Given& given) {
-  if (options.check && options.request.contract == SphereContract::kBalanced) {
+  if (options.check && options.spheres.contract == SphereContract::kBalanced) {
     return usage_error("--check: spheres of the contract balanced promise nothing that could be checked");
   }
-  if (given.object_angle > 0 && options.request.method != SphereMethod::kSource) {
+  if (given.object_angle > 0 && options.spheres.method != SphereMethod::kSource) {
     return usage_error("--object-angle is of --method source; the method best chooses among all medial spheres");
   }
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
@@ -202,7 +201,7 @@ Result<SpheresOptions> SpheresOptionParser::parse(const std::vector<std::string>
   if (Status status = parse_arguments(declared_->app, arguments, "one mesh or robot at a time"); !status)
     return status.error();
   if (options.help) return options;
-  if (given.object_angle > 0) options.request.object_angle = given.object_angle;
+  if (given.object_angle > 0) options.spheres.object_angle = given.object_angle;
   if (Status status = check_combinations(options, given); !status) return status.error();
   if (Status status = check_input(options, given); !status) return status.error();
   if (Status status = check_goals(options); !status) return status.error();

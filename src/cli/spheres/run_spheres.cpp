@@ -41,7 +41,7 @@ class SpheresRun {
     record_.output = options.output;
     record_.output_format = name_of(options.format);
     record_.is_robot = options.is_robot;
-    record_.request = options.request;
+    record_.spheres = options.spheres;
     record_.count_per_link = options.count_per_link;
     record_.total = options.total;
     record_.backend = options.backend;
@@ -50,11 +50,13 @@ class SpheresRun {
   Status run() {
     if (Status status = check_outputs(); !status) return status;
     if (options_.backend != Backend::kCpu)
-      opening_.start(options_.device, options_.request.threads, progress_);  // while the input is read
+      opening_.start(options_.device, options_.spheres.threads, progress_);  // while the input is read
     if (Status status = load(); !status) return status;
     if (Status status = opening_.take(context_, record_.device, record_.times); !status) return status;
     if (!options_.quiet) print_message(spheres_opening(options_, record_));
     if (Status status = fit(); !status) return status;
+    if (Status status = check(); !status) return status;
+    record_.times.push_back({"spheres", fit_and_check_.lap()});
     if (Status status = make_files(); !status) return status;
     progress_.clear();
     if (interrupted()) return stopped();
@@ -84,14 +86,16 @@ class SpheresRun {
   }
 
   Status load_one_mesh() {
-    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.request.threads, record_.times);
+    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.spheres.threads, record_.times);
     if (!mesh) return mesh.error();
     record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
-    Part solid;
+    const unsigned threads = options_.spheres.threads;
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(mesh).value(), threads);
+    if (!indexed) return with_hint(indexed.error());
+    FittedSolid solid;
     solid.link = solid.name = record_.name;
-    solid.mesh = std::move(mesh).value();
+    solid.mesh = std::move(indexed).value();
     record_.solids.push_back(std::move(solid));
-    record_.facet_shares.push_back(0);
     return {};
   }
 
@@ -107,14 +111,15 @@ class SpheresRun {
     record_.name = robot_.name.empty() ? std::filesystem::path(options_.input).stem().string() : robot_.name;
     const Result<MeshPlaces> places = mesh_places(options_.input, options_.packages);
     if (!places) return places.error();
-    const bool cover = options_.request.contract == SphereContract::kCover;
+    const bool cover = options_.spheres.contract == SphereContract::kCover;
     Result<RobotParts> loaded =
         load_parts(robot_, options_.visual, cover ? FacetSide::kCircumscribed : FacetSide::kInscribed, places.value(),
-                   options_.input, options_.request.threads);
+                   options_.input, options_.spheres.threads);
     if (!loaded) return loaded.error();
-    record_.solids = std::move(loaded.value().parts);
-    for (const PartOrigin& origin : loaded.value().origins) {
-      record_.facet_shares.push_back(origin.facet_share);
+    parts_ = std::move(loaded.value().parts);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const PartOrigin& origin = loaded.value().origins[i];
+      record_.solids.push_back(solid_of(parts_[i], origin.facet_share));
       if (origin.file.empty()) continue;
       if (Status status = check_outputs_differ(outputs_of(options_), origin.file); !status) return status;
     }
@@ -122,7 +127,7 @@ class SpheresRun {
   }
 
   Status fit() {
-    Stopwatch stopwatch;
+    fit_and_check_.lap();
     std::stop_source stop;
     const StageProgress on_progress = [&](const char*, double done) {
       progress_.update("spheres", done);
@@ -132,8 +137,6 @@ class SpheresRun {
         options_.is_robot ? fit_robot(on_progress, stop.get_token()) : fit_one_mesh(on_progress, stop.get_token());
     progress_.clear();
     if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : in_words(status.error());
-    if (Status checked = check(); !checked) return checked;
-    record_.times.push_back({"spheres", stopwatch.lap()});
     return {};
   }
 
@@ -146,25 +149,24 @@ class SpheresRun {
   }
 
   Status fit_robot(const StageProgress& on_progress, const std::stop_token& stop) {
-    const PartFitOptions wanted = {options_.request, options_.count_per_link, options_.total, options_.request.threads};
-    Result<std::vector<PartFit>> fits =
-        context_ ? fit_parts(record_.solids, wanted, *context_, on_progress, stop)
-                 : fit_parts(record_.solids, wanted, reference_extractor(), on_progress, stop);
+    const PartFitOptions fit_options = {options_.spheres, options_.count_per_link, options_.total};
+    Result<std::vector<PartFit>> fits = context_
+                                            ? fit_parts(parts_, fit_options, *context_, on_progress, stop)
+                                            : fit_parts(parts_, fit_options, reference_extractor(), on_progress, stop);
     if (!fits) return fits.error();
-    record_.fits = std::move(fits).value();
+    for (std::size_t i = 0; i < parts_.size(); ++i) take_fit(std::move(fits.value()[i]), record_.solids[i]);
     return {};
   }
 
   Status fit_one_mesh(const StageProgress& on_progress, const std::stop_token& stop) {
     Stopwatch stopwatch;
-    const SphereOptions& wanted = options_.request;
-    const Result<IndexedMesh> mesh = IndexedMesh::build(record_.solids.front().mesh, wanted.threads);
-    if (!mesh) return mesh.error();
-    Result<SphereFit> fit = context_ ? fit_spheres(mesh.value(), wanted, *context_, on_progress, stop)
-                                     : fit_spheres(mesh.value(), wanted, reference_extractor(), on_progress, stop);
+    FittedSolid& solid = record_.solids.front();
+    const SphereOptions& fit_options = options_.spheres;
+    Result<SphereFit> fit = context_ ? fit_spheres(*solid.mesh, fit_options, *context_, on_progress, stop)
+                                     : fit_spheres(*solid.mesh, fit_options, reference_extractor(), on_progress, stop);
     if (!fit) return fit.error();
-    record_.fits.push_back(fit_of_mesh(std::move(fit).value(), wanted.count));
-    record_.fits.front().seconds = stopwatch.lap();
+    take_fit(std::move(fit).value(), fit_options.count, solid);
+    solid.seconds = stopwatch.lap();
     return {};
   }
 
@@ -173,14 +175,13 @@ class SpheresRun {
     if (!options_.check) return {};
     const EndAtOnce while_checked;
     if (interrupted()) return stopped();
-    record_.checks.resize(record_.solids.size());
     for (std::size_t i = 0; i < record_.solids.size(); ++i) {
-      if (record_.solids[i].ball) continue;
+      FittedSolid& solid = record_.solids[i];
+      if (!solid.mesh) continue;
       progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.solids.size()));
-      const PreparedMesh& mesh = record_.solids[i].mesh;
-      const std::vector<Ball>& balls = record_.fits[i].proved;
-      const bool covers = options_.request.contract == SphereContract::kCover;
-      record_.checks[i] = covers ? check_balls_cover(mesh, balls) : check_balls_inside(mesh, balls);
+      const bool covers = options_.spheres.contract == SphereContract::kCover;
+      const PreparedMesh& mesh = solid.mesh->prepared();
+      solid.check = covers ? check_balls_cover(mesh, solid.proved) : check_balls_inside(mesh, solid.proved);
     }
     progress_.clear();
     return {};
@@ -202,16 +203,15 @@ class SpheresRun {
   SphereFile sphere_file() const {
     SphereFile file;
     file.version = version();
-    file.contract = name_of(options_.request.contract);
-    file.method = name_of(options_.request.method);
+    file.contract = name_of(options_.spheres.contract);
+    file.method = name_of(options_.spheres.method);
     file.is_robot = options_.is_robot;
     file.name = record_.name;
-    file.with_levels = options_.request.levels;
-    file.branch = std::max(options_.request.count, options_.count_per_link);
+    file.with_levels = options_.spheres.levels;
+    file.branch = std::max(options_.spheres.count, options_.count_per_link);
     file.urdf = urdf_;
-    for (std::size_t i = 0; i < record_.solids.size(); ++i) {
-      const PartFit& fit = record_.fits[i];
-      file.parts.push_back({record_.solids[i].link, record_.solids[i].name, fit.levels, fit.reach});
+    for (const FittedSolid& solid : record_.solids) {
+      file.parts.push_back({solid.link, solid.name, solid.levels, solid.reach});
     }
     if (file.branch > 0) return file;
     for (const PartSpheres& part : file.parts) file.branch = std::max(file.branch, part.levels.back().size());
@@ -233,7 +233,7 @@ class SpheresRun {
 
   void draw_histogram() {
     if (options_.histogram.empty()) return;
-    const SphereMeasures& measures = *record_.fits.front().measures;
+    const SphereMeasures& measures = *record_.solids.front().measures;
     const bool as_table = file_extension(options_.histogram) == ".csv";
     files_.push_back(
         {options_.histogram, as_table ? encode_histograms_csv(measures) : encode_histograms_svg(measures)});
@@ -259,6 +259,8 @@ class SpheresRun {
   std::optional<Context> context_;
   std::string urdf_;
   Robot robot_;
+  std::vector<Part> parts_;  // of the robot
+  Stopwatch fit_and_check_;
   std::vector<OutputFile> files_;
   FitsRecord record_;
 };

@@ -24,7 +24,7 @@ std::string printable(std::string name) {
 
 std::size_t count_links(const FitsRecord& record) {
   std::set<std::string> links;
-  for (const Part& part : record.solids) links.insert(part.link);
+  for (const FittedSolid& solid : record.solids) links.insert(solid.link);
   return links.size();
 }
 
@@ -37,7 +37,7 @@ std::string where(const SpheresOptions& options, const FitsRecord& record) {
 std::string promise(SphereContract contract) {
   switch (contract) {
     case SphereContract::kInside:
-      return "inside: no sphere sticks out";
+      return "inside: no sphere reaches out of the solid";
     case SphereContract::kCover:
       return "cover: nothing is left out";
     case SphereContract::kBalanced:
@@ -51,12 +51,12 @@ std::string certificate_text(SphereContract contract, const FitsRecord& record) 
   std::uint64_t spheres = 0, triangles = 0;
   bool closed = true;
   double farthest = 0;
-  for (const PartFit& fit : record.fits) {
-    spheres += fit.levels.back().size();  // a sphere that fills a ball needs no proof
-    if (!fit.measures) continue;
-    triangles += fit.measures->cover.triangles;
-    closed &= fit.measures->cover.closed;
-    farthest = std::max(farthest, fit.measures->distances.balls_to_solid.upper);
+  for (const FittedSolid& solid : record.solids) {
+    spheres += solid.levels.back().size();  // a sphere that fills a ball needs no proof
+    if (!solid.measures) continue;
+    triangles += solid.measures->cover.triangles;
+    closed &= solid.measures->cover.closed;
+    farthest = std::max(farthest, solid.measures->distances.balls_to_solid.upper);
   }
   switch (contract) {
     case SphereContract::kInside:
@@ -65,7 +65,7 @@ std::string certificate_text(SphereContract contract, const FitsRecord& record) 
     case SphereContract::kCover:
       if (triangles == 0)
         return fmt::format("{}, each of which is the geometry itself", counted(spheres, "sphere", "spheres"));
-      return fmt::format("{} covered piece by piece{}", counted(triangles, "triangle", "triangles"),
+      return fmt::format("{} covered part by part{}", counted(triangles, "triangle", "triangles"),
                          closed ? ", no hole within" : "; the mesh is open: its surface only");
     case SphereContract::kBalanced:
       break;
@@ -76,31 +76,31 @@ std::string certificate_text(SphereContract contract, const FitsRecord& record) 
 /// The greatest of all parts, as proved.
 std::string gap_text(const FitsRecord& record) {
   double gap = 0, share = 0;
-  for (const PartFit& fit : record.fits) {
-    if (!fit.measures) continue;
-    gap = std::max(gap, fit.measures->distances.boundary_to_balls.upper);
-    share = std::max(share, fit.measures->distances.boundary_to_balls.upper / fit.measures->diagonal);
+  for (const FittedSolid& solid : record.solids) {
+    if (!solid.measures) continue;
+    gap = std::max(gap, solid.measures->distances.boundary_to_balls.upper);
+    share = std::max(share, solid.measures->distances.boundary_to_balls.upper / solid.measures->diagonal);
   }
   return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
 }
 
 /// The volume between spheres and solids, over that of the solids; none if unknown.
 std::optional<std::string> difference_text(SphereContract contract, const FitsRecord& record) {
-  double solid = 0, difference = 0, variance = 0;
-  for (const PartFit& fit : record.fits) {
-    if (!fit.measures) continue;  // a ball, which is exact
-    const VolumeError& volume = fit.measures->volume;
-    solid += volume.solid;
+  double whole = 0, difference = 0, variance = 0;
+  for (const FittedSolid& solid : record.solids) {
+    if (!solid.measures) continue;  // a ball, which is exact
+    const VolumeError& volume = solid.measures->volume;
+    whole += volume.solid;
     difference += volume.uncovered + volume.outside;
     variance += 4 * volume.standard_error * volume.standard_error;
   }
-  if (!(solid > 0)) return std::nullopt;
+  if (!(whole > 0)) return std::nullopt;
   if (variance == 0) {
-    return fmt::format("{:.3g} % of the volume is {}", 100 * difference / solid,
-                       contract == SphereContract::kCover ? "added" : "uncovered or sticks out");
+    return fmt::format("{:.3g} % of the volume is {}", 100 * difference / whole,
+                       contract == SphereContract::kCover ? "added" : "uncovered or outside");
   }
-  return fmt::format("{:.3g} % of the volume, uncovered or sticking out (+- {:.2g} %, standard error)",
-                     100 * difference / solid, 100 * std::sqrt(variance) / solid);
+  return fmt::format("{:.3g} % of the volume, uncovered or outside (+- {:.2g} %, standard error)",
+                     100 * difference / whole, 100 * std::sqrt(variance) / whole);
 }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "-"; }
@@ -115,16 +115,16 @@ double seconds(const FitsRecord& record) {
 
 CheckReport joint_check(const FitsRecord& record) {
   CheckReport joint;
-  for (std::size_t i = 0; i < record.fits.size(); ++i) {
-    if (i >= record.checks.size() || !record.checks[i]) continue;
-    for (const CheckLine& line : record.checks[i]->lines) {
+  for (const FittedSolid& solid : record.solids) {
+    if (!solid.check) continue;
+    for (const CheckLine& line : solid.check->lines) {
       const auto same = std::ranges::find(joint.lines, line.condition, &CheckLine::condition);
       if (same == joint.lines.end()) {
         joint.lines.push_back(line);
         continue;
       }
       if (same->failed == 0 && line.failed > 0) {
-        same->first_failure = fmt::format("{}: {}", printable(record.solids[i].link), line.first_failure);
+        same->first_failure = fmt::format("{}: {}", printable(solid.link), line.first_failure);
       }
       same->tested += line.tested;
       same->failed += line.failed;
@@ -136,7 +136,7 @@ CheckReport joint_check(const FitsRecord& record) {
 
 std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record) {
   std::uint64_t triangles = 0;
-  for (const Part& solid : record.solids) triangles += solid.mesh.report.triangles;
+  for (const FittedSolid& solid : record.solids) triangles += solid.report().triangles;
   std::string text = options.input == "-" ? "standard input" : options.input;
   if (options.is_robot) {
     text += fmt::format(": {} with {}, {}\n", counted(count_links(record), "link", "links"),
@@ -145,8 +145,8 @@ std::string spheres_opening(const SpheresOptions& options, const FitsRecord& rec
   } else {
     text += fmt::format(": {}\n", counted(triangles, "triangle", "triangles"));
   }
-  for (const Part& solid : record.solids) {
-    for (const std::string& assumption : solid.mesh.report.assumptions) {
+  for (const FittedSolid& solid : record.solids) {
+    for (const std::string& assumption : solid.report().assumptions) {
       text += line("note", options.is_robot
                                ? fmt::format("{}, {}: {}", printable(solid.link), printable(solid.name), assumption)
                                : assumption);
@@ -157,27 +157,27 @@ std::string spheres_opening(const SpheresOptions& options, const FitsRecord& rec
 
 std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record,
                             std::span<const OutputFile> files) {
-  const SphereOptions& request = options.request;
+  const SphereOptions& fit = options.spheres;
   std::string spheres = grouped(count_spheres(record));
-  if (options.request.levels) spheres += fmt::format(", in {} levels", record.fits.front().levels.size());
+  if (options.spheres.levels) spheres += fmt::format(", in {} levels", record.solids.front().levels.size());
   std::string text = line("spheres", spheres);
-  text += line("contract", promise(request.contract));
-  text += line("certified", certificate_text(request.contract, record));
+  text += line("contract", promise(fit.contract));
+  text += line("certified", certificate_text(fit.contract, record));
   if (const std::optional<double> error = uncovered_share(record)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));
   }
-  if (request.contract != SphereContract::kInside) {
-    const std::optional<std::string> difference = difference_text(request.contract, record);
+  if (fit.contract != SphereContract::kInside) {
+    const std::optional<std::string> difference = difference_text(fit.contract, record);
     if (difference) text += line("error", *difference);
   }
-  const double facets = std::ranges::max(record.facet_shares);
+  const double facets = std::ranges::max(record.solids, {}, &FittedSolid::facet_share).facet_share;
   if (facets > 0) {
-    const bool contract_is_exact = request.contract != SphereContract::kBalanced;
-    text += line("note",
-                 fmt::format("Round primitives are {} {:.2g} of their radius{}.",
-                             request.contract == SphereContract::kCover ? "wrapped in facets that stand off by up to"
+    const bool contract_is_exact = fit.contract != SphereContract::kBalanced;
+    text +=
+        line("note", fmt::format("Round primitives are {} {:.2g} of their radius{}.",
+                                 fit.contract == SphereContract::kCover ? "wrapped in facets that stand off by up to"
                                                                         : "filled with facets that fall short by up to",
-                             facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
+                                 facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
   }
   text += line("gap", gap_text(record));
   text += line("time", duration(seconds(record)));
@@ -191,14 +191,13 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
 std::string spheres_details(const SpheresOptions& options, const FitsRecord& record) {
   const std::vector<Column> columns = {{"link"}, {"geometry"}, {"spheres", true}, {"uncovered", true}, {"time", true}};
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < record.solids.size(); ++i) {
-    const PartFit& fit = record.fits[i];
-    rows.push_back({printable(record.solids[i].link), printable(record.solids[i].name),
-                    grouped(fit.levels.back().size()), percent(uncovered_share(fit, options.request.contract)),
-                    duration(fit.seconds)});
+  for (const FittedSolid& solid : record.solids) {
+    rows.push_back({printable(solid.link), printable(solid.name), grouped(solid.levels.back().size()),
+                    percent(uncovered_share(solid, options.spheres.contract)), duration(solid.seconds)});
   }
   std::string text = format_table(columns, rows);
-  if (record.fits.size() == 1 && record.fits.front().measures) text += measures_text(*record.fits.front().measures);
+  const FittedSolid& first = record.solids.front();
+  if (record.solids.size() == 1 && first.measures) text += measures_text(*first.measures);
   return text;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/sheets.h"
 
 namespace medial_vk {

@@ -1,6 +1,6 @@
 #include "output/fit_reports/fits_picture.h"
 
-#include <algorithm>
+#include <functional>
 #include <map>
 
 #include "output/picture/picture.h"
@@ -9,12 +9,17 @@ namespace medial_vk {
 namespace {
 
 /// Joins all meshes, for the camera and for the gaps between the spheres.
-void append_mesh(const Part& solid, const Pose& link, Mesh& all) {
+void append_mesh(const IndexedMesh& mesh, const std::function<Point(const Point&)>& place, Mesh& all) {
   const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  for (const Point& p : solid.mesh.mesh.vertices) all.vertices.push_back(link * (solid.pose * p));
-  for (const Triangle& t : solid.mesh.mesh.triangles) {
+  for (const Point& p : mesh.view().vertices) all.vertices.push_back(place(p));
+  for (const Triangle& t : mesh.view().triangles) {
     all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
+}
+
+void append_solid(const FittedSolid& solid, const Pose& link, Mesh& all) {
+  const auto place = [&](const Point& p) { return link * (solid.pose * p); };
+  if (solid.mesh) append_mesh(*solid.mesh, place, all);
   if (!solid.ball) return;
   // There is no mesh, but the camera must include the ball: an octahedron inside it.
   const double r = solid.ball->radius;
@@ -23,7 +28,7 @@ void append_mesh(const Part& solid, const Pose& link, Mesh& all) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Point corner = {0, 0, 0};
       corner[axis] = sign * r;
-      all.vertices.push_back(link * (solid.pose * corner));
+      all.vertices.push_back(place(corner));
     }
   }
   for (const Triangle& t : {Triangle{3, 4, 5}, Triangle{4, 0, 5}, Triangle{0, 1, 5}, Triangle{1, 3, 5},
@@ -34,12 +39,12 @@ void append_mesh(const Part& solid, const Pose& link, Mesh& all) {
 
 }  // namespace
 
-std::vector<Pose> link_poses(const Robot& robot, std::span<const Part> parts) {
+std::vector<Pose> link_poses(const Robot& robot, std::span<const FittedSolid> solids) {
   const std::vector<Pose> links = link_poses(robot);
   std::map<std::string, std::size_t> numbers;
   for (std::size_t i = 0; i < robot.links.size(); ++i) numbers.emplace(robot.links[i].name, i);
   std::vector<Pose> poses;
-  for (const Part& part : parts) poses.push_back(links[numbers.at(part.link)]);
+  for (const FittedSolid& solid : solids) poses.push_back(links[numbers.at(solid.link)]);
   return poses;
 }
 
@@ -48,8 +53,8 @@ Result<std::string> encode_fits_picture(const FitsRecord& record, std::span<cons
   Mesh all;
   std::vector<MedialSphere> spheres;
   for (std::size_t i = 0; i < record.solids.size(); ++i) {
-    append_mesh(record.solids[i], poses[i], all);
-    for (const Ball& ball : record.fits[i].levels.back()) {
+    append_solid(record.solids[i], poses[i], all);
+    for (const Ball& ball : record.solids[i].levels.back()) {
       MedialSphere sphere{};
       sphere.centre = poses[i] * ball.centre;
       sphere.radius = ball.radius;

@@ -13,8 +13,8 @@
 
 namespace medial_vk {
 
-/// The pose of the link of each part, with all joints at zero.
-std::vector<Pose> link_poses(const Robot& robot, std::span<const Part> parts);
+/// The pose of the link of each solid, with all joints at zero.
+std::vector<Pose> link_poses(const Robot& robot, std::span<const FittedSolid> solids);
 
 /// The bytes of a PNG: the union of the spheres of the last level, coloured by radius; `poses` lead from
 /// the frames of the links of the solids to a common one. Without a device the CPU draws. Error: kOutOfMemory.

@@ -11,38 +11,64 @@ const char* name_of(SphereContract contract) {
 
 const char* name_of(SphereMethod method) { return method == SphereMethod::kBest ? "best" : "source"; }
 
-PartFit fit_of_mesh(SphereFit fit, std::size_t wanted) {
-  PartFit out;
-  out.proved = fit.levels.back();
-  out.levels = std::move(fit.levels);
-  out.reach = std::move(fit.reach);
-  out.wanted = wanted;
-  out.solid_volume = fit.solid_volume;
-  out.spheres_volume = fit.measures.volume.balls;
-  out.measures = std::move(fit.measures);
-  return out;
+const MeshReport& FittedSolid::report() const {
+  static const MeshReport kNone;
+  return mesh ? mesh->prepared().report : kNone;
+}
+
+FittedSolid solid_of(const Part& part, double facet_share) {
+  FittedSolid solid;
+  solid.link = part.link;
+  solid.name = part.name;
+  solid.pose = part.pose;
+  solid.mesh = part.mesh;
+  solid.ball = part.ball;
+  solid.facet_share = facet_share;
+  return solid;
+}
+
+void take_fit(PartFit fit, FittedSolid& solid) {
+  solid.count = fit.count;
+  solid.levels = std::move(fit.levels);
+  solid.reach = std::move(fit.reach);
+  solid.solid_volume = fit.solid_volume;
+  solid.of_shape = fit.of_shape;
+  solid.spheres_volume = fit.spheres_volume;
+  solid.measures = std::move(fit.measures);
+  solid.proved = std::move(fit.proved);
+  solid.seconds = fit.measurements.seconds;
+}
+
+void take_fit(SphereFit fit, std::size_t count, FittedSolid& solid) {
+  solid.count = count;
+  solid.proved = fit.levels.back();
+  solid.levels = std::move(fit.levels);
+  solid.reach = std::move(fit.reach);
+  solid.solid_volume = fit.solid_volume;
+  solid.spheres_volume = fit.measures.volume.balls;
+  solid.measures = std::move(fit.measures);
 }
 
 std::size_t count_spheres(const FitsRecord& record) {
   std::size_t count = 0;
-  for (const PartFit& fit : record.fits) count += fit.levels.back().size();
+  for (const FittedSolid& solid : record.solids) count += solid.levels.back().size();
   return count;
 }
 
-std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract) {
-  const bool known = contract == SphereContract::kInside && fit.solid_volume && fit.spheres_volume;
-  if (!known || !(*fit.solid_volume > 0)) return std::nullopt;
-  return 1 - *fit.spheres_volume / *fit.solid_volume;
+std::optional<double> uncovered_share(const FittedSolid& solid, SphereContract contract) {
+  const bool known = contract == SphereContract::kInside && solid.solid_volume && solid.spheres_volume;
+  if (!known || !(*solid.solid_volume > 0)) return std::nullopt;
+  return 1 - *solid.spheres_volume / *solid.solid_volume;
 }
 
 std::optional<double> uncovered_share(const FitsRecord& record) {
-  double solid = 0, spheres = 0;
-  for (const PartFit& fit : record.fits) {
-    if (!uncovered_share(fit, record.request.contract)) return std::nullopt;
-    solid += *fit.solid_volume;
-    spheres += *fit.spheres_volume;
+  double volume = 0, spheres = 0;
+  for (const FittedSolid& solid : record.solids) {
+    if (!uncovered_share(solid, record.spheres.contract)) return std::nullopt;
+    volume += *solid.solid_volume;
+    spheres += *solid.spheres_volume;
   }
-  return 1 - spheres / solid;
+  return 1 - spheres / volume;
 }
 
 }  // namespace medial_vk

@@ -9,10 +9,37 @@
 #include "check_reports/check_report.h"
 #include "common/backend.h"
 #include "medial_vk/context.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/part_fits.h"
 #include "medial_vk/spheres.h"
 
 namespace medial_vk {
+
+/// A solid of the run, which is the mesh or a part of the robot, and its balls.
+struct FittedSolid {
+  std::string link;  ///< Of a mesh: its name.
+  std::string name;
+  Pose pose;                        ///< From its frame to that of its link.
+  std::optional<IndexedMesh> mesh;  ///< Without a value if the solid is a ball.
+  std::optional<Ball> ball;
+  double facet_share = 0;  ///< PartOrigin::facet_share.
+
+  // Its fit, with the meanings of PartFit.
+  std::size_t count = 0;
+  std::vector<std::vector<Ball>> levels;
+  std::vector<ReachOut> reach;
+  std::optional<double> solid_volume;
+  bool of_shape = false;
+  std::optional<double> spheres_volume;
+  std::optional<SphereMeasures> measures;
+  std::vector<Ball> proved;
+  double seconds = 0;
+
+  std::optional<CheckReport> check;  ///< Of `--check`.
+
+  /// The report of its mesh; an empty one for a ball.
+  const MeshReport& report() const;
+};
 
 struct FitsRecord {
   // The request.
@@ -20,16 +47,13 @@ struct FitsRecord {
   std::string output;
   std::string output_format;
   bool is_robot = false;
-  SphereOptions request;
+  SphereOptions spheres;
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
   Backend backend = Backend::kVulkan;
 
-  std::string name;                  ///< Of the mesh or robot.
-  std::vector<Part> solids;          ///< The mesh, with its name as both names, or the parts of the robot,
-  std::vector<PartFit> fits;         ///< their fits, in the same order,
-  std::vector<double> facet_shares;  ///< PartOrigin::facet_share of each, 0 of a mesh,
-  std::vector<std::optional<CheckReport>> checks;  ///< and the results of --check, else empty.
+  std::string name;                 ///< Of the mesh or robot.
+  std::vector<FittedSolid> solids;  ///< The mesh, or the parts of the robot.
   std::optional<DeviceDescription> device;
   std::vector<StageTime> times;  ///< Seconds, in the order of the run.
 };
@@ -38,14 +62,18 @@ struct FitsRecord {
 const char* name_of(SphereContract contract);
 const char* name_of(SphereMethod method);
 
-/// The fit of a mesh, for which `wanted` balls were requested (0: no number), in its own frame.
-PartFit fit_of_mesh(SphereFit fit, std::size_t wanted);
+/// A part of a robot before its fit.
+FittedSolid solid_of(const Part& part, double facet_share);
+/// Adds the fit of a part.
+void take_fit(PartFit fit, FittedSolid& solid);
+/// Adds the fit of a mesh, for which `count` balls were requested (0: no number).
+void take_fit(SphereFit fit, std::size_t count, FittedSolid& solid);
 
 /// The number of spheres of the last level of all solids.
 std::size_t count_spheres(const FitsRecord& record);
 /// The share of the volume that balls inside leave uncovered; none if a mesh encloses no volume, or for other
 /// contracts.
-std::optional<double> uncovered_share(const PartFit& fit, SphereContract contract);
+std::optional<double> uncovered_share(const FittedSolid& solid, SphereContract contract);
 std::optional<double> uncovered_share(const FitsRecord& record);
 
 }  // namespace medial_vk

@@ -20,47 +20,42 @@ Json or_null(const std::optional<T>& value) {
 
 Json goals_json(const FitsRecord& record) {
   const auto given = [](auto value) { return value > 0 ? Json(value) : Json(nullptr); };
-  return {{"count", given(record.request.count)},
+  return {{"count", given(record.spheres.count)},
           {"count_per_link", given(record.count_per_link)},
           {"total", given(record.total)},
-          {"error", given(record.request.error)},
-          {"max_gap", given(record.request.max_gap)},
-          {"resolution", given(record.request.resolution)}};
+          {"error", given(record.spheres.error)},
+          {"max_gap", given(record.spheres.max_gap)},
+          {"resolution", given(record.spheres.resolution)}};
 }
 
-Json solid_json(const FitsRecord& record, std::size_t index) {
-  const Part& solid = record.solids[index];
-  const PartFit& fit = record.fits[index];
-  const std::optional<CheckReport> check = record.checks.empty() ? std::nullopt : record.checks[index];
-  const ReachOut& reach = fit.reach.back();
+Json solid_json(const FittedSolid& solid, SphereContract contract) {
+  const ReachOut& reach = solid.reach.back();
   Json counts = Json::array();
-  for (const std::vector<Ball>& level : fit.levels) counts.push_back(level.size());
+  for (const std::vector<Ball>& level : solid.levels) counts.push_back(level.size());
   return {{"link", solid.link},
           {"geometry", solid.name},
-          {"triangles", solid.mesh.report.triangles},
-          {"closed", solid.ball || solid.mesh.report.closed},
-          {"assumptions", solid.mesh.report.assumptions},
-          {"facet_share", record.facet_shares[index]},
-          {"wanted", fit.wanted > 0 ? Json(fit.wanted) : Json(nullptr)},
-          {"num_spheres", fit.levels.back().size()},
+          {"triangles", solid.report().triangles},
+          {"closed", solid.ball || solid.report().closed},
+          {"assumptions", solid.report().assumptions},
+          {"facet_share", solid.facet_share},
+          {"wanted", solid.count > 0 ? Json(solid.count) : Json(nullptr)},
+          {"num_spheres", solid.levels.back().size()},
           {"levels", counts},
-          {"solid_volume", or_null(fit.solid_volume)},
-          {"volume_of", fit.of_shape ? "shape" : "mesh"},
-          {"spheres_volume", or_null(fit.spheres_volume)},
-          {"volume_error", or_null(uncovered_share(fit, record.request.contract))},
-          {"measures", fit.measures ? measures_json(*fit.measures) : Json(nullptr)},
-          {"check", check ? Json(check->passed() ? "passed" : "failed") : Json(nullptr)},
+          {"solid_volume", or_null(solid.solid_volume)},
+          {"volume_of", solid.of_shape ? "shape" : "mesh"},
+          {"spheres_volume", or_null(solid.spheres_volume)},
+          {"volume_error", or_null(uncovered_share(solid, contract))},
+          {"measures", solid.measures ? measures_json(*solid.measures) : Json(nullptr)},
+          {"check", solid.check ? Json(solid.check->passed() ? "passed" : "failed") : Json(nullptr)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.least}, {"worst", reach.greatest}}},
-          {"seconds", fit.seconds}};
+          {"seconds", solid.seconds}};
 }
 
 }  // namespace
 
 std::string encode_fits_report(const FitsRecord& record) {
   Json solids = Json::array();
-  for (std::size_t i = 0; i < record.solids.size(); ++i) {
-    solids.push_back(solid_json(record, i));
-  }
+  for (const FittedSolid& solid : record.solids) solids.push_back(solid_json(solid, record.spheres.contract));
   Json seconds = Json::object();
   for (const StageTime& time : record.times) seconds[time.stage] = time.seconds;
   const Json json = {{"format", kSpheresReportFormat},
@@ -70,9 +65,9 @@ std::string encode_fits_report(const FitsRecord& record) {
                      {"output", record.output},
                      {"output_format", record.output_format},
                      {record.is_robot ? "robot" : "mesh", record.name},
-                     {"method", name_of(record.request.method)},
-                     {"contract", name_of(record.request.contract)},
-                     {"object_angle", record.request.method == SphereMethod::kSource ? Json(record.request.object_angle)
+                     {"method", name_of(record.spheres.method)},
+                     {"contract", name_of(record.spheres.contract)},
+                     {"object_angle", record.spheres.method == SphereMethod::kSource ? Json(record.spheres.object_angle)
                                                                                      : Json(nullptr)},
                      {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
                      {"device", record.device ? Json(record.device->name) : Json(nullptr)},

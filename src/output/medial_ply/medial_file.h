@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/up_axis.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/result.h"
 #include "output/extraction_report/run_record.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "medial_vk/context.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 #include "output/picture/panels/image.h"
 #include "output/picture/panels/options.h"

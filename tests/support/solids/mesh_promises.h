@@ -27,7 +27,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 #include "support/solids/smooth_solids.h"
 

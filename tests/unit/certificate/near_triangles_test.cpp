@@ -7,6 +7,7 @@
 #include <random>
 #include <span>
 
+#include "bvh/nearby_triangles.h"
 #include "certificate/near_triangles.h"
 #include "support/solids/solids.h"
 
@@ -53,11 +54,11 @@ void expect_no_triangle_missing(const Bvh& bvh, unsigned seed) {
     EXPECT_TRUE(std::ranges::adjacent_find(found) == found.end());
     std::vector<std::uint32_t> one(1);
     for (one[0] = 0; one[0] < bvh.corners().size(); ++one[0]) {
-      const bool is_near = bvh.closest_of(p, one).squared_distance <= radius * radius;
+      const bool is_near = closest_of(bvh, p, one).squared_distance <= radius * radius;
       EXPECT_TRUE(!is_near || std::ranges::binary_search(found, one[0]));
-      const bool is_inner = bvh.closest_of(p, one).squared_distance <= inner_radius * inner_radius;
+      const bool is_inner = closest_of(bvh, p, one).squared_distance <= inner_radius * inner_radius;
       EXPECT_TRUE(!is_inner || std::ranges::binary_search(first, one[0]));
-      EXPECT_EQ(bvh.find_within(p, radius, one) == 0, std::sqrt(bvh.closest_of(p, one).squared_distance) < radius);
+      EXPECT_EQ(find_within(bvh, p, radius, one) == 0, std::sqrt(closest_of(bvh, p, one).squared_distance) < radius);
     }
     EXPECT_LT(found.size(), bvh.corners().size());
     expect_same(triangles.closest_of(p, found, bounds), bvh.closest(p));
@@ -118,7 +119,7 @@ TEST(NearTriangles, TheClosestOfTrianglesOfAnyShape) {
     for (int i = 0; i < 100; ++i) {
       const Point p = anywhere(-2, 3);
       std::iota(all.begin(), all.end(), 0u);
-      expect_same(triangles.closest_of(p, all, bounds), bvh.closest_of(p, all));
+      expect_same(triangles.closest_of(p, all, bounds), closest_of(bvh, p, all));
     }
   }
 }

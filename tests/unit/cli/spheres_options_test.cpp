@@ -28,10 +28,10 @@ TEST(SpheresOptions, Defaults) {
   EXPECT_FALSE(mesh.is_robot);
   EXPECT_EQ(mesh.output, "part.spheres.csv");
   EXPECT_EQ(mesh.format, SphereFormat::kCsv);
-  EXPECT_EQ(mesh.request.count, 64u);
-  EXPECT_EQ(mesh.request.method, SphereMethod::kBest);
-  EXPECT_EQ(mesh.request.contract, SphereContract::kInside);
-  EXPECT_EQ(mesh.request.object_angle, 0.6);
+  EXPECT_EQ(mesh.spheres.count, 64u);
+  EXPECT_EQ(mesh.spheres.method, SphereMethod::kBest);
+  EXPECT_EQ(mesh.spheres.contract, SphereContract::kInside);
+  EXPECT_EQ(mesh.spheres.object_angle, 0.6);
   const SpheresOptions robot = parsed({"a/Arm.URDF", "--count-per-link", "8"});
   EXPECT_TRUE(robot.is_robot);
   EXPECT_EQ(robot.output, "Arm.spheres.urdf");
@@ -60,7 +60,7 @@ TEST(SpheresOptions, AGoalIsNeeded) {
   EXPECT_THAT(message_of({"a.obj"}), HasSubstr("--count N"));
   EXPECT_THAT(message_of({"a.urdf"}), HasSubstr("--count-per-link N"));
   EXPECT_THAT(message_of({"a.obj", "--resolution", "40"}), HasSubstr("no goal is given: use --count N"));
-  EXPECT_EQ(parsed({"a.obj", "--resolution", "40", "--method", "source"}).request.resolution, 40u);
+  EXPECT_EQ(parsed({"a.obj", "--resolution", "40", "--method", "source"}).spheres.resolution, 40u);
   EXPECT_THAT(message_of({"a.urdf", "--count", "9"}), HasSubstr("--count-per-link N or --total N"));
   EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--count-per-link", "3"}), HasSubstr("cannot be used together"));
   EXPECT_THAT(message_of({"a.obj", "--total", "9"}), HasSubstr("'a.obj' is no .urdf"));
@@ -80,7 +80,7 @@ TEST(SpheresOptions, MistakesAreNamed) {
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "a.json", "--report", "a.json"}), HasSubstr("same file"));
   EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--visual", "--collision"}), HasSubstr("together"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "--object-angle", "0.4"}), HasSubstr("--method source"));
-  EXPECT_EQ(parsed({"a.obj", "--count", "9", "--object-angle", "0.4", "--method", "source"}).request.object_angle, 0.4);
+  EXPECT_EQ(parsed({"a.obj", "--count", "9", "--object-angle", "0.4", "--method", "source"}).spheres.object_angle, 0.4);
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "-q", "-v"}), HasSubstr("-q and -v"));
   EXPECT_THAT(message_of({"a.obj", "--count", "9", "--backend", "cpu", "--device", "1"}), HasSubstr("--device"));
 }

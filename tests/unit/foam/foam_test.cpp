@@ -99,7 +99,7 @@ NearestPointsFunction nearest_of(const std::vector<Point>& sites) {
 TEST(SphereSamples, DeepSamplesSeeTheMedialPlaneOfFigure31) {
   const Ball sphere = {{0, 0, 0}, 1};
   const auto nearest = nearest_of({{0.05, 1.5, 0}, {0, -1.6, 0}});
-  const SphereSampling blind = {.count = 2, .deep_samples = false};  // both poles: their lines are short
+  const SphereSamplingOptions blind = {.count = 2, .deep_samples = false};  // both poles: their lines are short
   const auto without = sample_sphere(sphere, blind, nearest);
   ASSERT_TRUE(without.ok());
   EXPECT_FALSE(without.value().holds_medial_point);

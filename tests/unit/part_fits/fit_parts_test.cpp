@@ -11,6 +11,7 @@
 #include "medial_vk/prepare.h"
 #include "reference_bridge/reference_extractor.h"
 #include "robots/primitive_mesh.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -36,7 +37,7 @@ class FitParts : public testing::Test {
     Part part;
     part.link = link;
     part.name = name;
-    part.mesh = prepare_mesh(test::make_box(size)).value();
+    part.mesh = test::indexed(prepare_mesh(test::make_box(size)).value());
     part.pose = make_pose({5, 0, 0}, {0.3, 0.2, 0.1});
     return part;
   }
@@ -55,15 +56,15 @@ TEST_F(FitParts, ABallIsItself) {
   ASSERT_EQ(ball.levels.back().size(), 1u);
   EXPECT_EQ(ball.levels.back()[0].centre, (Point{1, 2, 3}));
   EXPECT_EQ(ball.levels.back()[0].radius, 0.25);
-  EXPECT_EQ(ball.wanted, 1u);
+  EXPECT_EQ(ball.count, 1u);
 }
 
 TEST_F(FitParts, TheLargerGetsMore) {
   options_.count_per_link = 60;
   const Result<std::vector<PartFit>> fits = fit();
   ASSERT_TRUE(fits.ok()) << fits.error().message;
-  EXPECT_EQ(fits.value()[0].wanted + fits.value()[1].wanted, 60u);
-  EXPECT_GT(fits.value()[0].wanted, 5 * fits.value()[1].wanted);
+  EXPECT_EQ(fits.value()[0].count + fits.value()[1].count, 60u);
+  EXPECT_GT(fits.value()[0].count, 5 * fits.value()[1].count);
   EXPECT_NEAR(*fits.value()[0].solid_volume, 1.4, 1e-12);
   EXPECT_LT(*fits.value()[0].spheres_volume, 1.4);
 }
@@ -76,7 +77,7 @@ TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
     options_.total = total;
     const std::vector<PartFit> fits = std::move(fit().value());
     for (std::size_t i = 0; i < before.size(); ++i) {
-      EXPECT_GE(fits[i].wanted, before[i].wanted) << total;
+      EXPECT_GE(fits[i].count, before[i].count) << total;
       EXPECT_GE(*fits[i].spheres_volume, *before[i].spheres_volume * (1 - 1e-12)) << total;
     }
     before = fits;
@@ -96,7 +97,7 @@ TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
     const FacetSide side = cover ? FacetSide::kCircumscribed : FacetSide::kInscribed;
     Part part;
     part.link = part.name = "c";
-    part.mesh = prepare_mesh(make_primitive(cylinder, side)).value();
+    part.mesh = test::indexed(prepare_mesh(make_primitive(cylinder, side)).value());
     part.volume = primitive_volume(cylinder);
     parts_ = {part};
     const PartFit fitted = std::move(fit().value().front());
@@ -168,8 +169,11 @@ TEST_F(FitParts, PartsThatAreNoneAreRefused) {
   EXPECT_EQ(fit().error().message, "link \"a\", \"box\": its `volume` is not positive");
   EXPECT_EQ(fit().error().code, ErrorCode::kUsage);
   parts_ = good;
-  parts_[0].mesh = {};
-  EXPECT_THAT(fit().error().message, HasSubstr("link \"a\", \"box\": "));
+  parts_[0].mesh.reset();
+  EXPECT_EQ(fit().error().message, "link \"a\", \"box\": it has neither `mesh` nor `ball`");
+  parts_ = good;
+  parts_[2].mesh = parts_[0].mesh;
+  EXPECT_EQ(fit().error().message, "link \"b\", \"primitive0\": it has both `mesh` and `ball`");
   parts_.clear();
   EXPECT_TRUE(fit().value().empty());
 }

@@ -151,10 +151,10 @@ TEST_F(RobotFiles, ScalesAreApplied) {
   const Part& part = parts.value().parts.front();
   EXPECT_EQ(part.name, "../meshes/box.obj");
   EXPECT_EQ(fs::weakly_canonical(parts.value().origins.front().file), fs::weakly_canonical(path("arm/meshes/box.obj")));
-  EXPECT_EQ(part.mesh.report.lower, (Point{0, -2, 0}));
-  EXPECT_EQ(part.mesh.report.upper, (Point{2, 0, 1.5}));
-  EXPECT_NEAR(part.mesh.report.signed_volume, 6, 1e-12);
-  EXPECT_FALSE(part.mesh.report.inside_out);
+  EXPECT_EQ(part.mesh->prepared().report.lower, (Point{0, -2, 0}));
+  EXPECT_EQ(part.mesh->prepared().report.upper, (Point{2, 0, 1.5}));
+  EXPECT_NEAR(part.mesh->prepared().report.signed_volume, 6, 1e-12);
+  EXPECT_FALSE(part.mesh->prepared().report.inside_out);
 }
 
 TEST_F(RobotFiles, FaultsNameLinkAndFile) {

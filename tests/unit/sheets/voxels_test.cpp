@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/voxel_order.h"
 #include "sheets/concurrent_sets.h"
 #include "sheets/voxel_graph.h"
 #include "sheets/voxel_section.h"

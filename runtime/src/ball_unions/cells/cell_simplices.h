@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ball_unions/cells/power_cell.h"
-#include "medial_vk/ball_union.h"
+#include "medial_vk/dual_complex.h"
 
 namespace medial_vk {
 

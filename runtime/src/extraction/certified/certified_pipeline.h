@@ -21,7 +21,7 @@
 #include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
 #include "gpu_types.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

@@ -1,7 +1,7 @@
 // The check of the options of an extraction, before any other work.
 #pragma once
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/voxel_order.h"
 #include "device_mesh/device_mesh.h"
 #include "gpu_types.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

@@ -4,7 +4,7 @@
 #include "device/context_impl.h"
 #include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

@@ -84,7 +84,7 @@ Status ThesisPipeline::allocate() {
                 limit / (sizeof(gpu::Retraction) * lines_per_top), largest, std::uint64_t{top_cells()}});
   if (fitting == 0) {
     return Error{ErrorCode::kOutOfMemory, "mode thesis needs " + std::to_string(bytes_per_top * 10 / 9) +
-                                              " bytes of device memory; raise `memory_budget`"};
+                                              " bytes of device memory beside the mesh; raise `memory_budget`"};
   }
   chunk_ = static_cast<std::uint32_t>(fitting);
   const VkDeviceSize cells = chunk_ * cells_per_top, lines = chunk_ * lines_per_top;

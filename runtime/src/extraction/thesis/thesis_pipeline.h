@@ -15,7 +15,7 @@
 
 #include "device_commands/stop_word.h"
 #include "device_mesh/device_mesh.h"
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "queries/flux_sampler.h"
 #include "queries/tree_queries.h"
 #include "thesis_types.h"

@@ -39,7 +39,7 @@ void ThesisPipeline::record_level(Recorder& r, std::uint32_t level, std::uint32_
   run(r, "list_cells", cells, step, {kept_.range(), cells_.range(), queries_at_.range()});
   const QueryCount count = query_count(cells, cells_of(level));
   queries_->closest(r, count, queries_at_.range(), nearest_.range(), hits_.range());
-  run(r, "ask_sides", cells, step, {cells_.range(), nearest_.range(), queries_at_.range()});
+  run(r, "list_side_queries", cells, step, {cells_.range(), nearest_.range(), queries_at_.range()});
   // A closed boundary has integer winding numbers: an error below 1/2 suffices.
   queries_->winding(r, count, queries_at_.range(), numbers_.range(), mesh_->closed ? 0.25f : 0.02f);
   run(r, "choose_spheres", cells, step, {cells_.range(), numbers_.range(), states_.range()});

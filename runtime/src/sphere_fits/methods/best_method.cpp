@@ -74,7 +74,7 @@ class Placing {
       if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
       if (!progress_) continue;
       shown_ = share_done(most);
-      if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "stopped"};
+      if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "interrupted"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
     if (has_goals()) return unmet();

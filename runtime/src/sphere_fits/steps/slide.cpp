@@ -5,16 +5,17 @@
 #include <limits>
 
 #include "base/point_ops.h"
+#include "bvh/nearby_triangles.h"
 
 namespace medial_vk {
 
 void Slider::find_contacts(const Ball& ball, double reach) {
   contacts_.clear();
-  solid_.bvh().gather_within(ball.centre, ball.radius + reach, nearby_);
+  gather_within(solid_.bvh(), ball.centre, ball.radius + reach, nearby_);
   std::vector<std::uint32_t> one(1);
   for (const std::uint32_t position : nearby_) {
     one[0] = position;
-    const BvhHit hit = solid_.bvh().closest_of(ball.centre, one);
+    const BvhHit hit = closest_of(solid_.bvh(), ball.centre, one);
     const double distance = std::sqrt(hit.squared_distance);
     if (distance > ball.radius + reach || distance == 0) continue;
     contacts_.push_back({(1 / distance) * (ball.centre - hit.point), distance - ball.radius});

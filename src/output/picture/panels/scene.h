@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 #include "output/picture/panels/camera.h"
 #include "output/picture/panels/options.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "whole_analysis/simplify.h"
+#include "simplification/simplify_spheres.h"
 
 namespace medial_vk {
 namespace {

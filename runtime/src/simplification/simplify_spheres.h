@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "medial_vk/extraction.h"
+#include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
 

@@ -1,4 +1,4 @@
-#include "whole_analysis/simplify.h"
+#include "simplification/simplify_spheres.h"
 
 #include <array>
 #include <cstddef>

@@ -1,0 +1,28 @@
+// The dual complex of a union of balls, and the vertices of its envelope.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "medial_vk/mesh_view.h"
+
+namespace medial_vk {
+
+/// Simplices over balls, by their indices, ascending within a simplex and among simplices: the nerve of the balls, each
+/// restricted to its power cell (zero alpha complex; H. Edelsbrunner, "The union of balls and its dual shape", 1995).
+/// It has the homotopy type of the union. It contains every face of its simplices.
+struct DualComplex {
+  std::vector<std::uint32_t> vertices;  ///< Balls that are not hidden: those with a share of the union.
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+};
+
+/// A point of the envelope at which three spheres meet.
+struct EnvelopeVertex {
+  Point at;
+  std::array<std::uint32_t, 3> balls;  ///< Ascending.
+};
+
+}  // namespace medial_vk
