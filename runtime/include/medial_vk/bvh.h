@@ -27,12 +27,14 @@ struct BvhNode {
   std::uint32_t count = 0;
 };
 
+/// The nearest point of a mesh to a query point.
 struct BvhHit {
   double squared_distance = std::numeric_limits<double>::infinity();
   Point point = {0, 0, 0};
-  std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles.
+  std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles; the smallest among exact ties.
 };
 
+/// The tree. Queries may come from several threads at once.
 class Bvh {
  public:
   /// Greatest depth of a leaf below the root, and so the capacity that a traversal stack requires.
@@ -42,43 +44,45 @@ class Bvh {
   /// index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
-  /// The same tree with its leaves split further, for scattered queries on the host. It equals the tree that build()
-  /// makes of the same triangles for `leaf_size`, if none has moved since and kMaxDepth does not matter, but without a
-  /// second sort; leaves that are smaller stay as they are. Errors: kOutOfMemory.
+  /// The same tree with its leaves split further, for scattered queries on the host; smaller leaves are not changed. If
+  /// no triangle has moved and no leaf is at kMaxDepth, it equals the tree that build() makes of the same triangles for
+  /// `leaf_size`, but takes less time. Errors: kOutOfMemory.
   Result<Bvh> refined(std::uint32_t leaf_size) const;
 
-  /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
-  /// triangles below it; the triangles of each node and the order of the leaves stay the same. Triangle t of `mesh`
-  /// replaces triangle t. All answers are as exact as those of a new tree, and nearly as fast while triangles that were
-  /// neighbours stay neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result
-  /// does not depend on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not
-  /// finite: the tree is unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
+  /// Follows triangles that have moved: takes the corners of triangle t from triangle t of `mesh`, and makes every box
+  /// the least one around the triangles below it. The triangles of each node and the order of the leaves stay the same.
+  /// All answers are as exact as those of a new tree, and nearly as fast while triangles that were neighbours stay
+  /// neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result does not depend
+  /// on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite: the tree is
+  /// unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
   Status refit(const MeshView& mesh, unsigned threads = 0);
 
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }             ///< Triangle index by leaf position.
   const std::vector<std::array<Point, 3>>& corners() const { return corners_; }  ///< By leaf position.
 
-  /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
+  /// The nearest point of the mesh to p. If no point is closer than `bound` (a distance, not its square), `triangle` is
+  /// 0xffffffff.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
-  /// Prepares several closest-point queries near one another: leaf positions of all triangles within `radius` of
-  /// `centre`, and of some triangles beyond it, replace `positions`; closest_of() and find_within() then test no
-  /// others. Throws std::bad_alloc.
+  /// Prepares several closest-point queries near one another: replaces `positions` by the leaf positions of all
+  /// triangles within `radius` of `centre`, and of some triangles beyond. closest_of() and find_within() test only
+  /// these. Throws std::bad_alloc.
   void gather_within(const Point& centre, double radius, std::vector<std::uint32_t>& positions) const;
-  /// The leaves, as indices into nodes(), whose boxes reach within `radius` of `centre` replace `leaves`. Throws
+  /// Replaces `leaves` by the indices in nodes() of all leaves whose boxes reach within `radius` of `centre`. Throws
   /// std::bad_alloc.
   void gather_leaves(const Point& centre, double radius, std::vector<std::uint32_t>& leaves) const;
-  /// As closest(), among the triangles at these leaf positions and `best`, the best hit of other triangles.
+  /// As closest(), among the triangles at these leaf positions, and `best`: the nearest point of triangles tested
+  /// before.
   BvhHit closest_of(const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {}) const;
   /// Index in `positions` of the first triangle closer to p than `radius` (positive), or positions.size() if there is
   /// none.
   std::size_t find_within(const Point& p, double radius, const std::vector<std::uint32_t>& positions) const;
-  /// True if a point of the mesh lies at a distance below `radius` from `centre`. Stops at the first.
+  /// True if a point of the mesh lies at a distance below `radius` from `centre`. Stops at the first such triangle.
   bool any_within(const Point& centre, double radius) const;
 
  private:
   void take_corners(const MeshView& mesh, unsigned threads);
-  /// Makes the triangle at a leaf position the best hit if it is nearer, or equally near and of a smaller index.
+  /// Makes the triangle at a leaf position the best hit if it is nearer, or equally near with a smaller index.
   void improve(const Point& p, std::uint32_t position, BvhHit& best) const;
 
   std::vector<BvhNode> nodes_;

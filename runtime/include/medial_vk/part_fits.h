@@ -1,5 +1,5 @@
-// The parts of an assembly, such as the geometries of a robot's links, approximated by balls: each part by its own,
-// with a proved contract. Numbers of balls are distributed among the parts by need.
+// The parts of an assembly, such as the geometries of a robot's links, approximated by balls: each part by its own
+// balls, with a proved contract. Numbers of balls are distributed among the parts by need.
 #pragma once
 
 #include <cstddef>
@@ -27,16 +27,16 @@ struct Part {
   std::string name;          ///< Messages contain both names.
   Pose pose;                 ///< From the frame of the part to that of its link.
   PreparedMesh mesh;         ///< In the frame of the part. Not read if there is a ball.
-  std::optional<Ball> ball;  ///< The part itself, in its own frame; it is approximated by one ball, which is exact.
+  std::optional<Ball> ball;  ///< A part that is a ball, in its own frame. It is approximated by itself, exactly.
   /// The exact volume of the shape that the mesh approximates, such as a cylinder, in cubed mesh units; errors are then
-  /// those against the shape. With contract inside the mesh lies inside the shape; with contract cover it encloses it.
-  /// Balanced balls are measured against the mesh.
+  /// relative to the shape. Precondition: the mesh lies inside the shape (contract inside), or encloses it (contract
+  /// cover). Balanced balls are measured against the mesh.
   std::optional<double> volume;
 };
 
 /// All given goals must be met, as in SphereOptions.
 struct PartFitOptions {
-  /// Of each part. `count` is not read if one of the next two numbers is given, nor is `threads`.
+  /// The options for each part. `threads` is not read, and `count` is not read if `count_per_link` or `total` is given.
   SphereOptions spheres;
   std::size_t count_per_link = 0;  ///< Greatest number of balls of each link, for its parts together; 0: no such goal.
   std::size_t total = 0;           ///< Greatest number of balls of all parts together; 0: no such goal.
@@ -51,10 +51,13 @@ struct PartFit {
   /// the contract by itself, the rounding of the pose included. All parts have the same number of levels: a part with
   /// fewer sets repeats its smallest.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances that balls reach out of the part.
-  std::size_t wanted = 0;       ///< The number of balls assigned to the part; 0: as many as its other goals require.
-  std::optional<double> solid_volume;  ///< Part::volume if `of_shape`, else of its mesh if that encloses one cleanly.
-  bool of_shape = false;  ///< `solid_volume` and the volume errors are those of the shape: of a ball, or Part::volume.
+  std::vector<ReachOut> reach;  ///< Per level: bounds of the distances by which balls reach out of the part.
+  /// The number of balls assigned to the part; 0: the number that its other goals require.
+  std::size_t wanted = 0;
+  /// The volume of the shape if `of_shape`, else that which the mesh encloses cleanly, if it does.
+  std::optional<double> solid_volume;
+  /// `solid_volume` and the volume errors are those of the shape: of the ball, or Part::volume.
+  bool of_shape = false;
   std::optional<double> spheres_volume;    ///< Of the union of the last level.
   std::optional<SphereMeasures> measures;  ///< Of `proved`. Without a value for a part that is a ball.
   /// The last level in the frame of the part, where its contract was proved. Empty for a part that is a ball.
@@ -66,14 +69,14 @@ struct PartFit {
 ///
 /// A number of balls for several parts is distributed by need: each part gets one ball, and every further ball goes to
 /// the part where it covers the most volume that is not yet covered (measure_coverage_curve()), for every contract.
-/// With the method best, a larger number gives no part fewer balls, and no part of contract inside a larger error.
+/// With the method best, a larger number gives no part fewer balls and, with contract inside, no part a larger error.
 ///
 /// Every part is indexed once, and `extractor` is called once for each part and ExtractionOptions. `progress` is called
 /// with the stages of fit_spheres() and the finished share of all parts, one call at a time but from any thread; a
-/// request to `stop` soon ends the call. Does not throw. Errors: those of fit_spheres(), with the names of link and
-/// part; kUsage (fewer balls than parts, both `count_per_link` and `total`, a pose that is no rigid motion, a radius or
-/// volume that is not positive and finite); kInvalidMesh (a part too far from the origin of its link for double
-/// precision).
+/// request to `stop` soon ends the call. Does not throw. Errors: those of fit_spheres(), with the names of the link and
+/// the part; kUsage (fewer balls than parts, both `count_per_link` and `total`, a pose that is no rigid motion, a
+/// radius or volume that is not positive and finite); kInvalidMesh (a part too far from the origin of its link for
+/// double precision).
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options,
                                        const Extractor& extractor, const StageProgress& progress = {},
                                        const std::stop_token& stop = {});

@@ -1,4 +1,4 @@
-// Preparation: from any triangles to a mesh that can be searched, with a report of the assumptions made.
+// Preparation: any triangles become a mesh that can be searched, with a report of the assumptions that were made.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads = 0);
 /// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4).
 void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed);
 
-/// The same for a prepared mesh, which is then prepared again, as moved faces may cross: corners that coincide move
-/// together. The report covers both preparations. Errors: those of prepare_mesh().
+/// The same for a prepared mesh, in which corners that coincide move together. The result is prepared again, since
+/// moved faces may cross. The report covers both preparations. Errors: those of prepare_mesh().
 Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads = 0);
 
 }  // namespace medial_vk
