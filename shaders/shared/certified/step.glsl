@@ -62,7 +62,7 @@ vec4 corners_along(vec3 h) {
   return vec4(xy + h.z, xy - h.z);
 }
 
-// For numbers only: the built-in function handles NaN, which costs lavapipe three instructions instead of one.
+// Not for NaN, which the built-in function handles; on lavapipe that takes three instructions instead of one.
 float greater(float a, float b) {
   precise float result = a > b ? a : b;
   return result;

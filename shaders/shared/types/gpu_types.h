@@ -53,7 +53,7 @@ struct Line {
   vec4 toward_q;
   uint cell;
   uint voxel;
-  uint accepted;  // 0 no, 1 by its end p, 2 by its end q, if that is inside (see winners)
+  uint accepted;  // 0 no, 1 by its end p, 2 by its end q, if that is inside
   uint seed;      // index among the seeds of its cell
 };
 
@@ -84,7 +84,7 @@ MEDIAL_VK_GPU_CONSTANT kLinkUncrossed = 256u;  // no other triangle meets its in
 
 // A point at which a line may cross a medial sheet, and the sheet's normal.
 struct Aim {
-  vec4 base;       // from the centre of the cell; w: how far the sheet is from the boundary, smaller is better
+  vec4 base;       // from the centre of the cell; w: distance of the sheet from the boundary, smaller is better
   vec4 direction;  // unit; w: 0 if there is none
 };
 MEDIAL_VK_GPU_CONSTANT kAimsPerCell = 4u;
