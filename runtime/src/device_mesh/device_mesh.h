@@ -40,7 +40,7 @@ struct DeviceMesh {
   /// iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
-  /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
+  /// Error: kOutOfMemory if a mesh of that many triangles is too large for the device, or for the kernels.
   static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
 
   /// Starts all uploads; finish_uploads() must precede the first use. With links: also the data of add_links(). Errors:

@@ -38,7 +38,7 @@ struct Group {
   std::size_t balls = 0;
 };
 
-/// What the curve of a part and its spheres share.
+/// The data that the curve of a part and its spheres share.
 struct PartWork {
   IndexedMesh mesh;
   Extractor extractor;
@@ -315,7 +315,7 @@ class Fitting {
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };
 
-/// Throws no exception.
+/// Converts exceptions to errors.
 Result<std::vector<PartFit>> guarded(const std::function<Result<std::vector<PartFit>>()>& work) {
   try {
     return work();

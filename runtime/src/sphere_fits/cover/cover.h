@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// Deterministic. Throws std::bad_alloc, and what `report` throws.
+/// Deterministic. Throws std::bad_alloc, and the exceptions of `report`.
 class Cover {
  public:
   /// Called with the finished share, from any thread at any time; a share that is smaller than before is ignored. May

@@ -78,7 +78,8 @@ class CoverSearch {
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
   /// All balls that are not idle, by decreasing cost.
   std::vector<std::uint32_t> costliest_first() const;
-  /// The least increase in volume of the other balls that would replace this ball; 0 if no element is held by it alone.
+  /// An estimate of the volume by which other balls must grow to replace this ball; 0 if no element is held by it
+  /// alone.
   double price_to_leave(std::uint32_t i) const;
   bool is_same_as_slid(std::uint32_t i, std::size_t alone) const;
   void slide_batch(std::span<const std::uint32_t> batch);
