@@ -51,7 +51,7 @@ struct PartFit {
   /// the contract by itself, the rounding of the pose included. All parts have the same number of levels: a part with
   /// fewer sets repeats its smallest.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;  ///< Per level: bounds of the distances by which balls reach out of the part.
+  std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances by which balls reach out.
   /// The number of balls assigned to the part; 0: the number that its other goals require.
   std::size_t wanted = 0;
   /// The volume of the shape if `of_shape`, else that which the mesh encloses cleanly, if it does.

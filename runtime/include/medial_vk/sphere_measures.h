@@ -72,8 +72,8 @@ struct VolumeError {
   double normalized_lower_bound() const;
 };
 
-/// Names and definitions are those of cuRobo's SphereFitMetrics, except where a comment differs. Lengths are in mesh
-/// units.
+/// Names and definitions are those of cuRobo's SphereFitMetrics, except where a comment states a difference. Lengths
+/// are in mesh units.
 struct SphereFitMetrics {
   std::size_t num_spheres = 0;
   double coverage = 0;    ///< Share of the solid's volume that is in a ball (exact where VolumeError is).

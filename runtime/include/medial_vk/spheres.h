@@ -36,7 +36,7 @@ struct SphereOptions {
   /// Greatest number of balls; 0: the number that the other goals require, of which one must then be given.
   std::size_t count = 0;
   /// Greatest volume error, as a share of the solid's volume: kInside: the uncovered volume; kCover: the added volume;
-  /// kBalanced: the sum of both, by an estimate. 0: no such goal.
+  /// kBalanced: the sum of both, by an estimate. In [0, 1); 0: no such goal.
   double error = 0;
   double max_gap = 0;  ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
   /// The resolution of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
@@ -56,7 +56,7 @@ struct SphereFit {
   /// Sets of balls, the smallest first; one, unless levels were requested. Every set satisfies the contract by itself.
   /// With contract kInside, the last set is ordered such that every prefix is a good set of its size.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;         ///< Per level: bounds of the distances by which balls reach out.
+  std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances by which balls reach out.
   SphereMeasures measures;             ///< Of the last level.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
@@ -64,8 +64,8 @@ struct SphereFit {
 /// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves the contract, and
 /// measures the balls. `progress` is called with "medial points", "spheres" and "cover", one call at a time but from
 /// any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal,
-/// a goal that the contract or method does not support, a goal that is not reached); kInvalidMesh (no ball fits);
-/// kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
+/// a goal out of range, a goal that the contract, the method or the mesh does not support, a goal that is not reached);
+/// kInvalidMesh (no ball fits); kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 

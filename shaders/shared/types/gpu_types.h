@@ -148,7 +148,7 @@ struct StepConstants {
   uint open_edges;              // 0: the mesh is closed; above kMostOpenEdges: they are not listed
   uint last_level;              // 1: cells that are kept now stay undecided
   uint narrowing_steps;         // of every line
-  uint settles;                 // 1: cells that can hide points near a face or the angle only are given up
+  uint settles;                 // 1: cells that can hold only points near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint cluster_count;
