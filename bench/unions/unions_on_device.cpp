@@ -1,4 +1,4 @@
-// Volume and surface of unions of balls: the host in double precision against a device in float.
+// Volumes of unions of balls, and areas of their envelopes: the host in double precision against a device in float.
 //   bench_unions_on_device [--balls N,N,...] [--repeats N] [--threads N] [--device INDEX|NAME] [--no-device]
 // The balls lie along a bent sheet, as medial balls do: their number grows as with the resolution of one solid, so each
 // overlaps 4.5 % of all.

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The share of each ball in a union of balls: its volume and surface in its power cell, in units of its radius. One
-// invocation per ball, in the order of the tree, so that neighbours run together.
+// The share of each ball in a union of balls: the volume of the ball and the area of its sphere in its power cell, in
+// units of its radius. One invocation per ball, in the order of the tree, so that neighbours run together.
 #include "ball_types.h"
 #include "lanes/workgroup_index.glsl"
 

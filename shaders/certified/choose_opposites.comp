@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Determines the samples of the flux (equation 2.4) that are two-sided fans (Definition 2.4): nearest to an edge or a
-// vertex, with an opposite that sees the same direction. Most need no query. Samples nearest to the inside of a face
-// are no fans. If the opposite lies on the segment from the sample to its nearest point, all points of which have that
-// nearest point, the sample is one. The opposites of the other samples are queried, in groups.
+// vertex, with the same direction at the opposite. Most require no query. A sample nearest to the interior of a face is
+// not a fan. A sample whose opposite lies on the segment to its nearest point is a fan, since all points of that
+// segment have the same nearest point. The opposites of the other samples are queried, in groups.
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Decides whether the accepted end of a line lies in the solid, where its cell does not know: next to the boundary, and
-// around the open edges of a mesh. A point is inside if its winding number is at least 1/2; if the error bound does not
-// decide that, the line is given up and the voxel stays undecided.
+// Decides whether the accepted end of a line lies in the solid, if the side of its cell is unknown: next to the
+// boundary, and around the open edges of a mesh. A point is inside if its winding number is at least 1/2. If the error
+// bound leaves that open, the line is given up and the voxel stays undecided.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
 #define TREE_STORAGE_BINDING 1

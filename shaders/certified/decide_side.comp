@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Drops the cells that lie outside, and marks those that lie inside, whose descendants need no further test. Kept
-// children know the distance of their centre to the boundary; top cells (step.second_task) know a lower bound of it.
-// Children that do not know their side are packed (dismiss_cells.comp), so that neighbouring invocations have equal
+// Drops the cells that lie outside, and marks those that lie inside, whose descendants require no further test. The
+// distance from the centre to the boundary is known for kept children; for top cells (step.second_task) a lower bound
+// is known. Children whose side is unknown are packed (dismiss_cells.comp), so that neighbouring invocations have equal
 // work.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

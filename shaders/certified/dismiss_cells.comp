@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Examines the children that the first test of mark_contacts.comp leaves open: is there an axis that all contacts obey
-// (axis_test.glsl)? The axis is moved towards the contact that violates the condition most (as Badoiu and Clarkson do
+// Searches, for the children that the first test of mark_contacts.comp leaves open, an axis that all contacts obey
+// (axis_test.glsl). The axis is moved towards the contact that violates the condition most (as Badoiu and Clarkson do
 // for smallest enclosing balls).
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -23,11 +23,11 @@ layout(set = 0, binding = 10) readonly buffer Counts { uvec4 counts[]; };  // y:
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most cells
 const uint kDirectionSweeps = 3;  // with directions too; two more per level below the finest voxel
 // lavapipe ends the loops of an invocation after 65,535 iterations in all, counted for up to 16 neighbours together. A
-// sweep takes at most one iteration per entry of the list (one for a word without any, which replaces some), so a cell
-// that may make s sweeps takes kLoopBudget / s for each. Of the up to 6 sweeps by normals the k-th is made only by
-// cells with s >= k, and all meet before the sweeps by directions, for which the same holds, up to 23 (10 levels below
-// the finest voxel): less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 + 1/2 + ... + 1/23), or 64,400, with the sweeps
-// themselves. Cells with lists too long for a sweep are kept unproved.
+// sweep takes at most one iteration per entry of the list (a word without contacts takes one for all its entries). So a
+// cell that may make s sweeps takes at most kLoopBudget / s for each. Of the up to 6 sweeps by normals, the k-th is
+// made only by cells with s >= k; then all invocations meet. The same holds for the sweeps by directions, of which
+// there are up to 23 (10 levels below the finest voxel). The sum is less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 +
+// 1/2 + ... + 1/23), or 64,400, with the sweeps themselves. Cells with lists too long for a sweep are kept unproved.
 const uint kLoopBudget = 10400;
 
 float theta, cos_theta;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Runs after the search of a level: voxels that have elected a line receive their point, from the cell whose line it
-// is, and all their cells are done. The remaining cells are subdivided, or stay undecided: at the last level, or where
+// Runs after the search of a level: voxels that have elected a line receive their point from the cell of that line, and
+// all their cells are finished. The remaining cells are subdivided, or stay undecided: at the last level, or where
 // subdivision is hopeless or settles nothing. If another search of the level follows (step.second_task), all remaining
 // cells go there.
 #include "certified/step.glsl"

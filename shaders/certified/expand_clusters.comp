@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// Writes the kept children of parents with lists of clusters, with lists of triangles: those triangles of the contacts
-// that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One workgroup of eight
-// lanes per child. Triangles dismiss more than clusters do (axis_test.glsl): a child that is found empty only here
-// keeps its slot, with an empty list.
+// Writes the kept children of parents whose lists hold clusters. The lists of the children hold triangles: those of the
+// listed clusters that are contacts themselves (Lemma A with two witnesses for the ball of the child, Lemma L). One
+// workgroup of eight lanes per child. Triangles dismiss more than clusters do (axis_test.glsl): a child that is found
+// empty only here keeps its slot, with an empty list.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -1,9 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_control_flow_attributes : enable
-// The contact lists of the top cells, of clusters: Lemma A for the box of every cluster, with one witness for the ball
-// of the list, the known point that is nearest to the centre. One invocation per cell; eight of them walk over all
-// clusters together. Run twice: to count, then, without the cells that lie outside, to write (step.second_task).
+// Writes the contact lists of the top cells, which hold clusters: Lemma A for the box of every cluster, with one
+// witness for the ball of the list, the known point that is nearest to the centre. One invocation per cell; eight of
+// them walk over all clusters together. Run twice: to count, then, without the cells that lie outside, to write
+// (step.second_task).
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #include "certified/witness.glsl"

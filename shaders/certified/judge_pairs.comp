@@ -11,8 +11,8 @@
 // After the search (step.second_task), it examines the cells that remain, to bound the salient medial points that may
 // be hidden there (docs/theory.md, "What undecided means"). The remaining pairs bound the width (equation 3.1), and the
 // same test on the part of the cell away from the faces of its voxel, or with a larger angle, gives the reason why it
-// could not be settled. A voxel takes the gravest reason and the largest width of its cells. Above the last level only
-// cells that can hide nothing else are given up; the others are subdivided.
+// could not be settled. A voxel receives the gravest reason and the largest width of its cells. Above the last level,
+// only cells that can hold no other points are given up; the others are subdivided.
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
@@ -35,7 +35,7 @@ layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, 
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
-const float kSettleMargin = 0.02;  // above the last level: given-up points are at least that near the angle
+const float kSettleMargin = 0.02;  // radians: the same margin above the last level, where cells are given up early
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 
 // Limit of the rounds over queued pairs of an invocation: some 70 iterations each where directions at corners are

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The winding number at the centres of cells through which the boundary passes, with triangles whose normals prove
-// nothing, and the rate of its change around them: foot_sides.glsl proceeds from there to either side of a triangle
+// Measures, for cells through which the boundary passes with untrusted triangles, the winding number at the centre and
+// the rate of its change around it, from which foot_sides.glsl derives the winding numbers on both sides of a triangle
 // (docs/theory.md, Lemma K). Nothing is stored where open edges are too near.
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

@@ -215,7 +215,7 @@ void main() {
     bool ahead = proposals[i].w < best.key || (proposals[i].w == best.key && i < slot);
     drop = drop || (ahead && !alone && abs(dot(proposals[i].xyz, best.direction)) > kParallel);
   }
-  // The deep line gives way to a point that needs none.
+  // A point that needs no line replaces the deep line.
   bool is_direct = open && lane == kDeepLane && direct.cosine <= cos_threshold;
   if (is_direct) {
     atomicAdd(counters[kQueries], 2u);

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Writes the kept children and their contact lists, the contacts that touch the cube first, at the positions that the
-// prefix sums of `states` give. If the children are finest voxels (step.second_task), each gets a slot of its own.
+// Writes the kept children and their contact lists, the contacts that touch the cube first, at the positions given by
+// the prefix sums of `states`. If the children are finest voxels (step.second_task), each receives a slot of its own.
 #include "certified/step.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Parents { Cell parents[]; };

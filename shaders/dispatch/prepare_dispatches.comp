@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // The group counts of all indirect dispatches up to the next one that needs a changed counter. On a CPU one more
-// dispatch costs as much as the work of a small one. Before that, counters are moved to another level, if requested.
+// dispatch costs as much as the work of a small one. Before this, counters are changed for another level, if requested.
 #include "gpu_types.h"
 
 layout(local_size_x_id = 0) in;
@@ -10,7 +10,8 @@ layout(set = 0, binding = 0) coherent buffer Counters { uint counters[]; };
 layout(set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
 layout(set = 0, binding = 2) readonly coherent buffer Stop { uint stop_word; };
 layout(set = 0, binding = 3) readonly buffer Table { DispatchConstants table[]; };
-// The host may stop at any moment: all rows see the same word. Writes without prefix sums could go anywhere.
+// The host may request a stop at any moment, so the word is read once for all rows: kernels that write at positions
+// from prefix sums must not run without these sums.
 shared uint stop;
 #include "lanes/prepare.glsl"
 

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// One workgroup for each query that gave up; the list is then ready for the next kernel that may fill it.
+// Requests one workgroup for each query whose walk was given up, and empties the list for the next kernel that may fill
+// it.
 #include "tree_types.h"
 
 layout(local_size_x_id = 0) in;  // 1

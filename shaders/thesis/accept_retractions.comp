@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// Notifies the sample from which a segment came that its end is acceptable.
+// Marks the samples whose segments end at acceptable points.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Lines { Retraction lines[]; };
 layout(set = 0, binding = 2) readonly buffer Empty { uint empty[]; };

@@ -1,12 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // Decides whether the end p is salient (Algorithm 2). If so, queries whether the ball at p, pushed away from its
-// contact by epsilon and grown by as much, meets the boundary elsewhere (Lemma 2.3; it may not if the segment ran
-// through the boundary), and, if the voxel's sphere meets the boundary, on which side p lies.
+// contact by epsilon and grown by as much, meets the boundary elsewhere (Lemma 2.3; it may not if the segment passed
+// through the boundary), and, if the voxel's sphere meets the boundary, the side of p.
 //
 // Balls are reduced by ball_margin, so p may lie beyond the point at which B changes, by up to ball_margin over 1 -
-// cos(turn), the rate at which the two distances part. p is moved back by as much; if that is no small part of epsilon,
-// the turn is too small to be distinguished from rounding.
+// cos(turn), the rate at which the two distances part. p is moved back by this amount; if it is not a small part of
+// epsilon, the turn is too small to be distinguished from rounding.
 #include "thesis/thesis.glsl"
 layout(set = 0, binding = 1) readonly buffer Voxels { ThesisCell voxels[]; };
 layout(set = 0, binding = 2) buffer Lines { Retraction lines[]; };

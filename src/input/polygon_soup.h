@@ -16,8 +16,8 @@ struct PolygonSoup {
 };
 
 /// Cuts every polygon into triangles over its own corners; all indices must be valid. Polygons of fewer than three
-/// corners are left out and counted. Those that cannot be cut without overlap, or would take too long, become a fan and
-/// are counted.
+/// corners are left out and counted. Polygons that cannot be cut without overlap, or would take too long, become a fan
+/// and are counted.
 Mesh triangulate(PolygonSoup soup);
 
 /// Cuts one polygon and appends its triangles. False: it crosses itself, or `work_left` (visits of a corner or of a

@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// No file is read beyond this size: streams may have no end. The largest mesh that a device takes, 8 million
+/// No file is read beyond this size, since streams may have no end. The largest mesh that a device supports, 8 million
 /// triangles, is half as long in the longest format (text STL).
 inline constexpr std::uint64_t kMostFileBytes = 4ull << 30;
 

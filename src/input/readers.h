@@ -16,8 +16,8 @@ Result<Mesh> read_off(std::string_view bytes, const std::string& name);
 Result<Mesh> read_ascii_stl(std::string_view bytes, const std::string& name);
 Result<Mesh> read_binary_stl(std::string_view bytes, const std::string& name);
 
-/// True if the size of the file is the one that the triangle count of a binary STL requires. (Some begin with "solid"
-/// too.)
+/// True if the size of the file is that which its triangle count as a binary STL requires. (Some binary files begin
+/// with "solid", too.)
 bool has_size_of_binary_stl(std::string_view bytes);
 
 /// Indices are 32 bits wide, and the last value is reserved for "none".

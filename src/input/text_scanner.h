@@ -15,10 +15,11 @@ Error line_error(const std::string& name, std::uint64_t line, std::string_view w
 /// kInvalidMesh with "name: what".
 Error file_error(const std::string& name, std::string_view what);
 
-/// Parses decimal or scientific notation, with an optional leading '+', to the nearest double. Too small for a double
-/// gives 0. False, with `why` set: not a number, beyond the range of a double, infinite or nan.
+/// Parses decimal or scientific notation, with an optional leading '+', to the nearest double; a number that is too
+/// small for a double gives 0. False, with `why` set, for a word that is not a number, is beyond the range of a double,
+/// or is infinite or nan.
 bool parse_coordinate(std::string_view word, double& value, std::string_view& why);
-/// Parses a decimal integer with an optional sign. False: not an integer, or beyond 64 bits.
+/// Parses a decimal integer with an optional sign. False for a word that is not an integer, or exceeds 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// Reads words separated by blanks and tabs. Lines end with LF, CR LF or CR. With `comment`, that character hides the

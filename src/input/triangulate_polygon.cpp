@@ -107,7 +107,8 @@ class EarClipper {
       } else {
         at = next_[at];
         if (++tried <= left_) continue;
-        // Stuck. A corner on a line with its neighbours, or a spike, bounds no area: one is left out.
+        // No corner can be cut off. A corner on a line with its neighbours, or a spike, bounds no area: one of these is
+        // left out.
         std::uint32_t flat = at;
         for (std::uint32_t i = 0; i < left_ && area(flat) != 0; ++i, --work_left_) flat = next_[flat];
         if (area(flat) != 0) return false;

@@ -13,7 +13,7 @@ namespace medial_vk {
 struct MeshPlaces {
   std::string folder;  ///< Of the URDF: the base of relative paths; packages may lie around it.
   std::vector<std::pair<std::string, std::string>> packages;  ///< Name and folder, as given by the user.
-  std::vector<std::string> search;                            ///< Folders that hold packages, or are one.
+  std::vector<std::string> search;                            ///< Folders of packages, or packages themselves.
 };
 
 /// The folder of `urdf`, the folders in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH, and the packages given as

@@ -8,8 +8,8 @@ namespace medial_vk {
 
 /// The side of a curved wall on which its facets lie.
 enum class FacetSide {
-  kInscribed,      ///< The mesh is inside the shape: for balls that must not protrude.
-  kCircumscribed,  ///< The shape is inside the mesh: for balls that must cover it.
+  kInscribed,      ///< The mesh is inside the shape, for balls that must not reach out of it.
+  kCircumscribed,  ///< The shape is inside the mesh, for balls that must cover it.
 };
 
 /// Sides of the polygon that approximates a circle, and rings of facets of a hemisphere.
@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kCapRings = 24;
 /// capsule 1 - cos(pi/96) cos(pi/96) = 1.1e-3. Circumscribed meshes are 1/(1 - share) - 1 outside. A box is exact.
 double facet_share(GeometryKind kind);
 
-/// A closed mesh of a box, cylinder or capsule in its own frame, inside or around it even by rounding.
+/// A closed mesh of a box, cylinder or capsule in its own frame, inside or around it for any rounding.
 Mesh make_primitive(const Geometry& geometry, FacetSide side);
 
 /// The volume of the shape itself, also of a sphere, in cubic metres. 0 for a mesh.

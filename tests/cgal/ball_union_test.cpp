@@ -48,9 +48,9 @@ void expect_consistent(const std::vector<Ball>& balls, const BallUnion& found) {
   expect_measures(found, test::measure_by_complex(balls, found.complex));
 }
 
-/// Compares the topology only, since ties may be broken differently.
-/// `touching`: spheres touch on the union's surface, within the tolerance of touching; simplices of such spheres are in
-/// the project's complex, which changes no topology, but inclusion and exclusion knows no tolerance.
+/// Compares the topology only, since ties may be broken differently. `touching`: spheres touch on the envelope, within
+/// the tolerance of touching; simplices of such spheres are in the project's complex, which changes no topology, but
+/// inclusion and exclusion knows no tolerance.
 void expect_same_union(const std::vector<Ball>& balls, bool touching = false) {
   const BallUnion found = measure(balls);
   const DualComplex complex = test::dual_complex_by_cgal(balls);

@@ -1,4 +1,4 @@
-// Volume and surface of a union of balls from its dual complex, by inclusion and exclusion.
+// The volume of a union of balls, and the area of its envelope, from its dual complex, by inclusion and exclusion.
 #pragma once
 
 #include <span>

@@ -24,7 +24,7 @@ class CopyingQueue : public FaultTest, public testing::WithParamInterface<LateQu
     return open();
   }
 
-  /// The same result as on the unmodified device.
+  /// Expects the same result as on the unmodified device.
   void expect_same(const Job& job) {
     std::string expected;
     vulkan().set_profile({});

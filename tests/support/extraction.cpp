@@ -19,7 +19,7 @@ T value_or_throw(Result<T> result) {
   return std::move(result).value();
 }
 
-// What holds of every extraction.
+// The properties of every extraction.
 void check(const Extraction& extraction) {
   for (const ExtractionCounters::Level& level : extraction.measurements.counters.levels)
     if (level.kept > level.visited) throw std::runtime_error("more cells are kept than were visited");

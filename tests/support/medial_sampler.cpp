@@ -160,8 +160,8 @@ std::optional<MedialSampler::Ball> MedialSampler::climb(const Ball& from) const 
   return std::nullopt;
 }
 
-// Of all triples of contacts that tie, those whose seam leaves the corner where no other contact becomes the nearest:
-// along the steepest of these seams. None remains where the distance has a maximum.
+// Climbs along the steepest of the seams that leave the corner: a triple of contacts that tie has such a seam if no
+// other contact becomes the nearest along it. None remains where the distance has a maximum.
 std::optional<MedialSampler::Ball> MedialSampler::climb_from_corner(const Ball& corner) const {
   const std::vector<Contact> ties = contacts(corner);
   Ball seam = corner;

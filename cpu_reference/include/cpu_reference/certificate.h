@@ -23,7 +23,8 @@ struct Certificate {
   bool passed() const;
 };
 
-/// Spheres, grid, voxel size, epsilon (length), object angle and radius threshold (length, 0 off) as written.
+/// Tests the spheres of `result` against its grid, epsilon (length), object angle and radius threshold (length, 0:
+/// off), all as written to the file.
 Certificate check(const Mesh& mesh, const Result& result, double epsilon, double object_angle, double radius);
 
 }  // namespace medial_vk::reference

@@ -22,8 +22,7 @@ struct Options {
   bool narrow_features = true;                       // thesis: Section 2.4.3
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
   // The object angle that a point above the radius threshold, if one is set, must have (never above object_angle).
-  // Without this bound every convex edge of a finely faceted solid would put a sheet of tiny angle into the deep
-  // voxels.
+  // Without this bound, every convex edge of a finely faceted solid would add a sheet of tiny angle to the deep voxels.
   double deep_angle = 0.15;
 };
 
@@ -36,12 +35,12 @@ struct Sphere {
   Eigen::Vector3i voxel;
 };
 
-/// The kind of a salient medial point that may hide in an undecided voxel (docs/theory.md, "What undecided means"): the
+/// The kind of a salient medial point that may lie in an undecided voxel (docs/theory.md, "What undecided means"): the
 /// first of these that holds.
 enum class UndecidedKind : std::uint8_t {
   kNearFace,   // within 1/64 of the voxel side of a face of its voxel
   kNearAngle,  // of an object angle less than 0.05 above the threshold
-  kBoundary,   // radius below 1/8 of the voxel side, or where the boundary passes through untrusted triangles
+  kBoundary,   // radius below 1/8 of the voxel side, or next to untrusted triangles of the boundary
   kOther,
 };
 
@@ -49,7 +48,7 @@ enum class UndecidedKind : std::uint8_t {
 struct Undecided {
   Eigen::Vector3i voxel;
   UndecidedKind kind;
-  double width;  // greatest distance of two feet of a salient medial point hidden there (Section 3.4, equation 3.1)
+  double width;  // greatest distance of two feet of a salient medial point that may lie there (equation 3.1)
 };
 
 struct LevelCount {

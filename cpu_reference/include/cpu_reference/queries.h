@@ -95,12 +95,12 @@ class Tree {
 /// The generalised winding number (Jacobson et al. 2013), exact: the sum of all solid angles over 4 pi.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p);
 
-/// The winding number within `tolerance`: far nodes by their first two moments (Barill et al. 2018), opened by a proved
-/// bound.
+/// The winding number within `tolerance`: far nodes contribute by their first two moments (Barill et al. 2018), and a
+/// proved bound decides which nodes are far.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p, double tolerance);
 
-/// True if the winding number is at least 1/2; decided by the fast form unless it is too close to 1/2, and then
-/// exactly.
+/// True if the winding number is at least 1/2. The approximation decides unless it is too close to 1/2; otherwise the
+/// exact sum does.
 bool is_inside(const Tree& tree, const Eigen::Vector3d& p);
 
 /// N unit vectors spread over the sphere by the generalised spiral of Rakhmanov, Saff and Zhou (1994), Section 2.3.2.
@@ -109,7 +109,7 @@ std::vector<Eigen::Vector3d> spiral_points(int n);
 /// The other intersection of the sphere with the line through its point p with direction d, Definition 2.3.
 Eigen::Vector3d opposite(const Eigen::Vector3d& centre, const Eigen::Vector3d& p, const Eigen::Vector3d& direction);
 
-/// Outward flux of the gradient of D through a sphere, equation 2.4 over the samples that are no two-sided fans.
+/// Outward flux of the gradient of D through a sphere: equation 2.4, over the samples that are not two-sided fans.
 struct Flux {
   double average = 0;  // sum / (samples - fans), 0 if every sample is a fan
   double sum = 0;      // of gradient . outward normal

@@ -16,7 +16,8 @@ struct Disk {
   double x, y, radius;
 };
 
-/// The angles of the circle of `disk` that `other` covers, [from, to] with from in [-pi, pi); nothing, or all.
+/// The interval of angles [from, to] of the circle of `disk` that `other` covers, with `from` in [-pi, pi); no value if
+/// it covers none, and the whole circle if it covers all.
 std::optional<std::pair<double, double>> covered(const Disk& disk, const Disk& other, bool other_is_first) {
   const double dx = other.x - disk.x, dy = other.y - disk.y, distance = std::hypot(dx, dy);
   const bool same = distance == 0 && disk.radius == other.radius;

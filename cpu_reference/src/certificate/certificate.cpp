@@ -19,8 +19,9 @@ using Eigen::Vector3i;
 // A unit vector written as three floats: normalising in float loses at most 4 units of roundoff (2^-24) of its length
 // (squares, sum, root, division), storing moves it by at most sqrt(3) 2^-25. Together below 5 * 2^-24.
 constexpr double kFloatUnit = 5 * 0x1p-24;
-// The angle between two such vectors is off by at most both errors, half of it by one; writing the half angle, below 2,
-// as a float adds 2^-24, and computing it in float from the float vectors some units more.
+// The angle between two such vectors has an error of at most both errors, half of it an error of at most one. The half
+// angle, below 2, is written as a float, which adds 2^-24; its computation in float from the float vectors adds some
+// units more.
 constexpr double kFloatAngle = kFloatUnit + 8 * 0x1p-24;
 
 std::string describe(std::size_t ball, const Sphere& s, const std::string& what) {

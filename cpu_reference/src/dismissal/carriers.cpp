@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 // Dots of unit vectors and cosines are off by less than 1e-15.
 constexpr double kCapSlack = 1e-12;
-// A carrier is compared with this many of the nearest, which include those that beat others.
+// The number of the nearest carriers with which each carrier is compared; those that beat others are among them.
 constexpr std::size_t kMostFaceRivals = 4;
 
 /// Collects the carriers that points of one box can touch, with their spokes.

@@ -22,7 +22,7 @@ struct Carrier {
   int normal_count;
   double normal_cosine;  // of the greatest angle between one of them and an axis near all of them
   Cap spokes;
-  const Arc* arc = nullptr;                            // that holds the spokes to an edge of an untrusted triangle
+  const Arc* arc = nullptr;                            // of the spokes to an edge of an untrusted triangle
   std::array<int, 3> vertices = {-1, -1, -1};          // of the mesh: the corners of a face or an edge
   std::array<int, 3> triangle_corners = {-1, -1, -1};  // of the untrusted triangle that lists it; -1: of a trusted one
   double distance = 0;                                 // from the centre of the box
@@ -34,8 +34,8 @@ struct Carrier {
 std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, const Box& box, const Closest& nearest,
                                  std::span<const Contact> contacts);
 
-/// Lemma F: true if everything on the share-weighted mean of a (share 0) and b (share 1) is farther than c, all over
-/// the box.
+/// Lemma F: true if the weighted mean of the distances of a (share 0) and b (share 1) is above the distance of c, in
+/// the whole box.
 bool is_beaten(const Carrier& a, const Carrier& b, double share, const Carrier& c, const Box& box, double slack);
 
 }  // namespace medial_vk::reference

@@ -1,5 +1,5 @@
-// Carriers that leave one vertex: a box of any smaller size looks the same, so only directions can decide whether both
-// may hold a foot of one medial point (docs/theory.md, Lemma J).
+// Carriers that leave one vertex: the configuration is the same in a box of any smaller size, so only directions can
+// decide whether both may hold a foot of one medial point (docs/theory.md, Lemma J).
 #pragma once
 
 #include "dismissal/carriers.h"

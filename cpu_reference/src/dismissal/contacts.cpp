@@ -114,8 +114,8 @@ Closest ContactList::closest(const Vector3d& p) const {
 
 namespace {
 
-/// The two ways in which a contact fits into a cone: `dot(normal, axis) > normal_cosine`, or the same by direction. A
-/// cosine of 2 excludes a way.
+/// The two conditions by which a contact fits into a cone: `dot(normal, axis) > normal_cosine`, or the same for the
+/// direction. A cosine of 2 excludes a condition.
 struct Fit {
   Vector3d normal, direction;
   double normal_cosine = 2, direction_cosine = 2;

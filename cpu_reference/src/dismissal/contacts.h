@@ -38,7 +38,7 @@ class ContactList {
  public:
   /// From the tree: for top-level cells.
   ContactList(const Tree& tree, const Mesh& mesh, const Eigen::Vector3d& centre, double reach);
-  /// From the list of a ball or box that holds all query points: the tree is no longer needed.
+  /// From the list of a ball or box that holds all query points, without the tree.
   ContactList(const ContactList& parent, const Eigen::Vector3d& centre, double reach);
 
   const Eigen::Vector3d& centre() const { return centre_; }

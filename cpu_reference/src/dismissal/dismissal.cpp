@@ -63,7 +63,7 @@ double BoxTest::width_of(const CarrierPair& pair) const {
 UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Thresholds& thresholds, BoxTest& test,
                       const ContactList& list, const Box& voxel) {
   const Box inner = away_from_faces(test.box(), voxel);
-  // A small tolerance, for cells that end where faces begin to be near.
+  // A small tolerance, for cells that end where the region near a face begins.
   if (inner.half.minCoeff() <= 1e-9 * voxel.half.minCoeff()) return UndecidedKind::kNearFace;
   const ContactList inner_list(list, inner.centre, inner.reach());
   BoxTest inner_test(tree, cones, inner, inner_list);

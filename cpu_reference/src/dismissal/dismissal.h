@@ -1,5 +1,5 @@
-// Proofs about a box: that it holds no salient medial point, or else the kind and the greatest width of those that can
-// hide in it (docs/theory.md, "What undecided means").
+// Proofs about a box: that it holds no salient medial point, or the kind and the greatest width of the salient medial
+// points that it may hold (docs/theory.md, "What undecided means").
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class BoxTest {
 
   /// True if it is proved that no medial point of this object angle or more lies in the box, inside the solid.
   bool dismisses(double angle);
-  /// The pairs that dismisses() did not exclude: the first of them, as targets of lines; empty before that call.
+  /// The first pairs that dismisses() did not exclude, as targets of lines; empty before that call.
   const std::vector<CarrierPair>& pairs() const { return search_.pairs; }
 
   /// A bound of the distance of two feet of a medial point of this object angle or more in the box (equation 3.1).
@@ -46,7 +46,7 @@ class BoxTest {
   PairSearch search_;
 };
 
-/// The kind of a salient medial point that may hide in a leaf cell of a finest voxel with these corners. `test` is that
+/// The kind of a salient medial point that may lie in a leaf cell of a finest voxel with these corners. `test` is that
 /// of the cell, `list` its contacts; `angle` is the threshold with which the cell was tested.
 UndecidedKind kind_of(const Tree& tree, const SpokeCones& cones, const Thresholds& thresholds, BoxTest& test,
                       const ContactList& list, const Box& voxel);

@@ -17,8 +17,8 @@ struct CarrierPair {
 };
 
 struct PairSearch {
-  std::vector<CarrierPair> pairs;  // those not excluded, of the nearest carriers first
-  bool complete = true;            // false: stopped before all pairs were tried
+  std::vector<CarrierPair> pairs;  // the pairs that are not excluded, those of the nearest carriers first
+  bool complete = true;            // false: the search ended before all pairs were tried
   bool proves_empty() const { return complete && pairs.empty(); }
 };
 

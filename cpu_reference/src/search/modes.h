@@ -10,7 +10,7 @@
 
 namespace medial_vk::reference {
 
-/// Runs a function for every top-level cell, with progress and interruption.
+/// Runs a function for every top-level cell, reports progress, and stops on request.
 using CellLoop = std::function<void(const std::function<void(const Eigen::Vector3i&)>&)>;
 
 void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, const Options& options,

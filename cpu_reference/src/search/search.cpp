@@ -14,8 +14,8 @@ namespace {
 constexpr double kHair = 1e-9;
 // Levels below the voxel from which points beside a sheet are tested: there cells are not much larger than epsilon.
 constexpr int kDirectDepth = 2;
-// Levels below the voxel at which cells that meet the boundary are abandoned if normals are not trusted: a point that
-// hides in them has a radius below sqrt(3) / 2^5 of the voxel side.
+// Levels below the voxel at which cells that meet the boundary are given up if normals are not trusted: a point in them
+// has a radius below sqrt(3) / 2^5 of the voxel side.
 constexpr int kLevelsAlongBoundary = 5;
 
 }  // namespace

@@ -29,7 +29,7 @@ class VoxelSearch {
   VoxelSearch(const Tree& tree, const SpokeCones& cones, const Sides& sides, const Grid& grid,
               const Thresholds& thresholds, int extra_levels, Result& result);
 
-  /// Fills `sphere` (all but its flux) if a point is found. `parent` is the list of the cell above the voxel.
+  /// Fills `sphere`, except for its flux, if a point is found. `parent` is the list of the cell above the voxel.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
 
   /// The result of the last run, if its outcome is kUndecided.
@@ -68,11 +68,11 @@ class VoxelSearch {
   Undecided undecided_{};
 };
 
-/// The written radius for a computed distance: rounded down, so that the ball cannot protrude.
+/// The written radius for a computed distance: rounded down, so that the ball cannot reach out of the solid.
 double safe_radius(const Tree& tree, double distance);
 
-/// Lemma 2.3: the ball at p, pushed away from its contact by epsilon and grown by epsilon, meets the boundary
-/// elsewhere, by more than rounding. `distance_at` gives the distance to the boundary.
+/// True if the condition of Lemma 2.3 holds: the ball at p, pushed away from its contact by epsilon and grown by
+/// epsilon, meets the boundary elsewhere, by more than rounding. `distance_at` gives the distance to the boundary.
 template <typename Distance>
 bool grows_into_boundary(const Tree& tree, const Eigen::Vector3d& p, double distance, const Eigen::Vector3d& spoke,
                          double epsilon, const Distance& distance_at) {

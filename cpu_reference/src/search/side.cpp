@@ -117,8 +117,8 @@ Side Sides::of_ball(const Vector3d& centre, double radius, const Closest& neares
 }
 
 // A trusted triangle has the inside behind it and the outside in front, and the segment from p to the nearest point
-// meets the boundary there only. At an edge or a corner that argument needs all the neighbours, and on an open mesh the
-// winding number changes along the segment; in these cases it is computed.
+// meets the boundary only there. At an edge or a corner this argument requires all the neighbours, and on an open mesh
+// the winding number changes along the segment; in these cases the winding number is computed.
 bool Sides::inside(const Vector3d& p, const Closest& nearest) const {
   if (rim_.empty() && !mesh_.trusted.empty() && mesh_.trusted[nearest.triangle] && nearest.feature == Feature::kFace) {
     return (p - nearest.point).dot(tree_.normal(nearest.triangle)) < 0;

@@ -23,17 +23,17 @@ class Context;
 /// The parts of an analysis; only those requested are computed.
 struct AnalysisOptions {
   ExtractionOptions extraction;
-  /// Group the spheres into sheets; without a value they are not grouped. `volumes`, `keep_volume`, `removal_orders`
-  /// and `medial_mesh` require sheets; without sheets they are the error kUsage.
+  /// The options of the grouping into sheets; without a value the spheres are not grouped. `volumes`, `keep_volume`,
+  /// `removal_orders` and `medial_mesh` require sheets: without a value here they cause the error kUsage.
   std::optional<SheetOptions> sheets = SheetOptions();
   /// Leave out spheres whose centre lies within epsilon of the centre of another sphere (2.4.2).
   bool simplify = false;
   /// Measure the union of the balls, and with it the significance of sheets (6.1).
   bool volumes = false;
-  /// Sheets are removed, the least significant first, as long as the others hold at least this share of the volume
-  /// (6.3); 0: none is removed.
+  /// Share of the volume, 0 to 1: sheets are removed, the least significant first, as long as the others hold at least
+  /// this share (6.3). 0: no sheet is removed.
   double keep_volume = 0;
-  /// With `keep_volume`: remove no sheet whose removal changes the topology of the union (6.4.1).
+  /// With `keep_volume`: keep every sheet whose removal would change the topology of the union (6.4.1).
   bool keep_topology = false;
   bool removal_orders = false;  ///< Find the complete orders of removal by both rules.
   bool medial_mesh = false;     ///< Join the points to a surface with the topology of the union.
@@ -52,7 +52,8 @@ struct Analysis {
 
   /// The sheets of `spheres`; removed sheets keep their numbers and have no spheres.
   Sheets sheets;
-  /// Of the union before removal; `of_ball` and `areas` are by index into `spheres`.
+  /// The significance of balls and sheets in the union before any removal; `of_ball` and `areas` are by index into
+  /// `spheres`.
   std::optional<Significance> significance;
   /// The order of removal in which the least significant sheet goes first (6.3).
   std::optional<SheetRemoval> by_significance;

@@ -43,13 +43,13 @@ struct BettiNumbers {
   bool operator==(const BettiNumbers&) const = default;
 };
 
-/// Measures a union of balls: centres and radii finite, radii not negative, fewer than 2^30 balls. Of equal balls, the
-/// first counts. Balls of radius 0 are no part of the complex. A point where four spheres or more meet may be among the
-/// vertices of the envelope once, several times or not at all. Lengths below 2^-98 of the largest coordinate or radius
-/// are rounded to 2^-150 of it. Time for n balls of a solid or along its medial surface, where each has a bounded
-/// number of neighbours: n log n; memory: some 700 bytes per ball. Where thousands of cells of distant balls meet, as
-/// between two rods, each ball is measured by itself, and one that overlaps k others takes time k^2. Errors: kUsage
-/// (names the ball), kOutOfMemory.
+/// Measures a union of fewer than 2^30 balls, whose centres and radii are finite and whose radii are not negative. Of
+/// equal balls, the first counts. Balls of radius 0 are no part of the complex. A point where four spheres or more meet
+/// may be among the vertices of the envelope once, several times or not at all. Lengths below 2^-98 of the largest
+/// coordinate or radius are rounded to 2^-150 of it. Time for n balls of a solid or along its medial surface, where
+/// each has a bounded number of neighbours: n log n; memory: some 700 bytes per ball. Where thousands of cells of
+/// distant balls meet, as between two rods, each ball is measured by itself, and one that overlaps k others takes time
+/// k^2. Errors: kUsage (names the ball), kOutOfMemory.
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options = {});
 
 /// Betti numbers over Z/2 of the space that a dual complex triangulates; they equal those of the union. Precondition: a
@@ -61,7 +61,7 @@ Result<BettiNumbers> betti_numbers(const DualComplex& complex);
 // with a GPU (docs/theory.md, "Unions of balls", "On the device").
 
 struct DeviceBallUnionOptions {
-  /// Of the host, which builds the tree and measures the balls left by the device; 0: one per core.
+  /// Threads of the host, which builds the tree and measures the balls that the device cannot measure; 0: one per core.
   unsigned threads = 0;
   /// The greatest accepted error bounds of a ball of radius r: tolerance r^3 for its volume, 10 tolerance r^2 for its
   /// area.

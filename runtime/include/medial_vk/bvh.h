@@ -25,12 +25,14 @@ struct BvhNode {
   std::uint32_t count = 0;
 };
 
+/// The nearest point of a mesh to a query point.
 struct BvhHit {
   double squared_distance = std::numeric_limits<double>::infinity();
   Point point = {0, 0, 0};
-  std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles.
+  std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles; the smallest among exact ties.
 };
 
+/// The tree. Queries may come from several threads at once.
 class Bvh {
  public:
   /// Greatest depth of a leaf below the root, and so the capacity that a traversal stack requires.
@@ -40,24 +42,25 @@ class Bvh {
   /// index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
-  /// The same tree with its leaves split further, for scattered queries on the host. It equals the tree that build()
-  /// makes of the same triangles for `leaf_size`, if none has moved since and kMaxDepth does not matter, but without a
-  /// second sort; leaves that are smaller stay as they are. Errors: kOutOfMemory.
+  /// The same tree with its leaves split further, for scattered queries on the host; smaller leaves are not changed. If
+  /// no triangle has moved and no leaf is at kMaxDepth, it equals the tree that build() makes of the same triangles for
+  /// `leaf_size`, but takes less time. Errors: kOutOfMemory.
   Result<Bvh> refined(std::uint32_t leaf_size) const;
 
-  /// Follows triangles that have moved: takes their corners from `mesh` and makes every box the least one around the
-  /// triangles below it; the triangles of each node and the order of the leaves stay the same. Triangle t of `mesh`
-  /// replaces triangle t. All answers are as exact as those of a new tree, and nearly as fast while triangles that were
-  /// neighbours stay neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result
-  /// does not depend on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not
-  /// finite: the tree is unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
+  /// Follows triangles that have moved: takes the corners of triangle t from triangle t of `mesh`, and makes every box
+  /// the least one around the triangles below it. The triangles of each node and the order of the leaves stay the same.
+  /// All answers are as exact as those of a new tree, and nearly as fast while triangles that were neighbours stay
+  /// neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result does not depend
+  /// on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite: the tree is
+  /// unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
   Status refit(const MeshView& mesh, unsigned threads = 0);
 
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }             ///< Triangle index by leaf position.
   const std::vector<std::array<Point, 3>>& corners() const { return corners_; }  ///< By leaf position.
 
-  /// Nearest point of the mesh to p closer than `bound` (not squared), or triangle = 0xffffffff if there is none.
+  /// The nearest point of the mesh to p. If no point is closer than `bound` (a distance, not its square), `triangle` is
+  /// 0xffffffff.
   BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
   /// True if a point of the mesh lies at a distance below `radius` from `centre`. Stops at the first.
   bool any_within(const Point& centre, double radius) const;

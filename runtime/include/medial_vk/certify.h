@@ -1,5 +1,5 @@
-// The certificate in double precision (contract: every output ball satisfies it). The device finds balls in float;
-// certification makes their radii exact, and drops and counts any ball that does not pass.
+// The certificate in double precision, which every output ball satisfies. The device finds balls in float; the
+// certification makes their radii exact, and drops and counts the balls that do not pass.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct CertificateReport {
 };
 
 /// Recomputes radius and spoke a exactly at each centre as written to the output, rounds the radius down by a derived
-/// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), thresholds, and that the voxel is as stated and
-/// has no other sphere (of several the first stays). Spheres that fail are dropped; in mode certified their voxels are
-/// added to the undecided ones. `options` are those of the extraction. Precondition: spheres in voxel order, as an
-/// extraction returns them. Error: kOutOfMemory; `extraction` is then undefined.
+/// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), the thresholds, and the voxel: the centre lies
+/// in the stated voxel, which has no other sphere (of several, the first is kept). Spheres that fail are dropped; in
+/// mode certified their voxels are added to the undecided ones. `options` are those of the extraction. Precondition:
+/// spheres in voxel order, as an extraction returns them. Error: kOutOfMemory; `extraction` is then undefined.
 Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
                                           Extraction& extraction);
 

@@ -26,13 +26,14 @@ struct DeviceDescription {
   std::string why_not;             ///< If not usable: the reason.
 };
 
-/// Reports that `made` of the `wanted` programs of a call have been compiled: first 0, at last all. Drivers take from
-/// milliseconds to minutes for one. It is called from any thread, one call at a time, and does not throw.
+/// Reports that `made` of the `wanted` programs that a call requires have been compiled: 0 in the first report, all in
+/// the last. A driver takes from milliseconds to minutes for one program. It is called from any thread, one call at a
+/// time, and must not throw.
 using ProgramsProgress = std::function<void(std::size_t made, std::size_t wanted)>;
 
 struct ContextOptions {
-  /// An index, or part of a name (case does not matter). Empty: the environment variable MEDIAL_VK_DEVICE, and if
-  /// that is unset the best device: discrete, integrated, virtual, then CPU.
+  /// An index, or part of a name (case does not matter). Empty: the value of the environment variable MEDIAL_VK_DEVICE;
+  /// if that is not set, the best device: discrete, integrated, virtual, then CPU.
   std::string device;
   /// Enables the Khronos validation layer with synchronisation validation; messages are counted and printed.
   bool validation = false;
@@ -44,22 +45,24 @@ struct ContextOptions {
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
-  /// Called when an extraction or a job needs programs that the context does not have yet. Queries of scenes and unions
-  /// of balls compile their few programs without a report.
+  /// Called when an extraction or a job requires programs that the context does not have yet. Queries of scenes and
+  /// unions of balls compile their few programs without a report.
   ProgramsProgress programs_progress = nullptr;
 };
 
 struct HostDevice;  // host_device.h
 
 /// Owns all Vulkan objects, or computes on a device that its host owns. Move-only. Any number of contexts may exist at
-/// once, on any threads: they share nothing. One context, with the scenes on it, is for one thread at a time.
+/// once, on any threads: they share nothing. A context and the scenes on it are for one thread at a time.
 class Context {
  public:
   /// Errors: kNoDevice (the message lists the devices found and the reason why each is not usable), kOutOfMemory.
   static Result<Context> create(const ContextOptions& options = {});
-  /// A context on the host's device, which must outlive it. Before the context is destroyed, all recorded or submitted
+  /// A context on the host's device, which must outlive it. Precondition of the destructor: all recorded or submitted
   /// work has finished. Errors: kNoDevice (the message gives the reason), kOutOfMemory.
   static Result<Context> adopt(const HostDevice& host);
+  /// All physical devices, in Vulkan's order, with the reasons why some are not usable. Errors: kNoDevice (no loader or
+  /// no driver of Vulkan), kOutOfMemory.
   static Result<std::vector<DeviceDescription>> list_devices();
 
   Context(Context&&) noexcept;

@@ -9,9 +9,10 @@
 
 namespace medial_vk {
 
-/// Simplices over balls, by their indices, ascending within a simplex and among simplices: the nerve of the balls, each
-/// restricted to its power cell (zero alpha complex; H. Edelsbrunner, "The union of balls and its dual shape", 1995).
-/// It has the homotopy type of the union. It contains every face of its simplices.
+/// The dual complex of a union of balls: the nerve of the balls, each restricted to its power cell (zero alpha complex;
+/// H. Edelsbrunner, "The union of balls and its dual shape", 1995). Simplices consist of indices of balls, which ascend
+/// within a simplex and from one simplex to the next. The complex contains every face of its simplices, and has the
+/// homotopy type of the union.
 struct DualComplex {
   std::vector<std::uint32_t> vertices;  ///< Balls that are not hidden: those with a share of the union.
   std::vector<std::array<std::uint32_t, 2>> edges;

@@ -19,8 +19,8 @@ struct Exposure {
   Point vector = {0, 0, 0};  ///< The integral of the outward unit normals there, by area.
 };
 
-/// For hundreds or thousands of balls: a change takes the time of the power cells that it changes, and a few
-/// nanoseconds for every other ball. Volumes are those of measure_ball_union(), under the same conditions for balls.
+/// For hundreds or thousands of balls: a change takes the time of the power cells that it alters, and a few nanoseconds
+/// for every other ball. Volumes are those of measure_ball_union(), under the same conditions for balls.
 class DynamicUnion {
  public:
   /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. Errors: kUsage
@@ -48,12 +48,12 @@ class DynamicUnion {
   Status move(std::uint32_t slot, const Ball& to);
   /// Reverts the last change, but none before it.
   void undo();
-  /// Slots of balls whose power cells the last change has changed.
+  /// The slots of the balls whose power cells have been altered by the last change.
   std::span<const std::uint32_t> changed() const;
 
-  /// The volume by which add() would enlarge the union. Errors: as add().
+  /// The increase of the volume of the union by add(). Errors: those of add().
   Result<double> gain(const Ball& ball);
-  /// The volume by which remove() would reduce the union. Errors: as remove().
+  /// The decrease of the volume of the union by remove(). Errors: those of remove().
   Result<double> loss(std::uint32_t slot);
 
  private:

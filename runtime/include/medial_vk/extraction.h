@@ -25,14 +25,14 @@ Result<Extraction> extract_medial_spheres(const IndexedMesh& mesh, const Extract
 Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions& options,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
-/// A function that finds medial spheres of a mesh, exact to float, like extract_medial_spheres(): on a device, or in
-/// another way.
+/// A function that finds the medial spheres of a mesh, exact to float, as extract_medial_spheres() does: on a device,
+/// or by another method.
 using Extractor = std::function<Result<Extraction>(const IndexedMesh& mesh, const ExtractionOptions& options,
                                                    const ProgressCallback& progress, const std::stop_token& stop)>;
 
-/// An extractor on the device of `context`, which outlives it. The mesh of the last extraction stays on the device, so
-/// that its next extraction requires no upload. For one thread at a time. Does not throw: if there is no memory for it,
-/// its calls return kOutOfMemory.
+/// An extractor on the device of `context`, which must outlive it. The mesh of the last extraction stays on the device,
+/// so that another extraction of the same mesh requires no upload. For one thread at a time. Does not throw: if host
+/// memory does not suffice for the extractor, its calls return kOutOfMemory.
 Extractor device_extractor(Context& context);
 
 }  // namespace medial_vk

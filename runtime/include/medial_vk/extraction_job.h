@@ -8,7 +8,7 @@
 //     job.record(commands);                 // outside of a render pass
 //     ... barriers are recorded: commands that follow, or wait for these, may read job.buffers() ...
 //
-// The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may stick out of the
+// The spheres are those of extract_medial_spheres() in mode certified, exact to float: a ball may reach out of the
 // solid by its rounding, 2e-6 of the longest side. certify_spheres() (certify.h) tests each in double precision and
 // drops those that do not pass.
 #pragma once
@@ -45,7 +45,7 @@ struct RecordedCounts {
   std::uint32_t first_vertex;    ///< 0
   std::uint32_t first_instance;  ///< 0
   std::uint32_t undecided;       ///< Number of undecided voxels.
-  std::uint32_t complete;        ///< 0: the memory budget was too small, or lists were too long; there are no spheres.
+  std::uint32_t complete;        ///< 0: the memory budget was too small or lists were too long; no spheres.
 };
 
 /// The map from the unit box to the units of the mesh: p -> origin + scale p. Radii are multiplied by `scale`.
@@ -69,11 +69,11 @@ struct JobOptions {
   std::uint32_t vertices_per_sphere = 4;  ///< The value of RecordedCounts::vertices.
 };
 
-/// Move-only. For one thread at a time, like its context, which outlives it.
+/// Move-only. For one thread at a time, like its context, which must outlive it.
 class ExtractionJob {
  public:
-  /// Allocates memory and compiles programs, so that recording does neither; submits and waits where the device's
-  /// memory is not the host's. Errors: kUsage (an option out of range, mode thesis, no frames), kInvalidMesh,
+  /// Allocates memory and compiles programs, so that recording does neither. Submits work and waits for it if the
+  /// device has memory of its own. Errors: kUsage (an option out of range, mode thesis, no frames), kInvalidMesh,
   /// kOutOfMemory, kInternal.
   static Result<ExtractionJob> create(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options,
                                       const JobOptions& job = {});
@@ -82,15 +82,15 @@ class ExtractionJob {
   /// Precondition: every recorded sequence has finished, or is never submitted.
   ~ExtractionJob();
 
-  /// Follows vertices that have moved, from the next record() on: `moved` is the mesh that create() was given, after
+  /// Follows vertices that have moved, from the next record() on: `moved` is the mesh passed to create(), after
   /// move_vertices(). CPU work. Errors: kUsage (another mesh, as for Scene::update(); or the job was updated already
   /// since the last record()), kInvalidMesh (no extent: record() fails until an update succeeds), kOutOfMemory.
   Status update(const IndexedMesh& moved);
 
-  /// Appends an extraction to `commands`, which are in the recording state, outside of a render pass, and of the
-  /// context's queue family or one that shares its resources. Barriers before and after order it against everything
-  /// else in the queue, so any stage of later commands may read `buffers()`. Errors: kOutOfMemory, kInternal;
-  /// `commands` are then unusable.
+  /// Appends an extraction to `commands`. Precondition: `commands` are in the recording state, outside of a render
+  /// pass, and belong to the context's queue family or to one that shares its resources. Barriers before and after
+  /// order it against everything else in the queue, so any stage of later commands may read `buffers()`. Errors:
+  /// kOutOfMemory, kInternal; `commands` are then unusable.
   Status record(VkCommandBuffer commands);
 
   JobBuffers buffers() const;

@@ -1,12 +1,11 @@
-// The foam of Sections 3.3 and 3.4 of S. Stolpner, "Medial Spheres for Shape Representation" (2011): bounds of the
-// medial points that finitely many sampled distances in a sphere can miss. docs/foam.md has our own proofs. Computed on
-// the host, in double precision; a callback gives access to boundaries of any kind.
+// The foam of Sections 3.3 and 3.4 of S. Stolpner, "Medial Spheres for Shape Representation" (2011): bounds for the
+// medial points that finitely many samples of the distance in a sphere can miss. docs/foam.md contains the proofs. The
+// computation runs on the host, in double precision; a callback gives access to boundaries of any kind.
 //
 // A medial point is *missed* if it lies inside the sphere and no sampled segment reveals it. Its *width* is the
-// greatest distance between two of its nearest boundary points (equation 3.1: 2 radius sin(object angle) for the two of
-// them), its *depth* its distance from the sphere. No statement here requires the assumptions of Lemma 3.3: boundary
-// points may coincide, the boundary may have edges, the sphere may touch it, and samples may lie anywhere in the
-// sphere.
+// greatest distance between two of its nearest boundary points (equation 3.1: 2 radius sin(object angle)), its *depth*
+// is its distance from the sphere. No statement here requires the assumptions of Lemma 3.3: boundary points may
+// coincide, the boundary may have edges, the sphere may touch it, and samples may lie anywhere in the sphere.
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ struct FoamSample {
   Point nearest;
 };
 
-/// The types of balls at the end of Section 3.3, by where their centre lies. V(A) is the Voronoi cell of site A.
+/// The types of balls at the end of Section 3.3, by the position of their centres. V(A) is the Voronoi cell of site A.
 enum class FoamBallKind : std::uint32_t {
   kHullVertex = 1,     ///< At a vertex of the hull, that is, at a sample: part of the empty foam up to rounding.
   kVoronoiVertex = 2,  ///< At a vertex of V(A) in the hull.
@@ -53,7 +52,7 @@ class Foam {
   /// `query_error`: every sample's `nearest` is at most this far from the boundary, and the open ball around `query`
   /// with radius |query - nearest| - query_error holds no boundary point. slack() adds the rounding of double to it.
   /// Time: about sites^2 + samples * hull facets; memory: linear. Errors: kUsage (no sample, a number that is not
-  /// finite, a radius that is not positive, a query outside), kOutOfMemory.
+  /// finite, a radius that is not positive, a negative query error, a query outside), kOutOfMemory.
   static Result<Foam> build(std::span<const FoamSample> samples, const Ball& sphere, double query_error = 0);
   Foam(Foam&&) noexcept;
   Foam& operator=(Foam&&) noexcept;
@@ -69,16 +68,16 @@ class Foam {
   /// query_error plus a bound of the rounding of this computation.
   double slack() const;
 
-  /// False: x is no nearest boundary point of any medial point in the hull (Lemma 3.3). True if x lies in the full foam
-  /// grown by slack() and in no ball of the empty foam shrunk by slack().
+  /// True if x lies in the full foam grown by slack() and in no ball of the empty foam reduced by slack(). If the
+  /// result is false, x is not the nearest boundary point of any medial point in the hull (Lemma 3.3).
   bool may_hold_contact(const Point& x) const;
 
   /// An upper bound of the width of medial points in the hull at this depth or more (3.4). It is within about 5 % of
-  /// the largest distance that the foam allows between two contacts, one of them at a site, unless that takes too many
-  /// parts. Throws std::bad_alloc.
+  /// the largest distance that the foam allows between two contacts, one of them at a site, unless the region would
+  /// have to be divided into too many parts. Throws std::bad_alloc.
   double width_bound(double depth = 0) const;
-  /// Every medial point inside the sphere that is wider than `width` lies within this distance of the sphere (3.4). At
-  /// most the sphere's radius, which is the trivial bound; found to 1/256 of the radius. Throws std::bad_alloc.
+  /// An upper bound of the depth of medial points inside the sphere whose width is above `width` (3.4): at most the
+  /// radius of the sphere, the trivial bound, in steps of 1/256 of it. Throws std::bad_alloc.
   double depth_bound(double width) const;
   /// The greatest depth of points in the sphere outside the hull.
   double uncovered_depth() const;
@@ -96,29 +95,31 @@ using NearestPointsFunction = std::function<Result<std::vector<Point>>(std::span
 /// The sphere around a cubic voxel.
 Ball sphere_around_voxel(const Point& centre, double side);
 
-/// The samples that Algorithm 3 (DECIDEMS) has examined, and its answer.
+/// The samples that Algorithm 3 (DECIDEMS) has examined, and its result.
 struct SphereSamples {
   Ball sphere;
   std::vector<FoamSample> samples;
-  /// True is the answer 'True': a medial point of the boundary lies in the sphere (Lemma 2.2). False is 'Undetermined'.
+  /// True: a medial point of the boundary lies in the sphere (Lemma 2.2; the algorithm returns 'True'). False: unknown
+  /// (it returns 'Undetermined').
   bool holds_medial_point = false;
 };
 
 struct SphereSamplingOptions {
   std::uint32_t count = 50;  ///< Spiral points on the sphere (2.3.2); the opposite of each is sampled too.
   bool deep_samples = true;  ///< Also c_in and c_out (3.2).
-  double query_error = 0;    ///< The greatest error of the answers of `nearest`, as in Foam::build.
+  double query_error = 0;    ///< The greatest error of the results of `nearest`, as in Foam::build().
 };
 
-/// Algorithm 3 on spiral points, their opposites and the deep samples. A pair counts as different only if the ball at
-/// its far end is not empty by more than rounding and twice the query error, so that the answer 'True' is certain.
-/// Errors: kUsage (a radius that is not positive, a wrong number of answers), kOutOfMemory, and those of `nearest`.
+/// Algorithm 3 on spiral points, their opposites and the deep samples. Two nearest points count as different only if a
+/// boundary point lies in the ball at the far end by more than the rounding and twice the query error, so that the
+/// answer 'True' is certain. Errors: kUsage (a radius that is not positive, or `nearest` returns a wrong number of
+/// points), kOutOfMemory, and those of `nearest`.
 Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSamplingOptions& sampling,
                                     const NearestPointsFunction& nearest);
 
 /// One step of iterated foam sampling (3.5, problem 2): adds the centres of the full foam's balls of types 2 to 4. Such
 /// a centre lies inside the sphere; its opposite, the point where the ray away from its nearest boundary point leaves
-/// the sphere, is added too. Errors: as sample_sphere().
+/// the sphere, is added too. Errors: those of sample_sphere().
 Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
                       const NearestPointsFunction& nearest);
 

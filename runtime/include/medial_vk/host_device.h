@@ -1,8 +1,8 @@
 // A Vulkan device that another program owns, such as a renderer: the library computes on it and leaves it as it was.
 //
-//   device_requirements()  before the device is created: what to request
-//   check_device()         before the device is created: whether this one is usable
-//   Context::adopt()       after it: a context on it
+//   device_requirements()  before the device is created: the version, extensions and features to request
+//   check_device()         before the device is created: a test whether it will be usable
+//   Context::adopt()       afterwards: a context on the device
 //   extraction_job.h       records extractions into the host's command buffers
 #pragma once
 
@@ -40,15 +40,16 @@ struct HostDevice {
   std::uint32_t queue_family = 0;
   std::uint32_t api_version = VK_API_VERSION_1_2;  ///< The version that the instance was created for.
   VkPhysicalDeviceFeatures enabled_features{};     ///< The features that the device was created with.
-  /// For all objects that the context creates; null: the driver's own. Called from several threads at once.
+  /// The source of host memory for all objects that the context creates; null: the default of the driver. It is called
+  /// from several threads at once.
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
   std::string cache_folder;                      ///< As in ContextOptions.
   unsigned threads = 0;                          ///< As in ContextOptions.
   ProgramsProgress programs_progress = nullptr;  ///< As in ContextOptions.
 };
 
-/// Tests whether a device created like this is usable; `device` and `queue` are not read and may be null. Error:
-/// kNoDevice (the message gives the reason).
+/// Tests whether a device that is created with these properties is usable; `device` and `queue` are not read and may be
+/// null. Error: kNoDevice (the message gives the reason).
 Status check_device(const HostDevice& host);
 
 }  // namespace medial_vk

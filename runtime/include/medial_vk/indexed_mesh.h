@@ -20,8 +20,9 @@ class IndexedMesh {
   /// `threads` 0: one per core. Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not
   /// finite, flags that are neither none nor one per triangle), kOutOfMemory.
   static Result<IndexedMesh> build(PreparedMesh mesh, unsigned threads = 0);
-  /// From a mesh without preparation, for whose flags the caller vouches: arrays are copied, and the report holds only
-  /// counts and box. For meshes that are known to be clean, such as those of a renderer. The same errors.
+  /// Builds the index of a mesh that is known to be clean, such as that of a renderer, without its preparation. Arrays
+  /// are copied, the caller is responsible for the flags, and the report holds only the counts and the box. The same
+  /// errors.
   static Result<IndexedMesh> build(const MeshView& mesh, unsigned threads = 0);
 
   // A move is a copy, so that no object is ever empty.
@@ -40,10 +41,10 @@ class IndexedMesh {
   /// Longest side of the bounding box: the unit of every fraction in ExtractionOptions.
   double longest_side() const;
 
-  /// Follows vertices that have moved; their number is as before. The tree is refitted: answers are as exact as those
-  /// of a new tree, and as fast while neighbours stay neighbours. `flags`: TriangleFlags of the new positions, for
-  /// which the caller vouches; empty: the present flags. Errors: kInvalidMesh (another number of vertices or flags, a
-  /// coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
+  /// Follows vertices that have moved; their number is unchanged. The tree is refitted: results are as exact as those
+  /// of a new tree, and nearly as fast while neighbours stay neighbours. `flags`: TriangleFlags for the new positions,
+  /// for which the caller is responsible; empty: the present flags are kept. Errors: kInvalidMesh (another number of
+  /// vertices or flags, a coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
   Status move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags = {}, unsigned threads = 0);
 
  private:

@@ -9,8 +9,8 @@ namespace medial_vk {
 
 struct MeasurementOptions {
   /// Certified: ExtractionMeasurements::device_times by kernel and level ("mark_contacts@2"; a number after a slash
-  /// distinguishes variants of a kernel, "/second" the tasks of one that has two) instead of by stage. Every dispatch
-  /// then ends with a timestamp.
+  /// distinguishes variants of a kernel, "/second" the tasks of one that has two) instead of by stage. In that case
+  /// every dispatch ends with a timestamp.
   bool kernel_times = false;
 
   bool operator==(const MeasurementOptions&) const = default;
@@ -25,20 +25,21 @@ struct ExtractionCounters {
     std::uint64_t contacts = 0;  ///< Total length of the contact lists of the kept cells.
     std::uint64_t found = 0;     ///< Voxels whose point was found at this level (finest level and below).
     std::uint64_t lines = 0;     ///< Certified on a device: lines narrowed, by narrowing_steps steps each.
-    /// On a device: distances between points and triangles of contact lists, for dismissal, lines and flux, but not
-    /// those of the features of pairs; and triangles in the leaves that walks of the tree reach (for winding numbers,
-    /// the number of solid angles evaluated).
+    /// On a device: distances evaluated between points and triangles of contact lists, for dismissal, lines and flux
+    /// (without the features of pairs), plus the triangles in the leaves that walks of the tree reach (for winding
+    /// numbers, the solid angles evaluated).
     std::uint64_t triangle_tests = 0;
-    /// Certified on a device: distances between points and clusters of triangles, where cells are large; `contacts`
-    /// counts clusters there.
+    /// Certified on a device: distances evaluated between points and clusters of triangles, at levels with large cells;
+    /// `contacts` counts clusters there.
     std::uint64_t cluster_tests = 0;
-    /// On a device: boxes, or moments, of the tree that walks have tested. The walk of a packet tests a box against the
-    /// ball around its points and, if the two meet, once more for all of them; empty slots of wide nodes count, too.
+    /// On a device: boxes, or moments, of the tree that walks have tested. A packet counts a box once for the test
+    /// against the ball around its points and, if the two meet, once more for the tests against the points. Empty slots
+    /// of wide nodes count, too.
     std::uint64_t node_tests = 0;
   };
   std::vector<Level> levels;
   std::uint64_t found = 0;            ///< Finest voxels with a point.
-  std::uint64_t undecided = 0;        ///< Finest voxels neither found nor proved empty when the levels ran out.
+  std::uint64_t undecided = 0;        ///< Finest voxels with neither a point nor a proof after the last level.
   std::uint64_t proved_empty = 0;     ///< Finest voxels visited and dismissed, as a whole or in all their parts.
   std::uint64_t queries = 0;          ///< Closest-point queries (contact lists and trees).
   std::uint32_t narrowing_steps = 0;  ///< Certified on a device: of every line, nine parts a step.
@@ -51,7 +52,7 @@ struct StageTime {
   double seconds = 0;
 };
 
-/// Measurements of one extraction, and of a call that goes on from it.
+/// Measurements of one extraction, and of a call that processes its result.
 struct ExtractionMeasurements {
   ExtractionCounters counters;
   std::vector<StageTime> device_times;  ///< By timestamps on the device, empty if it has none.

@@ -23,9 +23,9 @@ struct MedialTopology {
   std::int64_t euler_characteristic = 0;  ///< Points - edges + triangles.
   std::uint64_t boundary_edges = 0;       ///< Edges of one triangle.
   std::uint64_t non_manifold_edges = 0;   ///< Edges of three triangles or more, where sheets meet.
-  /// Edges of no triangle, where the medial surface is a curve; without those of hosted_points.
+  /// Edges of no triangle, where the medial surface is a curve; the edges of hosted_points do not count.
   std::uint64_t bare_edges = 0;
-  std::uint64_t hosted_points = 0;  ///< Points represented by another point: each has one edge, to that point.
+  std::uint64_t hosted_points = 0;  ///< Points that another point represents; each has one edge, to that point.
 };
 
 /// Its vertices are all medial points, by their indices.
@@ -42,13 +42,15 @@ struct MedialMeshOptions {
   /// Balls are joined as if their radii r were sqrt(r^2 + growth^2), so that small balls a voxel apart overlap; large
   /// balls hardly change. Set it to the side of a voxel.
   double growth = 0;
-  double epsilon = 0;  ///< Greatest error of points; of those closer than twice that, the first represents the others.
+  /// Greatest distance of a point from the medial surface. Of points within twice this distance of each other, the
+  /// first represents the others.
+  double epsilon = 0;
   unsigned threads = 0;  ///< 0: one per core. The mesh does not depend on it.
 };
 
 /// Collapses the dual complex of the union of the grown balls to a mesh, which has the homotopy type of that union.
-/// `sheets` are those of the same spheres. The mesh does not depend on the order of the spheres. Errors: those of
-/// measure_ball_union().
+/// Precondition: `sheets` are the sheets of the same spheres. The mesh does not depend on the order of the spheres.
+/// Errors: those of measure_ball_union().
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
                                     const MedialMeshOptions& options);
 

@@ -19,7 +19,7 @@ enum class Mode : std::uint32_t {
 /// Options of mode thesis only.
 struct ThesisOptions {
   bool narrow_features = true;  ///< Also search voxels whose sphere meets the boundary (2.4.3).
-  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, from coarse to fine.
+  std::array<std::uint32_t, 4> samples = {400, 200, 100, 50};  ///< Points per sphere, 1 to 4096, from coarse to fine.
 
   bool operator==(const ThesisOptions&) const = default;
 };
@@ -29,16 +29,17 @@ struct ExtractionOptions {
   Mode mode = Mode::kCertified;
   std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
   double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
-  double radius = 0.0;             ///< Radius threshold as a fraction of the longest side; 0: off (angle only).
-  /// Certified, with a radius threshold: the least object angle of a point of that radius (never above object_angle),
-  /// radians. Creases between the facets of a smooth solid turn by less, medial sheets by more.
+  double radius = 0.0;             ///< Radius threshold as a fraction of the longest side, in [0, 1); 0: off.
+  /// Mode certified, with a radius threshold: the least object angle of a point whose radius reaches the threshold, in
+  /// radians, in (0, pi/2); at most object_angle is required. Spokes turn by less at the creases between the facets of
+  /// a smooth solid, and by more across medial sheets.
   double deep_angle = 0.15;
-  double epsilon = 0.01;           ///< Tolerance as a fraction of the voxel side, in [1e-3, 0.5].
-  std::uint32_t extra_levels = 6;  ///< Certified: levels of subdivision below the finest voxel before giving up.
+  double epsilon = 0.01;           ///< Largest distance from a medial point, in voxel sides: [1e-3, 0.5].
+  std::uint32_t extra_levels = 6;  ///< Mode certified: levels of subdivision below the finest voxel, 0 to 10.
   ThesisOptions thesis;            ///< Of mode thesis only.
-  /// Upper limit of device memory in bytes. It includes the mesh and the staging memory of copies, but not the staging
-  /// memory of moved vertices (ExtractionJob). Beside a mesh that takes more than three quarters of it, the rest still
-  /// gets a quarter, and the total exceeds the limit.
+  /// The device memory to stay below, in bytes. It includes the mesh and the staging memory of copies, but not the
+  /// staging memory of moved vertices (ExtractionJob). At least a quarter of it is left for the search, so the total
+  /// exceeds the budget if the mesh takes more than three quarters.
   std::uint64_t memory_budget = 1ull << 30;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
   MeasurementOptions measurements;
@@ -60,7 +61,7 @@ struct MedialSphere {
   std::array<float, 3> spoke_a;        ///< Unit vector from the centre to its nearest boundary point.
   std::array<float, 3> spoke_b;        ///< Unit vector to the boundary point on the other side of the medial sheet.
   float object_angle = 0;              ///< Half the angle between the spokes, radians.
-  float flux = 0;                      ///< Average outward flux through the sphere around its voxel (2.4).
+  float flux = 0;                      ///< Average outward flux through the sphere around its voxel (equation 2.4).
   std::int32_t sheet = -1;             ///< -1 until sheets are found (Section 2.5).
   std::array<std::uint32_t, 3> voxel;  ///< Grid coordinates of the voxel that holds the centre.
 };

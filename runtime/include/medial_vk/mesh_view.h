@@ -15,7 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// embedded boundary).
 enum TriangleFlags : std::uint8_t {
   /// All edges and vertices of the triangle are manifold, its neighbours agree in orientation, no other triangle
-  /// crosses it, the inside lies behind it and the outside in front: its outward normal may be trusted.
+  /// crosses it, the inside lies behind it and the outside in front: its outward normal is trusted.
   kTrustedNormal = 1u << 0,
   /// Other triangles meet it only in a vertex or an edge that they share by index. kTrustedNormal implies this
   /// property, whether or not this flag is set.
@@ -29,8 +29,8 @@ struct MeshView {
   std::span<const Triangle> triangles;
   /// One TriangleFlags value per triangle, or empty: then no normal is trusted.
   std::span<const std::uint8_t> flags;
-  /// True if every edge is shared by triangles whose orientations cancel: the winding number is then an integer
-  /// away from the surface, and inside and outside can be decided for whole cells.
+  /// True if every edge is shared by triangles whose orientations cancel: the winding number is then an integer away
+  /// from the boundary, and whole cells can be decided to lie inside or outside.
   bool closed = false;
 };
 

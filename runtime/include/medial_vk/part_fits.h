@@ -1,5 +1,5 @@
-// The parts of an assembly, such as the geometries of a robot's links, approximated by balls: each part by its own,
-// with a proved contract. Numbers of balls are distributed among the parts by need.
+// The parts of an assembly, such as the geometries of a robot's links, approximated by balls: each part by its own
+// balls, with a proved contract. Numbers of balls are distributed among the parts by need.
 #pragma once
 
 #include <cstddef>
@@ -30,10 +30,10 @@ struct Part {
   Pose pose;         ///< From the frame of the part to that of its link.
   /// In the frame of the part; without a value if the part is a ball. Parts of the same shape may share one mesh.
   std::optional<IndexedMesh> mesh;
-  std::optional<Ball> ball;  ///< The part itself, in its own frame; it is approximated by one ball, which is exact.
+  std::optional<Ball> ball;  ///< A part that is a ball, in its own frame. It is approximated by itself, exactly.
   /// The exact volume of the shape that the mesh approximates, such as a cylinder, in cubed mesh units; errors are then
-  /// those against the shape. With contract inside the mesh lies inside the shape; with contract cover it encloses it.
-  /// Balanced balls are measured against the mesh.
+  /// relative to the shape. Precondition: the mesh lies inside the shape (contract inside), or encloses it (contract
+  /// cover). Balanced balls are measured against the mesh.
   std::optional<double> volume;
 };
 
@@ -53,10 +53,12 @@ struct PartFit {
   /// the contract by itself, the rounding of the pose included. All parts have the same number of levels: a part with
   /// fewer sets repeats its smallest.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances that balls reach out of the part.
-  std::size_t count = 0;        ///< The number of balls assigned to the part; 0: as many as its other goals require.
-  std::optional<double> solid_volume;  ///< Part::volume if `of_shape`, else of its mesh if that encloses one cleanly.
-  bool of_shape = false;  ///< `solid_volume` and the volume errors are those of the shape: of a ball, or Part::volume.
+  std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances by which balls reach out.
+  std::size_t count = 0;  ///< The number of balls assigned to the part; 0: the number that its other goals require.
+  /// The volume of the shape if `of_shape`, else that which the mesh encloses cleanly, if it does.
+  std::optional<double> solid_volume;
+  /// `solid_volume` and the volume errors are those of the shape: of the ball, or Part::volume.
+  bool of_shape = false;
   std::optional<double> spheres_volume;    ///< Of the union of the last level.
   std::optional<SphereMeasures> measures;  ///< Of `proved`. Without a value for a part that is a ball.
   /// The last level in the frame of the part, where its contract was proved. Empty for a part that is a ball.
@@ -68,7 +70,7 @@ struct PartFit {
 ///
 /// A number of balls for several parts is distributed by need: each part gets one ball, and every further ball goes to
 /// the part where it covers the most volume that is not yet covered (measure_coverage_curve()), for every contract.
-/// With the method best, a larger number gives no part fewer balls, and no part of contract inside a larger error.
+/// With the method best, a larger number gives no part fewer balls and, with contract inside, no part a larger error.
 ///
 /// `extractor` is called once for each part and ExtractionOptions. `progress` is called with the stages of
 /// fit_spheres() and the finished share of all parts, one call at a time but from any thread; a request to `stop` soon

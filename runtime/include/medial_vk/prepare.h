@@ -1,4 +1,4 @@
-// Preparation: from any triangles to a mesh that can be searched, with a report of the assumptions made.
+// Preparation: any triangles become a mesh that can be searched, with a report of the assumptions that were made.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace medial_vk {
 
-/// Called with the finished share, 0 to 1, between steps of the work and every ten milliseconds while the device
+/// Called with the finished share, 0 to 1: between the steps of the work, and every ten milliseconds while the device
 /// computes.
 using ProgressCallback = std::function<void(double done)>;
 /// The same for calls with several stages; their descriptions list the names of the stages.

@@ -9,8 +9,8 @@
 
 namespace medial_vk {
 
-/// The kind of an error. The library has no values from 1000 on: they are free for a program, whose own Extractor may
-/// return them through the library.
+/// The kind of an error. Values from 1000 on are free for a program: its own Extractor may return them through the
+/// library.
 enum class ErrorCode : int {
   kInternal,     ///< A defect of the library, or a device that was lost.
   kUsage,        ///< An argument that the call does not accept; the message names it.

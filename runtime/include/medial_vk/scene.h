@@ -1,5 +1,5 @@
-// Batches of scattered queries against one mesh on the device, answered by walks of its BVH. The tests compare their
-// results with the CPU reference, kernel by kernel.
+// Batches of scattered queries of one mesh on the device, answered by walks of its BVH. The tests compare the results
+// with the CPU reference, kernel by kernel.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,10 @@ class Context;
 enum class Feature : std::uint32_t { kFace = 0, kEdge = 1, kVertex = 2 };
 
 struct ClosestPoint {
-  Point point;                 ///< Nearest point of the mesh, mesh units, float accuracy of the longest side.
+  /// Nearest point of the mesh, in mesh units, to float accuracy relative to the longest side.
+  Point point;
   double distance = 0;         ///< |query - point|.
-  std::uint32_t triangle = 0;  ///< Index into MeshView::triangles; the smallest among exact float ties.
+  std::uint32_t triangle = 0;  ///< Index into MeshView::triangles; the smallest among exact ties in float.
   Feature feature = Feature::kFace;
 };
 
@@ -32,16 +33,16 @@ struct FluxSample {
   std::uint32_t fans = 0;        ///< Samples left out.
 };
 
-/// A mesh on the device, in float, scaled to the unit box. Queries may lie anywhere; beyond the mesh's box the accuracy
-/// is that of a float of their distance from it. Errors of every query: kUsage (a coordinate that is not finite, or
-/// further away than 1e15 box sizes), kOutOfMemory, kInternal (device lost).
+/// A mesh on the device, in float, scaled to the unit box. Queries may lie anywhere; outside of the mesh's box the
+/// accuracy is that of a float of the size of their distance from it. Errors of every query: kUsage (a coordinate that
+/// is not finite, or further away than 1e15 box sizes), kOutOfMemory, kInternal (device lost).
 class Scene {
  public:
   /// Uploads the mesh. Errors: kInvalidMesh (no extent), kOutOfMemory.
   static Result<Scene> create(Context& context, const IndexedMesh& mesh);
-  /// Follows vertices that have moved; `moved` is the mesh that create() was given, after move_vertices(). Errors:
-  /// kUsage (another mesh, detected by the order of its tree and the number of vertices: the scene is unchanged),
-  /// kInvalidMesh (no extent: the scene is unusable until an update succeeds), kOutOfMemory (likewise).
+  /// Follows vertices that have moved; `moved` is the mesh passed to create(), after move_vertices(). Errors: kUsage
+  /// (another mesh, detected by the order of its tree and the number of vertices: the scene is unchanged), kInvalidMesh
+  /// (no extent: the scene is unusable until an update succeeds), kOutOfMemory (likewise).
   Status update(const IndexedMesh& moved);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
@@ -50,16 +51,16 @@ class Scene {
   /// Closest points, for points in any order; batches of some thousands or more are sorted in space, and neighbours
   /// share their walks.
   Result<std::vector<ClosestPoint>> closest_points(std::span<const Point> points);
-  /// The same into `out`, which a caller with many batches can reuse: pages of new memory cost time. Also kUsage: the
-  /// size of `out` differs from the number of points. After an error the content of `out` is undefined.
+  /// The same into `out`, which a caller with many batches can reuse, since new memory costs time. Additional error:
+  /// kUsage, if the size of `out` differs from the number of points. After an error the content of `out` is undefined.
   Status closest_points(std::span<const Point> points, std::span<ClosestPoint> out);
   /// The same for groups of `group_size` consecutive points that lie near each other compared with the distance between
-  /// groups: samples of spheres, for example, with the centre among them. A group shares one walk. Fastest with up to
-  /// 51 points per group, and if all groups arrange their points alike. Also kUsage: the number of points is no
-  /// multiple of `group_size`, or that is 0 or above 262,144.
+  /// groups: samples of spheres, for example, with the centre among them. A group shares one walk. It is fastest with
+  /// up to 51 points per group, and if all groups arrange their points alike. Additional error: kUsage, if the number
+  /// of points is no multiple of `group_size`, or if `group_size` is 0 or above 262,144.
   Result<std::vector<ClosestPoint>> closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size);
   Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
-  /// 1 where the open ball holds no point of the mesh, else 0. Stops at the first point found inside.
+  /// For each ball: 1 if the open ball holds no point of the mesh, else 0.
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
   /// Generalised winding numbers (Jacobson et al. 2013), each within `tolerance` of the exact value.
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance = 0.05);

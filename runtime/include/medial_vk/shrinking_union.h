@@ -11,9 +11,9 @@
 
 namespace medial_vk {
 
-/// Holds all balls, and marks those still in the union. A removal changes only the power cells of neighbours, and of
-/// balls that the removed ones had hidden; only these are remeasured. For volumes of parts (S. Stolpner, 2011, Section
-/// 6.3) and for simplification that preserves the topology (Section 6.4.1).
+/// Holds all balls, and marks those that are still in the union. A removal changes only the power cells of the
+/// neighbours and of balls that the removed ones had hidden, and only these are remeasured. It serves the removal of
+/// sheets by significance (S. Stolpner, 2011, Section 6.3) and without changes of topology (Section 6.4.1).
 class ShrinkingUnion {
  public:
   /// Conditions and errors are those of measure_ball_union(). `threads` 0: one per core; results do not depend on it.
@@ -38,7 +38,7 @@ class ShrinkingUnion {
   /// Balls in the union whose power cells the last remove() has changed, ascending; empty after undo(). Valid until the
   /// next call that is not const.
   std::span<const std::uint32_t> changed() const;
-  /// Puts back the balls of the last remove(). Does nothing if it was undone already, or if there was none.
+  /// Restores the balls of the last remove(). Does nothing if that was undone already, or if there was none.
   void undo();
 
  private:

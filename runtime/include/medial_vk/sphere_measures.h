@@ -20,7 +20,7 @@ struct InsideProof {
   std::uint64_t tested = 0;
   std::uint64_t failed = 0;
   std::uint32_t first_failure = 0;  ///< Index of a ball, if any failed.
-  /// The greatest difference of radius and distance, mesh units, rounded up (towards failure); 0: no ball.
+  /// The greatest excess of a radius over the distance, in mesh units, rounded up (towards failure); 0: no ball.
   double greatest_excess = 0;
 
   bool proved() const { return failed == 0; }
@@ -31,7 +31,7 @@ struct InsideProof {
 struct CoverProof {
   std::uint64_t triangles = 0;  ///< Of the boundary.
   std::uint64_t uncovered = 0;  ///< Of these: triangles with a point in no ball.
-  /// Of these: triangles with no such point found, and not covered by parts of a reasonable number and size.
+  /// Of these: triangles for which neither such a point nor a cover by a reasonable number of parts was found.
   std::uint64_t undecided = 0;
   Point first_uncovered{};     ///< A point where the first uncovered or undecided triangle failed.
   std::uint64_t vertices = 0;  ///< Of the envelope.
@@ -43,7 +43,7 @@ struct CoverProof {
   bool proved() const { return closed && surface_proved() && inside == 0; }
 };
 
-/// Suprema of distances, mesh units. The boundary is that of the mesh; the envelope is that of the balls.
+/// Suprema of distances, in mesh units. The boundary is that of the solid, the envelope that of the union of the balls.
 struct EnvelopeDistances {
   Bounds solid_to_balls;        ///< From points of the solid to the balls: 0 if they cover it.
   Bounds balls_to_solid;        ///< From points of the balls to the solid: 0 if they lie inside.
@@ -72,7 +72,8 @@ struct VolumeError {
   double normalized_lower_bound() const;
 };
 
-/// Names and definitions are those of cuRobo's SphereFitMetrics, except where a remark differs. Lengths in mesh units.
+/// Names and definitions are those of cuRobo's SphereFitMetrics, except where a comment states a difference. Lengths
+/// are in mesh units.
 struct SphereFitMetrics {
   std::size_t num_spheres = 0;
   double coverage = 0;    ///< Share of the solid's volume that is in a ball (exact where VolumeError is).
@@ -109,14 +110,14 @@ struct SphereMeasures {
   DistanceHistograms histograms;
 };
 
-/// Replaces the volume of the mesh by that of a curved shape which the mesh approximates, and recomputes the volume
-/// error. The error is exact if balls proved `inside` lie inside a mesh inscribed in the shape, or balls proved to
-/// `cover` enclose a mesh around the shape. Balls with neither proof keep the error against the mesh, and the function
-/// returns false.
+/// Refers the measures to a curved shape that the mesh approximates: replaces the volume of the solid by
+/// `shape_volume`, in cubed mesh units, and recomputes the volume error, the coverage and the volume ratio. The result
+/// is exact if the mesh encloses the shape (balls with the proof `cover`), or lies inside it (balls with the proof
+/// `inside`). Without either proof nothing is changed, and the function returns false.
 bool measure_against(double shape_volume, SphereMeasures& measures);
 
-/// Upper bounds of the distance that each ball reaches out of the solid: mean, least and greatest over the balls of a
-/// set. All are 0 if no ball does.
+/// Upper bounds of the distances by which the balls of a set reach out of the solid: their mean, least and greatest.
+/// All are 0 if no ball reaches out.
 struct ReachOut {
   double mean = 0, least = 0, greatest = 0;
 };

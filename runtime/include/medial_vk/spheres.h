@@ -34,13 +34,13 @@ enum class SphereMethod {
 struct SphereOptions {
   SphereMethod method = SphereMethod::kBest;
   SphereContract contract = SphereContract::kInside;
-  /// Greatest number of balls; 0: as many as the other goals require, of which one must then be given.
+  /// Greatest number of balls; 0: the number that the other goals require, of which one must then be given.
   std::size_t count = 0;
-  /// Greatest uncovered volume as a share of the solid's; kCover: the added volume; kBalanced: the sum of both, by an
-  /// estimate. 0: no such goal.
+  /// Greatest volume error, as a share of the solid's volume: kInside: the uncovered volume; kCover: the added volume;
+  /// kBalanced: the sum of both, by an estimate. In [0, 1); 0: no such goal.
   double error = 0;
   double max_gap = 0;  ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
-  /// Of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
+  /// The resolution of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
   std::uint32_t resolution = 0;
   double object_angle = 0.6;  ///< Of method source.
   bool levels = false;        ///< Also return sets of half, a quarter ... of the balls.
@@ -57,7 +57,7 @@ struct SphereFit {
   /// Sets of balls, the smallest first; one, unless levels were requested. Every set satisfies the contract by itself.
   /// With contract kInside, the last set is ordered such that every prefix is a good set of its size.
   std::vector<std::vector<Ball>> levels;
-  std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances that balls reach out of the solid.
+  std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances by which balls reach out.
   SphereMeasures measures;             ///< Of the last level.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
@@ -65,8 +65,8 @@ struct SphereFit {
 /// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves the contract, and
 /// measures the balls. `progress` is called with "medial points", "spheres" and "cover", one call at a time but from
 /// any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal,
-/// a goal that the contract or method does not support, a goal that is not reached); kInvalidMesh (no ball fits);
-/// kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
+/// a goal out of range, a goal that the contract, the method or the mesh does not support, a goal that is not reached);
+/// kInvalidMesh (no ball fits); kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
@@ -74,15 +74,15 @@ Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& opti
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
-/// The volume of a solid covered by 1, 2, 3 ... balls inside it, which is used to distribute balls among solids.
+/// The volume of a solid that 1, 2, 3 ... balls inside it cover, by which balls are distributed among solids.
 struct CoverageCurve {
   std::vector<double> covered;         ///< Volume of the union of the first 1, 2, 3 ... balls.
   bool ends = false;                   ///< True if the method finds no more balls than these.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
 
-/// The curve for at least `options.count` balls, or all that exist. Contract and goals of the options are not read.
-/// Errors: those of fit_spheres().
+/// The curve for at least `options.count` balls, or for as many as the method finds. The contract and the goals of the
+/// options are not read. Errors: those of fit_spheres().
 Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
                                              const Extractor& extractor, const StageProgress& progress = {},
                                              const std::stop_token& stop = {});

@@ -1,4 +1,4 @@
-// Exhausted host memory is reported at the library's interface as an error, not as an exception.
+// The conversion of exceptions of exhausted host memory to errors, at the interface of the library.
 #pragma once
 
 #include <new>

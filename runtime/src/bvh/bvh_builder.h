@@ -27,7 +27,7 @@ class BvhBuilder {
   std::vector<std::uint32_t> take_order() { return std::move(order_); }
 
  private:
-  /// A node to be: primitives [begin, end) of one of the two arrays, and the box around their doubled centres.
+  /// A future node: primitives [begin, end) of one of the two arrays, and the box around their doubled centres.
   struct Range {
     std::uint32_t begin = 0, end = 0;
     std::uint32_t depth = 0;

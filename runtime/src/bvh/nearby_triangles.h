@@ -14,15 +14,16 @@
 
 namespace medial_vk {
 
-/// The leaf positions of all triangles within `radius` of `centre`, and of some triangles beyond it, replace
-/// `positions`. Throws std::bad_alloc.
+/// Replaces `positions` by the leaf positions of all triangles within `radius` of `centre`, and of some triangles
+/// beyond. Throws std::bad_alloc.
 void gather_within(const Bvh& bvh, const Point& centre, double radius, std::vector<std::uint32_t>& positions);
 
-/// The leaves, as indices into Bvh::nodes(), whose boxes reach within `radius` of `centre` replace `leaves`. Throws
+/// Replaces `leaves` by the indices in Bvh::nodes() of all leaves whose boxes reach within `radius` of `centre`. Throws
 /// std::bad_alloc.
 void gather_leaves(const Bvh& bvh, const Point& centre, double radius, std::vector<std::uint32_t>& leaves);
 
-/// As Bvh::closest(), among the triangles at these leaf positions and `best`, the best hit of other triangles.
+/// As Bvh::closest(), among the triangles at these leaf positions, and `best`: the nearest point of triangles tested
+/// before.
 BvhHit closest_of(const Bvh& bvh, const Point& p, std::span<const std::uint32_t> positions, BvhHit best = {});
 
 /// The index in `positions` of the first triangle closer to p than `radius` (positive), or positions.size() if there is

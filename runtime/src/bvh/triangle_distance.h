@@ -35,7 +35,7 @@ inline NearestOffset nearest_on_segment(const Point& start, const Point& edge) {
   return {dot(offset, offset), offset};
 }
 
-/// The least of the three edges and, where it falls inside, the foot of the perpendicular on the plane.
+/// The nearest of the points of the three edges and, if it lies inside, the foot of the perpendicular on the plane.
 ///
 /// Accuracy. Every candidate is start + (a convex combination of the edges), a point of the triangle up to rounding,
 /// so the distance is never below the exact one by more than a few u (u = 2^-53) of edge lengths and distance, for any

@@ -66,8 +66,8 @@ class Certifier {
     triangles_.surround(centre, radius * (1 + 1e-9), s.region);
   }
 
-  /// The same for the sphere, or, if it fails, for one beside it on the same sheet: double can distinguish contacts of
-  /// three sheets that nearly tie in float.
+  /// As certify() for the sphere or, if it fails, for one beside it on the same sheet: double can distinguish contacts
+  /// of three sheets that nearly tie in float.
   bool certify_or_mend(MedialSphere& s, Surroundings& around) const {
     const MedialSphere as_found = s;
     if (certify(s, around)) return true;

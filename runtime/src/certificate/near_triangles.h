@@ -1,5 +1,5 @@
-// The triangles near each of many balls beside each other: the tree is walked once for all balls, and its leaves and
-// their triangles are then tested four at a time, in float.
+// The triangles near each of many neighbouring balls: the tree is walked once for all balls, and then its leaves and
+// their triangles are tested four at a time, in float.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Region {
   Point centre = {0, 0, 0};
   double radius = -1;
   std::vector<std::uint32_t> leaves;
-  std::array<std::vector<float>, 6> boxes;  ///< Of the leaves, lower and upper corners: x, y, z; and some more entries.
+  std::array<std::vector<float>, 6> boxes;  ///< Of the leaves, lower and upper corners: x, y, z; padded.
 };
 
 class NearTriangles {
@@ -25,8 +25,8 @@ class NearTriangles {
   explicit NearTriangles(const Bvh& bvh);
 
   void surround(const Point& centre, double radius, Region& region) const;
-  /// As gather_within(), in another order; fast where the ball lies in `region`. The first ones, whose number is
-  /// returned, are all those that may reach into the smaller ball of `inner_radius`.
+  /// As gather_within(), in another order; fast where the ball lies in `region`. All triangles that may reach into
+  /// the smaller ball of `inner_radius` come first; their number is returned.
   std::size_t gather(const Region& region, const Point& centre, double radius, double inner_radius,
                      std::vector<std::uint32_t>& positions) const;
   /// As closest_of(); the order of `positions` changes, and `bounds` is scratch memory.

@@ -50,7 +50,7 @@ class Context::Impl {
   // elsewhere nothing guarantees it. Tests clear it.
   bool has_lockstep_lanes = false;
   // Number of runs of neighbouring workgroups into which a dispatch is divided, one for each thread of a processor that
-  // runs shaders (llvmpipe); 1: not divided. A wrong number only balances threads badly. Tests change it.
+  // runs shaders (llvmpipe); 1: not divided. A wrong number affects only the balance of the threads. Tests change it.
   std::uint32_t dispatch_threads = 1;
   std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   DeviceDescription description;

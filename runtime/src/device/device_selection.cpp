@@ -61,8 +61,8 @@ std::uint64_t largest_local_heap(VkPhysicalDevice device) {
   return largest;
 }
 
-/// A family with compute; one without graphics if there is such a family, since on a desktop the windows are drawn by
-/// the other and stay responsive while we compute.
+/// A family with compute, without graphics if there is such a family: on a desktop the other one draws the windows,
+/// which then stay responsive during the computation.
 std::optional<std::uint32_t> compute_family(std::span<const VkQueueFamilyProperties> families) {
   std::optional<std::uint32_t> found;
   for (std::uint32_t i = 0; i < families.size(); ++i) {

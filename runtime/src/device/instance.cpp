@@ -62,7 +62,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::uint64_t* message_count) 
   info.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   // Not the GENERAL type: there the loader and the drivers report on the machine (a manifest that does not parse, a
-  // driver without conformance), which does not concern our use of Vulkan and would fail tests at random.
+  // driver without conformance), which does not concern the library's use of Vulkan and would fail tests at random.
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = on_message;
   info.pUserData = message_count;
@@ -113,7 +113,7 @@ Result<Instance> create_instance(bool validation, std::uint64_t* message_count,
   application.pApplicationName = "medial-vk";
   application.apiVersion = VK_API_VERSION_1_2;
 
-  // The messenger in the chain also hears vkCreateInstance and vkDestroyInstance themselves.
+  // The messenger in the chain also receives the messages about vkCreateInstance and vkDestroyInstance.
   const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(message_count);
   const std::array enabled = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT features{};

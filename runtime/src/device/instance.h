@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// A VkInstance and, with validation, the messenger that counts what the layer reports.
+/// A VkInstance and, with validation, the messenger that counts the reports of the layer.
 struct Instance {
   VkInstance handle = VK_NULL_HANDLE;
   PFN_vkDestroyInstance destroy = nullptr;

@@ -1,4 +1,4 @@
-// The only access from a public handle to its Impl, for the parts of the library and its tests.
+// The access from a public handle to its Impl, for the library and its tests only.
 #pragma once
 
 #include "medial_vk/context.h"

@@ -22,7 +22,7 @@ struct FileHeader {
   std::uint64_t checksum = 0;
 };
 
-/// Far above any real cache of a dozen kernels; keeps a planted file from filling the memory.
+/// Far above any real cache of a dozen kernels; the limit prevents a forged file from filling the memory.
 constexpr std::uint64_t kMaxCacheBytes = 256ull << 20;
 
 std::uint64_t fnv1a(std::span<const std::byte> data) {
@@ -72,7 +72,7 @@ fs::path temporary_name(const fs::path& file, const void* unique) {
 
 std::string pipeline_cache_folder(const std::string& option) {
   if (!option.empty()) return option;
-  // The XDG rules: a relative path is to be ignored.
+  // By the XDG rules a relative path is ignored.
   const char* cache_home = std::getenv("XDG_CACHE_HOME");
   if (cache_home != nullptr && cache_home[0] == '/') return std::string(cache_home) + "/medial-vk";
   const char* home = std::getenv("HOME");

@@ -30,7 +30,7 @@ std::string pipeline_cache_file(const std::string& folder, const PipelineCacheId
 /// The data for VkPipelineCacheCreateInfo, or no data if the file is absent, damaged or of another driver.
 std::vector<std::byte> read_pipeline_cache(const std::string& file, const PipelineCacheIdentity& identity);
 
-/// Writes a temporary file beside `file` and renames it, so that readers see the old or the new file, whole.
+/// Writes a temporary file beside `file` and renames it, so that readers see the whole old file or the whole new file.
 /// Creates the folder if necessary. Returns whether it succeeded.
 bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data);
 

@@ -1,4 +1,4 @@
-// Command buffers: recorded, submitted to a queue of the device, waited for.
+// Command buffers: their recording, their submission to a queue of the device, and the wait for their end.
 #pragma once
 
 #include <volk.h>
@@ -56,7 +56,7 @@ class Commands {
   Status submit(const Semaphore* wait_for, const Semaphore* signal);
   /// Returns at once if nothing is pending. `while_waiting` is called every ten milliseconds. Errors: as submit().
   Status wait(const std::function<void()>& while_waiting = {});
-  /// The same where errors cannot be reported, after another error.
+  /// The same without a result, after another error.
   void drain() noexcept;
 
  private:
@@ -72,9 +72,9 @@ class Commands {
   bool under_way_ = false;
 };
 
-/// Compiles the missing programs that `record` needs, on the threads of the context: to compile them one by one at
-/// their first use would take longer than a small job. `record` is called once, for a rehearsal. Errors: of `record`,
-/// and of the programs.
+/// Compiles the missing programs that `record` requires, on the threads of the context, since compiling them one by one
+/// at their first use would take longer than a small job. `record` is called once, for a rehearsal. Errors: of
+/// `record`, and of the programs.
 Status make_programs(ContextImpl& context, const std::function<Status(Recorder&)>& record);
 
 /// Records with `record`, submits, waits; returns seconds per stage. `while_waiting` is called every ten milliseconds

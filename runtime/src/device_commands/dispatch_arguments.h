@@ -20,9 +20,9 @@ class DispatchArguments {
   /// measures this work as a stage of its own. Errors: kOutOfMemory.
   Status create(Arena& arena, const Buffer& counters, const StopWord& stop, bool is_stage);
 
-  /// From here on offset_of() only records requests, and nothing may be dispatched.
+  /// Starts the plan: offset_of() only notes requests, and nothing may be dispatched.
   void begin_plan();
-  /// From here on the same calls in the same order as since begin_plan().
+  /// Starts the recording: the same calls must follow in the same order as after begin_plan().
   void begin();
   bool plans() const { return plans_; }
 
@@ -41,7 +41,7 @@ class DispatchArguments {
     std::uint32_t start = gpu::kStartNothing;
     std::vector<gpu::DispatchConstants> rows;
   };
-  // The answer to a call of offset_of().
+  // The result of a call of offset_of().
   struct Call {
     std::size_t batch, row;
   };

@@ -32,7 +32,7 @@ const char* kind_name(MemoryKind kind) {
 
 /// The suitability of a memory type, 0: not usable.
 int suitability(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
-  // Types that need a feature or an extension which we do not enable, or that have other purposes.
+  // Types that require a feature or an extension which the library does not enable, or that have other purposes.
   constexpr VkMemoryPropertyFlags kNever = VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT | VK_MEMORY_PROPERTY_PROTECTED_BIT |
                                            VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD |
                                            VK_MEMORY_PROPERTY_DEVICE_UNCACHED_BIT_AMD |

@@ -43,8 +43,8 @@ struct Buffer {
 /// Bytes of staging memory for the upload of a mesh (uploads.h) and the download of points; 0 where the host can map
 /// all memory.
 VkDeviceSize bytes_on_the_way(const ContextImpl& context);
-/// Of this budget, the part that is left to the compiler of a processor's driver, which has the same memory; 0 for GPUs
-/// and llvmpipe. SwiftShader takes up to 150 MiB, for a moment.
+/// The part of this budget that is left to the compiler of a driver for processors, which uses the same memory; 0 for
+/// GPUs and llvmpipe. SwiftShader takes up to 150 MiB, for a short time.
 std::uint64_t bytes_of_compiler(const ContextImpl& context, std::uint64_t budget);
 /// The rest of a memory budget beside `held` bytes; at least a quarter of the budget, so that the sum may exceed it.
 inline std::uint64_t left_of(std::uint64_t budget, VkDeviceSize held) {
@@ -63,7 +63,8 @@ class Arena {
   Result<Buffer> create_buffer(VkDeviceSize bytes, MemoryKind kind, const char* purpose);
   /// A view of texels of 16 bytes over a whole buffer, vec4 or uvec4. Errors: kOutOfMemory.
   Result<VkBufferView> create_texel_view(const Buffer& buffer, VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT);
-  /// Announces requests of that many bytes in total: until then no block is larger than the rest of them.
+  /// Announces requests of that many bytes in total: until all have been made, no block is larger than the rest of
+  /// them.
   void expect(VkDeviceSize bytes) { expected_ = bytes; }
   /// Bytes of device memory held.
   VkDeviceSize bytes() const { return bytes_; }

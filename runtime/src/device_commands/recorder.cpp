@@ -45,7 +45,7 @@ void Recorder::fail(Error error) {
 }
 
 void Recorder::add_descriptor_pool(std::uint32_t storage, std::uint32_t texels) {
-  // Guessing 8 buffers a set; a set with more than that just leaves the pool's other sets unused.
+  // An estimate of 8 buffers per set: if a set has more, other sets of the pool are not used.
   next_pool_sets_ = std::clamp(next_pool_sets_ * 2, kFirstPoolSets, kMaxPoolSets);
   room_ = {next_pool_sets_, std::max(next_pool_sets_ * 8, storage), std::max(next_pool_sets_, texels)};
   const std::array<VkDescriptorPoolSize, 2> sizes = {
@@ -67,7 +67,7 @@ void Recorder::add_descriptor_pool(std::uint32_t storage, std::uint32_t texels) 
 }
 
 VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels) {
-  // A second try, in a new pool: some drivers run out before the counts do.
+  // The second attempt is in a new pool, since some drivers run out of memory before the counts are used up.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const bool fits = room_.sets >= 1 && room_.storage >= storage && room_.texels >= texels;
     if (!fits || attempt > 0) add_descriptor_pool(storage, texels);

@@ -1,5 +1,5 @@
-// A word that the device reads whenever it sizes dispatches of a recorded sequence: once the host raises it, the
-// remaining ones are empty (prepare.glsl). So a job stops within the few dispatches that are sized together
+// A word that the device reads whenever it sizes dispatches of a recorded sequence: once the host has raised it, the
+// remaining dispatches are empty (prepare.glsl). A job thus stops within the few dispatches that are sized together
 // (dispatch_arguments.h), without round trips during its run.
 //
 // Host-coherent memory needs no flush, but Vulkan does not guarantee when a dispatch sees writes of the host after the
@@ -38,7 +38,7 @@ class StopWatch {
   Result<const StopWord*> make_word(ContextImpl& context);
   /// The finished share of the job, for the callback.
   void set_done(double done) { done_ = done; }
-  /// Reports and checks. True from the first time on that a stop has been requested.
+  /// Reports progress and checks. True from the first detection of a requested stop on.
   bool stopped();
 
   static Error error() { return {ErrorCode::kInterrupted, "interrupted during the extraction"}; }

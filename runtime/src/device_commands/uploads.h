@@ -13,8 +13,8 @@
 namespace medial_vk {
 
 /// Copies through two blocks of staging memory, of which the host fills one while the device empties the other, on a
-/// queue of its own if it has one; nothing is staged where a buffer is mapped. The host continues meanwhile: kernels
-/// see all data once finish() has returned.
+/// queue of its own if it has one; nothing is staged if the buffer is mapped. The host does not wait: kernels may read
+/// the data once finish() has returned.
 class Uploads {
  public:
   explicit Uploads(ContextImpl& context);

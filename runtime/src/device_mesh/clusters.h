@@ -11,14 +11,14 @@
 
 namespace medial_vk {
 
-/// The largest subtrees of `bvh` of at most `most_triangles` (at least 1; twice that, or four times, and so on, where
-/// there would be more than `most_clusters` of them; if subtrees of 4,096 are still too many, runs of equal length) in
-/// leaf order, in the unit box, with all bounds rounded outwards. `flags` as MeshView::flags.
+/// The largest subtrees of `bvh` of at most `most_triangles` in leaf order (`most_triangles` is at least 1; it is
+/// doubled until there are no more than `most_clusters` of them; if subtrees of 4,096 are still too many, runs of equal
+/// length are used instead), in the unit box, with all bounds rounded outwards. `flags` as MeshView::flags.
 std::vector<gpu::Cluster> make_clusters(const Bvh& bvh, const UnitTransform& to_unit,
                                         std::span<const std::uint8_t> flags, std::uint32_t most_triangles,
                                         std::uint32_t most_clusters, unsigned threads = 0);
 
-/// Half of the clusters reach no farther from the middle of their cylinder. 0 if there are none.
+/// The median over the clusters of their radius around the middle of their cylinder. 0 if there are none.
 float median_radius(std::span<const gpu::Cluster> clusters);
 
 }  // namespace medial_vk

@@ -176,7 +176,7 @@ Status DeviceMesh::add_links() {
   if (has_links_) return {};
   if (Status status = finish_uploads(); !status.ok()) return status;
   Uploads uploads(*context_);
-  // What fails before the triangles are overwritten leaves the mesh as it was, without links.
+  // A failure before the triangles are overwritten leaves the mesh unchanged, without links.
   if (Status status = upload_all_links(through(uploads)); !status.ok()) return status;
   if (Status status = uploads.finish(); !status.ok()) return status;
   intact = false;  // until the triangles have their spreads

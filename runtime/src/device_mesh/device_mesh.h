@@ -35,11 +35,12 @@ struct DeviceMesh {
   DeviceMesh& operator=(DeviceMesh&&) = delete;  // it would have to wait for pending uploads
   /// Triangles in a leaf of the device's tree, at most.
   static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
-  /// Positions are stored as floats in the tree's texels, exact up to 2^24, and one lane of 256 tests its share of all
-  /// triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535 iterations.
+  /// Two limits allow this number: leaf positions are stored as floats in the tree's texels, exact up to 2^24; and one
+  /// lane of 256 tests its share of all triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535
+  /// iterations.
   static constexpr std::uint32_t kMostTriangles = 8'000'000;
 
-  /// kOutOfMemory if a mesh of so many triangles is too large for the device, or for our kernels.
+  /// Error: kOutOfMemory if a mesh of that many triangles is too large for the device, or for the kernels.
   static Status check_size(std::size_t triangles, const VkPhysicalDeviceLimits& limits);
 
   /// Starts all uploads; finish_uploads() must precede the first use. With links: also the data of add_links(). Errors:
@@ -69,7 +70,7 @@ struct DeviceMesh {
   /// The range in which kernels bind `texels`, one of the buffers here that have a view, as storage.
   BufferRange storage_of(const Buffer& texels) const { return texels.storage_range(use_texels); }
 
-  /// The Bvh whose leaf order is `order`.
+  /// The nodes of the Bvh whose leaf order is `order`.
   const std::vector<BvhNode>& tree_nodes() const { return source_.bvh().nodes(); }
 
   /// Bytes of device memory held.
@@ -93,12 +94,12 @@ struct DeviceMesh {
   VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;
   VkBufferView corner_texels = VK_NULL_HANDLE;
-  /// gpu::Cluster, in leaf order (runtime/src/device_mesh/clusters.h); null until add_links(). So few that every device
-  /// allows the view.
+  /// gpu::Cluster, in leaf order (runtime/src/device_mesh/clusters.h); null until add_links(). Every device allows a
+  /// view of this number.
   static constexpr std::uint32_t kMostClusters = 8192;
   Buffer clusters;
   VkBufferView cluster_texels = VK_NULL_HANDLE;
-  /// gpu::OpenEdge; at least one, which may not count; null until add_links().
+  /// gpu::OpenEdge; at least one element, which is unused if there are none; null until add_links().
   Buffer open_edges;
   /// False if a texel view would be too large for the device: kernels that read the mesh then run in their variant for
   /// storage buffers (storage_suffix()), and the views are of a buffer that is never read.

@@ -1,5 +1,5 @@
-// The points of a mesh at which spokes can end, and their possible directions there (docs/theory.md, Lemma D; Lemma I
-// where it is not trusted): the data on edges and vertices for the dismissal of cells by pairs.
+// The edges and vertices of a mesh at which spokes can end, and the possible directions of these spokes
+// (docs/theory.md, Lemma D; Lemma I for untrusted triangles): data for the dismissal of cells by pairs.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct MeshLinks {
   std::vector<float> spreads;
 };
 
-/// `order` lists the triangles in the order of the device: links name positions in it. Linear in the size of the mesh,
-/// except for one sort of its edges. `threads` 0: one per core.
+/// `order` lists the triangles in the order of the device: links name positions in it. The time is linear in the size
+/// of the mesh, except for one sort of its edges. `threads` 0: one per core.
 MeshLinks make_mesh_links(const MeshView& mesh, std::span<const std::uint32_t> order, unsigned threads = 0);
 
 }  // namespace medial_vk

@@ -17,7 +17,7 @@
 namespace medial_vk {
 namespace {
 
-/// `extract` gets checked parameters and a watch.
+/// `extract` receives checked options and a watch.
 template <class Extract>
 Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallback& progress,
                            const std::stop_token& stop, const Extract& extract) {

@@ -1,4 +1,4 @@
-// A convex polytope, cut by half-spaces one after the other, that never loses a point of their intersection.
+// A convex polytope that is cut by half-spaces one after the other and never loses a point of their intersection.
 #pragma once
 
 #include <array>

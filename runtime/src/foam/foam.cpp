@@ -153,7 +153,7 @@ class Foam::Impl {
   }
 
   /// The part of a cell at this depth or more lies in a ball around the centre. Tangent planes of the ball, each in the
-  /// direction of the vertex that protrudes most, cut the cell nearly to that part.
+  /// direction of the vertex farthest outside the ball, cut the cell nearly to that part.
   ClipPolytope part_at_depth(std::uint32_t site, double depth) const {
     ClipPolytope part = cells_[site];
     const double radius = std::max(0.0, sphere_.radius - depth);

@@ -91,7 +91,7 @@ class Search {
     crossed_[t] = crossed_[u] = true;
   }
 
-  /// Except for vertices shared by index.
+  /// True if the two are disjoint except for vertices shared by index.
   bool certainly_apart(std::uint32_t i, std::uint32_t j) const {
     const Triangle &t = mesh_.triangles[tree_.order[i]], &u = mesh_.triangles[tree_.order[j]];
     const std::array<Point, 3>&a = tree_.corners[i], &b = tree_.corners[j];

@@ -1,4 +1,4 @@
-// Self-intersections: triangles of a mesh that meet others outside shared vertices and edges.
+// Self-intersections: triangles of a mesh that meet other triangles outside their shared vertices and edges.
 #pragma once
 
 #include <cstdint>

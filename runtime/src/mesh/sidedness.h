@@ -16,7 +16,7 @@ struct Sidedness {
   /// if it is in [0, 1), since the triangle adds 1/2 behind and subtracts 1/2 in front. NaN: not evaluated.
   std::vector<float> beside;
   bool known = true;               ///< False if some were not evaluated, because that would have taken too long.
-  std::uint64_t turned_faces = 0;  ///< Turned over, with their whole component.
+  std::uint64_t turned_faces = 0;  ///< Faces turned over with their whole component.
   std::uint64_t turned_components = 0;
 };
 

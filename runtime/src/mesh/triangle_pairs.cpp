@@ -77,7 +77,7 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
   // until it touches a cone, and it holds one or two of the four directions. These are the candidates.
   const Point a[2] = {a1 - apex, a2 - apex};
   const Point b[2] = {b1 - apex, b2 - apex};
-  // First a guess that succeeds for most neighbours on a smooth surface.
+  // The first candidate succeeds for most neighbours on a smooth surface.
   const Point a_unit[2] = {unit(a[0]), unit(a[1])};
   const Point b_unit[2] = {unit(b[0]), unit(b[1])};
   const auto separates = [&](const Point& w) {
@@ -97,8 +97,8 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
       if (other_a != 0 && other_a == -sign_of_determinant(a[i], b[j], b[1 - j])) return true;
     }
   }
-  // A plane through a side of one that stands upright on its triangle (both triangles may lie in one plane). Any
-  // vector will do for the normal: it is taken as exact.
+  // A plane through a side of one that stands upright on its triangle (both triangles may lie in one plane). Any vector
+  // may serve as the normal, which is taken as exact.
   const Point normal_a = cross(a[0], a[1]);
   const Point normal_b = cross(b[0], b[1]);
   for (int i = 0; i < 2; ++i) {
@@ -125,7 +125,7 @@ bool certainly_meet_at_apex(const Point& apex, const Point& a1, const Point& a2,
 bool certainly_meet_at_side(const Point& p, const Point& q, const Point& a, const Point& b) {
   const Point side = q - p, to_a = a - p, to_b = b - p;
   if (sign_of_determinant(side, to_a, to_b) != 0) return true;
-  // In one plane, up to rounding: then on different sides of the common side.
+  // Both in one plane, up to rounding: on different sides of the common side.
   const Point normal = cross(side, to_a);
   const int sign_a = sign_of_determinant(normal, side, to_a);
   return sign_a != 0 && sign_of_determinant(normal, side, to_b) == -sign_a;

@@ -38,8 +38,8 @@ class WindingTree {
     std::uint64_t cost = 0;
     return beside(position, cost);
   }
-  /// The same; adds the number of triangles evaluated one by one to `cost`: hundreds usually, all in a tangle of large
-  /// triangles, where no group is far from any point.
+  /// The same; adds the number of triangles evaluated one by one to `cost`: usually hundreds; all of them in a tangle
+  /// of large triangles, where no group is far from any point.
   double beside(std::uint32_t position, std::uint64_t& cost) const;
 
  private:

@@ -13,7 +13,7 @@ constexpr double kRounding = 0x1p-53;
 constexpr std::uint32_t kNoPosition = 0xffffffffu;
 
 /// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have produced it. The
-/// arguments are differences of doubles and carry u each: see sign_of_volume in triangle_pairs.cpp.
+/// arguments are differences of doubles and carry u each: see sign_of_determinant() in triangle_pairs.cpp.
 int sign_of_volume(const Point& a, const Point& b, const Point& c, double slack = 0) {
   double determinant = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {

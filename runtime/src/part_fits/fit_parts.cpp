@@ -302,7 +302,7 @@ class Fitting {
   std::size_t steps_ = 0, done_ = 0;  // approximations
 };
 
-/// Throws no exception.
+/// Converts exceptions to errors.
 Result<std::vector<PartFit>> guarded(const std::function<Result<std::vector<PartFit>>()>& work) {
   try {
     return work();

@@ -7,21 +7,21 @@
 
 namespace medial_vk {
 
-/// The benefit of a part from balls.
+/// The benefit of balls to a part.
 struct NeedCurve {
   /// The volume that k + 1 balls leave uncovered, for every k that was evaluated; cubed mesh units.
   std::vector<double> uncovered;
-  /// The part is a ball, and needs one only.
+  /// True if the part is a ball, which requires one ball only.
   bool is_ball = false;
-  /// More balls than these have no use.
+  /// True if more balls than these have no benefit.
   bool ends = false;
 };
 
-/// Distributes `total` balls, at least one to each part: every next ball goes to the part where it covers the most, on
-/// average over the balls that would follow it there up to curve_length(), as a ball may pay off only together with the
-/// next; but none counts for less than the decrease of error as count^-0.6. Beyond its end a curve continues as a power
-/// of the count, as steep as its last half. Parts that are balls get one, so fewer than `total` may be distributed.
-/// Ties go to the first part. `total` is not below the number of parts.
+/// Distributes `total` balls, at least one to each part: every next ball goes to the part where it covers the most.
+/// This is an average over the balls that would follow it there up to curve_length(), since a ball may cover much only
+/// together with the next one; it is at least the decrease of an error that falls as count^-0.6. Beyond its end a curve
+/// continues as a power of the count, as steep as its last half. Parts that are balls get one, so fewer than `total`
+/// may be distributed. Ties go to the first part. `total` is not below the number of parts.
 ///
 /// The worth of the next ball to a part depends on that part alone and on its number of balls. So if the curves do not
 /// depend on `total` and reach far enough, a larger total gives no part fewer (the shares are house-monotone; M.

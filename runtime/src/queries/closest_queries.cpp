@@ -8,8 +8,8 @@
 namespace medial_vk {
 namespace {
 
-// From so many points on, neighbours along a space-filling curve are near enough for packets, and sorting them pays
-// (docs/performance.md).
+// From this number of points on, neighbours along a space-filling curve are near enough for packets, and the sort takes
+// less time than it saves (docs/performance.md).
 constexpr std::size_t kLeastSorted = 4096;
 
 }  // namespace

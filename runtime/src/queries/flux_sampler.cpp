@@ -43,7 +43,7 @@ void FluxSampler::record(Recorder& r, const SphereCount& count, std::uint32_t sa
                          BufferRange directions, BufferRange slots, BufferRange fluxes) const {
   const bool counted = count.counters != nullptr;
   const gpu::SampleConstants constants = {count.spheres, counted ? count.counter : kNoCounter, samples, kSameDirection};
-  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
+  // A kernel whose count is known to the host receives an arbitrary buffer in place of the counters.
   const BufferRange counters = counted ? count.counters->range() : samples_.range();
   const auto run = [&](const char* shader, std::span<const BufferRange> buffers, bool per_sample) {
     const ProgramKey key{

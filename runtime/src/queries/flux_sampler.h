@@ -7,8 +7,8 @@
 
 namespace medial_vk {
 
-/// Spheres of a dispatch: a number the host knows, or counters[counter] with dispatch arguments for that many spheres
-/// and for that many times `samples` sample points (groups of TreeQueries::kWorkgroupSize), and
+/// The spheres of a dispatch: a number that the host knows, or counters[counter] with dispatch arguments for that
+/// number of spheres, for `samples` sample points each (groups of TreeQueries::kWorkgroupSize), and
 /// PacketShape::packets(samples) groups for each sphere.
 struct SphereCount {
   std::uint32_t spheres = 0;

@@ -88,7 +88,7 @@ void PacketQueries::closest(Recorder& r, const GroupCount& count, BufferRange sl
   gpu::QueryConstants constants = {
       count.groups, counted ? count.counter : gpu::kNoCounter, count.group_size, device_->triangle_count, 0, 0};
   const BufferRange order = device_->triangle_info.range();
-  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
+  // A kernel whose count is known to the host receives an arbitrary buffer in place of the counters.
   const std::array<BufferRange, 11> buffers = {device_->triangles.storage_range(tree_->use_texels),
                                                tree_->nodes.storage_range(tree_->use_texels),
                                                counted ? count.counters->range() : order,

@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// Groups of a dispatch: a number the host knows, or a counter on the device.
+/// The groups of a dispatch: a number that the host knows, or a counter on the device.
 struct GroupCount {
   std::uint32_t groups = 0;
   std::uint32_t group_size = 1;      // queries of a group; groups follow each other
@@ -60,7 +60,7 @@ class PacketQueries {
   void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const { resolver_->copy_tests(r, to, offset); }
 
   const PacketShape& shape() const { return shape_; }
-  /// Number of queries since creation that were answered by a test of all triangles. Blocks.
+  /// The number of queries since creation that required a test of all triangles. Blocks.
   Result<std::uint32_t> read_unresolved_total() { return resolver_->read_unresolved_total(); }
 
  private:
@@ -71,7 +71,7 @@ class PacketQueries {
   PacketShape shape_;
   std::uint32_t counts_;  // a specialization constant: 0 or 1
   std::unique_ptr<PacketTree> tree_;
-  std::unique_ptr<TreeQueries> resolver_;  // its list of queries that gave up
+  std::unique_ptr<TreeQueries> resolver_;  // its list of queries whose walk was given up
 };
 
 }  // namespace medial_vk

@@ -34,8 +34,9 @@ struct QuerySet {
 
 /// Two batches are in progress at a time, or one where the device is the host's processors. While the device computes
 /// one, the host reads the previous one and writes the next; if there are several and the device has a queue for
-/// transfers, downloads and uploads run meanwhile. Buffers are kept, for two batches if there ever were two: some 25
-/// MiB for each batch of 262,144 queries (lavapipe: 16). New memory would cost as much time as the queries.
+/// transfers, downloads and uploads run meanwhile. Buffers are kept (for two batches after the first run with two),
+/// some 25 MiB for each batch of 262,144 queries (lavapipe: 16), because new memory would cost as much time as the
+/// queries.
 class QueryBatches {
  public:
   /// For batches of at most `capacity` queries. `shares_memory`: host and device have the same memory, at the same

@@ -48,7 +48,7 @@ Result<TreeQueries> TreeQueries::create(ContextImpl& context, const DeviceMesh& 
 
 void TreeQueries::record(Recorder& r, const Kernel& kernel, const QueryCount& count, std::span<const BufferRange> own,
                          BufferRange queries, float tolerance) const {
-  // A kernel that does not count on the device gets an arbitrary buffer in place of the counters.
+  // A kernel whose count is known to the host receives an arbitrary buffer in place of the counters.
   const BufferRange counters = count.counters != nullptr ? count.counters->range() : mesh_->triangle_info.range();
   std::vector<BufferRange> buffers = {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree), counters,
                                       unresolved_.range(), queries};

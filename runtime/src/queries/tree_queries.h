@@ -30,7 +30,7 @@ void record_slices(Recorder& r, const Slices& slices, const Dispatch& dispatch) 
   }
 }
 
-/// The number of queries of a dispatch: a number the host knows, or a counter on the device.
+/// The number of queries of a dispatch: a number that the host knows, or a counter on the device.
 struct QueryCount {
   std::uint32_t items = 0;
   const Buffer* counters = nullptr;  // if given: counters[counter] * multiplier queries,
@@ -66,8 +66,8 @@ class TreeQueries {
   /// numbers: vec2, the winding number and a bound of its error, at most `tolerance`.
   void winding(Recorder& r, const QueryCount& count, BufferRange queries, BufferRange numbers, float tolerance) const;
 
-  /// The list of queries that gave up, and the kernel that answers those of closest(), for kernels elsewhere that share
-  /// them.
+  /// The list of queries whose walk was given up, and the kernel that answers those of closest(); other kernels share
+  /// both.
   BufferRange unresolved() const { return unresolved_.range(); }
   void resolve_closest(Recorder& r, BufferRange queries, BufferRange nearest, BufferRange hits, Ties ties) const;
 
@@ -75,7 +75,7 @@ class TreeQueries {
   void clear_tests(Recorder& r) const;
   void copy_tests(Recorder& r, const Buffer& to, VkDeviceSize offset) const;
 
-  /// Number of queries since creation that were answered by a test of all triangles. Blocks.
+  /// The number of queries since creation that required a test of all triangles. Blocks.
   Result<std::uint32_t> read_unresolved_total();
 
  private:

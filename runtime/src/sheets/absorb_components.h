@@ -12,8 +12,8 @@ namespace medial_vk {
 struct Absorbed {
   std::uint64_t components = 0;  ///< Number of components that have disappeared.
   std::uint64_t points = 0;      ///< Number of points whose component has changed.
-  /// By position: 1 if its component is too small for a sheet, also after union with others, else 0. Neighbours do not
-  /// matter, but a component with neither borders nor rims is large.
+  /// By position: 1 if its component is too small for a sheet, even after the union with others, else 0. This does not
+  /// depend on neighbours, except that a component with neither borders nor rims is not small.
   std::vector<std::uint8_t> is_small;
 };
 

@@ -9,8 +9,8 @@
 
 namespace medial_vk {
 
-/// The test whether two neighbours are linked. Two spokes that differ by 2 theta or more are those of a salient sheet,
-/// which may pass between the two points: agreement of their normals is then no evidence (docs/theory.md, "Sheets").
+/// The test whether two neighbours are linked. If spokes of the two points differ by 2 theta or more, a salient sheet
+/// may pass between the points, and the agreement of their normals proves nothing (docs/theory.md, "Sheets").
 class LinkTest {
  public:
   LinkTest(double object_angle, const SheetOptions& options);

@@ -18,8 +18,8 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Degrees: the greatest attraction of a point, and its greatest repulsion. A turn that is smaller than the limit by
-/// kOpen counts as fully open, one that is greater by kClosed as fully closed; in between a sum is continuous where a
-/// count would jump.
+/// kOpen or more has the greatest attraction, and one that is greater by kClosed or more the greatest repulsion. In
+/// between, a sum of weights is continuous, while a count of points would jump.
 constexpr double kOpen = 30, kClosed = 4;
 
 /// A compact component of n points has a perimeter of 2 sqrt(pi n) points, so a border around all of it has twice as

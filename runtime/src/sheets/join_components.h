@@ -1,4 +1,4 @@
-// Joins components whose common border is for the most part no crease.
+// The join of components whose common border is mostly no crease.
 #pragma once
 
 #include <cstdint>

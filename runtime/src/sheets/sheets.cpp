@@ -41,7 +41,7 @@ std::vector<std::int32_t> number_sheets(const std::vector<std::uint32_t>& compon
 /// In voxels squared: the area of the sheet in the voxel of a point, where the plane through the point perpendicular to
 /// its normal approximates the sheet. The plane is known to within epsilon along its normal, and the area is the mean
 /// for the two extreme positions. So where a sheet lies in a wall between two voxels and both have a point of it, each
-/// gets half.
+/// receives half of the area.
 double area_in_voxel(const MedialSphere& sphere, const VoxelGrid& grid, double epsilon) {
   const Point normal = sheet_normal(sphere);
   const double norm = length(normal);

@@ -1,4 +1,4 @@
-// The share of the volume that each sheet accounts for, and the volume left after removal of sheets (Chapter 6).
+// The share of the volume that each sheet holds, and the volume left after the removal of sheets (Chapter 6).
 // docs/theory.md, "Significance".
 #pragma once
 
@@ -49,8 +49,9 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
 using RemovalProgress = std::function<bool(double done)>;
 
 /// Removes sheets by the rule until the next would leave less than `least_volume` of the whole volume; with 0, all that
-/// the rule permits. The removed sheets are thus the first ones of those removed with 0. At least one stays. Of equal
-/// significance, the sheet with the larger number is removed first. Errors: those of ShrinkingUnion, kInterrupted.
+/// the rule permits. The removed sheets are thus the first of those that are removed with 0. At least one sheet stays.
+/// Of equal significance, the sheet with the larger number is removed first. Errors: those of ShrinkingUnion,
+/// kInterrupted.
 Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
                                    double least_volume, unsigned threads, const RemovalProgress& progress);
 

@@ -1,4 +1,4 @@
-// Thinning of medial points that crowd at the walls between voxels (end of Section 2.4.2).
+// Removal of medial points that lie close together at the faces between voxels (end of Section 2.4.2).
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,14 @@ namespace medial_vk {
 
 /// Removes medial points within `epsilon` (a length) of one that is kept, and returns the number removed.
 ///
-/// Section 2.4.2: the boundary point M nearest to a medial point m may also lie on the balls whose centres are within
-/// epsilon of m along grad D(m); without those, every ball left is maximal in the union of the balls. Points so close
-/// sit in voxels that touch, as epsilon is at most half a voxel: the search is greedy, in voxel order, among the 26
-/// neighbours. A pass keeps the first point of each crowd and removes at most 7 for each one kept, so the result is
-/// deterministic, a second pass removes nothing, and every removed point has a kept one within epsilon.
+/// Section 2.4.2: the boundary point M nearest to a medial point m may also lie on balls whose centres are within
+/// epsilon of m along grad D(m). Without these, every remaining ball is maximal in the union of the balls. Points
+/// within epsilon of each other are in voxels that touch, since epsilon is at most half a voxel side. A greedy pass in
+/// voxel order therefore compares each point with the kept points in the 26 voxels around, and keeps it if none is
+/// within epsilon. The result is deterministic, a second pass removes nothing, and every kept point stands for at most
+/// 7 removed ones.
 ///
-/// Precondition: spheres in voxel order, at most one per voxel, as extraction gives them; epsilon <= voxel side.
+/// Precondition: spheres in voxel order, at most one per voxel, as an extraction returns them; epsilon <= voxel side.
 std::uint64_t simplify_spheres(double epsilon, std::vector<MedialSphere>& spheres);
 
 }  // namespace medial_vk

@@ -28,7 +28,7 @@ class Solid {
   /// The distance to the boundary, within rounding() of the exact one.
   double distance(const Point& p) const;
   double rounding() const { return rounding_; }
-  /// True if the winding number is at least 1/2; either answer may result for points closer to the boundary than
+  /// True if the winding number is at least 1/2. Both results are possible for points closer to the boundary than
   /// rounding().
   bool contains(const Point& p) const;
   /// Of the bounding box.

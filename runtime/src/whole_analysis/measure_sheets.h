@@ -7,8 +7,8 @@
 
 namespace medial_vk {
 
-/// Fills in the significance, the orders of removal that are requested, and the removal itself: spheres of sheets that
-/// are not kept leave `analysis`. Sheets keep their numbers. Errors: kInterrupted, kOutOfMemory.
+/// Fills in the significance, the requested orders of removal, and the removal itself: the spheres of removed sheets
+/// are deleted from `analysis`. Sheets keep their numbers. Errors: kInterrupted, kOutOfMemory.
 Status measure_sheets(const AnalysisOptions& options, const StageProgress& progress, const std::stop_token& stop,
                       Analysis& analysis);
 

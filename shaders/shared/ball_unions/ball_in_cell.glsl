@@ -1,5 +1,5 @@
-// Volume and surface of a ball of radius 1 in its power cell, in closed form and with error bounds (docs/theory.md,
-// "Unions of balls" and "On the device"). Include power_cell.glsl before.
+// The volume of a ball of radius 1, and the area of its sphere, in its power cell, in closed form and with error bounds
+// (docs/theory.md, "Unions of balls" and "On the device"). Include power_cell.glsl before.
 #ifndef MEDIAL_VK_BALL_IN_CELL_GLSL
 #define MEDIAL_VK_BALL_IN_CELL_GLSL
 #include "lanes/angle_of.glsl"
@@ -19,7 +19,7 @@ vec2 area_sum;
 float volume_doubt;  // sum of the effect of one rounding on the terms, in units of kEdgeRounding
 float area_doubt;
 float flat_area;     // of the faces within the ball: the rate at which the volume changes if they move
-float arc_angles;    // of the arcs on the faces: the same rate for the surface
+float arc_angles;    // of the arcs on the faces: the same rate for the area
 
 void add_to(inout vec2 sum, float term) {
   precise float total = sum.x + term;

@@ -1,4 +1,5 @@
-// Dismissal by an axis (docs/theory.md): a cell is empty if some axis obeys, for every contact t, either
+// Dismissal by an axis (docs/theory.md): a cell is empty if some axis satisfies, for every contact t, one of the
+// conditions
 //   the trusted outward normal of t is within theta of the axis, or
 //   D_t > rho and angle(g_t, axis) + asin(rho / D_t) < theta,
 // because then every spoke of every medial point in the cell lies within theta of the axis. Include after

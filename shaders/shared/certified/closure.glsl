@@ -1,7 +1,7 @@
-// Winding numbers of open meshes as exactly as float allows (docs/theory.md, "Outside"). The triangles between the open
-// edges of a mesh and their apexes close it, and the winding numbers of the closed mesh are whole. Those triangles are
-// few and are summed one by one. A rough winding number thus determines the whole one, from which the sum is subtracted
-// to obtain the number of the mesh itself. Include winding.glsl before, and declare `open_edges`.
+// Winding numbers of open meshes, as accurate as float allows (docs/theory.md, "Outside"). The triangles between the
+// open edges of a mesh and their apexes close it, and the winding numbers of the closed mesh are whole. Those triangles
+// are few and are summed one by one. A rough winding number thus determines the whole one, from which the sum is
+// subtracted to obtain the number of the mesh itself. Include winding.glsl before, and declare `open_edges`.
 #ifndef MEDIAL_VK_CLOSURE_GLSL
 #define MEDIAL_VK_CLOSURE_GLSL
 

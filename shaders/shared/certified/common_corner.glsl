@@ -1,4 +1,4 @@
-// Decides whether a face or an edge and another one that leaves the same vertex can both hold a foot of one salient
+// Decides whether two carriers, each a face or an edge, that leave the same vertex can both hold a foot of one salient
 // point (docs/theory.md, Lemma J). The configuration is the same at every scale of a cell at the vertex, so only
 // directions are tested. Each case reduces to unit vectors in a plane, and each condition holds on an arc of their
 // circle. Include after "carriers.glsl".

@@ -1,4 +1,4 @@
-// Whether a point may represent its voxel. Include "step.glsl" before.
+// The test whether a point may represent its voxel. Include "step.glsl" before.
 #ifndef MEDIAL_VK_IN_VOXEL_GLSL
 #define MEDIAL_VK_IN_VOXEL_GLSL
 

@@ -1,8 +1,9 @@
 // The pairs of a cell's carriers, the nearest first, in an order that does not depend on the device. Pairs that pass
-// the cheap tests are queued, so that all lanes have work in the expensive ones. All lanes call these functions.
+// the fast tests are queued, so that all lanes have work in the slow ones. All lanes call these functions.
 //
-// Loops with expensive bodies are tested at their ends: a CPU runs a body for all lanes before it tests whether any of
-// them needed it. The test at their starts always holds (docs/reliability.md, "Values that leave a loop").
+// Loops with slow bodies test their condition at the end, since a CPU otherwise runs the body for all lanes before it
+// tests whether any of them needed it. The condition at their start always holds (docs/reliability.md, "Values that
+// leave a loop").
 #ifndef MEDIAL_VK_PAIR_QUEUE_GLSL
 #define MEDIAL_VK_PAIR_QUEUE_GLSL
 #include "certified/aim.glsl"

@@ -62,7 +62,7 @@ vec4 corners_along(vec3 h) {
   return vec4(xy + h.z, xy - h.z);
 }
 
-// For numbers only: the built-in function handles NaN, which costs lavapipe three instructions instead of one.
+// Not for NaN, which the built-in function handles; on lavapipe that takes three instructions instead of one.
 float greater(float a, float b) {
   precise float result = a > b ? a : b;
   return result;
@@ -81,8 +81,8 @@ float most_at_corners(float corners[8], vec4 along) {
 float distance_slack(float d, float circumradius) { return 4.0 * step.slack * (1.0 + circumradius / max(d, 1e-30)); }
 
 // If the boundary itself passes through triangles whose normals prove nothing, a cell may hold medial points of either
-// side, and subdivision follows them to the boundary: five levels below the finest voxel are enough. Points hidden
-// there have a radius below sqrt(3) / 32 of the voxel side.
+// side, and subdivision follows them to the boundary: five levels below the finest voxel are enough. Medial points in
+// the remaining cells have a radius below sqrt(3) / 32 of the voxel side.
 bool is_hopeless(uint flags) { return step.depth >= kBoundaryDepth && (flags & kCellUntrusted) != 0u; }
 
 // The bits of a non-negative number, which have the same order. Devices may give a zero either sign.

@@ -1,7 +1,7 @@
 // Decides whether a narrowed line ends at a salient medial point. The directions at its ends must differ by twice the
 // object angle (or the radius must suffice), and the ball at the accepted end, grown by epsilon away from its contact,
-// must meet the boundary elsewhere (Lemma 2.3). If it is not known whether the end lies in the solid, its side is
-// queried before the voxel elects its point. Include after declaring `counters`, `lines`, `requests` and `winners`.
+// must meet the boundary elsewhere (Lemma 2.3). If the side of the end is unknown, it is queried before the voxel
+// elects its point. Include after declaring `counters`, `lines`, `requests` and `winners`.
 #ifndef MEDIAL_VK_VERIFY_LINE_GLSL
 #define MEDIAL_VK_VERIFY_LINE_GLSL
 #include "certified/in_voxel.glsl"

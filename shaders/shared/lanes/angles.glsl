@@ -1,5 +1,5 @@
-// Sine, cosine and arcsine as exactly as float allows, for proofs that depend on them: Vulkan allows those of GLSL an
-// error of 5e-4. The series have a remainder below 2e-7 and few roundings: their error is below 1e-6
+// Sine, cosine and arcsine, as accurate as float allows, for proofs that depend on them: Vulkan allows the functions of
+// GLSL an error of 5e-4. The series have a remainder below 2e-7 and few roundings: their error is below 1e-6
 // (tests/unit/shaders/angles_test.cpp, which compiles this file as C++).
 #ifndef MEDIAL_VK_ANGLES_GLSL
 #define MEDIAL_VK_ANGLES_GLSL

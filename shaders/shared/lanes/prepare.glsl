@@ -1,5 +1,5 @@
-// Computes the group counts of indirect dispatches from counters. A dispatch gets none after an overflow, after a stop
-// request of the host, or in rounds for which no list is long enough. Include after declaring `counters`, `arguments`
+// Computes the group counts of indirect dispatches from counters. A dispatch is empty after an overflow, after a stop
+// request of the host, and in rounds for which no list is long enough. Include after declaring `counters`, `arguments`
 // and `stop`.
 #ifndef MEDIAL_VK_PREPARE_GLSL
 #define MEDIAL_VK_PREPARE_GLSL

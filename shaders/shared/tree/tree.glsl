@@ -31,13 +31,13 @@ float squared_distance_to_box(vec3 p, vec3 lower, vec3 upper) {
 // Counts of the tests that the walks of an invocation have made: boxes or moments of the tree's nodes, and triangles.
 uint tested_nodes = 0u, tested_triangles = 0u;
 
-// Every walk goes in rounds: down at most kDescents nodes, through one leaf, back over at most kPops entries of the
+// Every walk consists of rounds: down at most kDescents nodes, through one leaf, back over at most kPops entries of the
 // stack. lavapipe ends all loops of an invocation silently after 65,535 iterations, and it counts for eight invocations
 // together: an iteration counts if any of them makes it. Rounds that are bounded in each part bound the sum for any
 // behaviour of the neighbours: kRounds (kDescents + kMostLeafTriangles + kPops + 1) iterations. A walk that needs more
-// rounds reports that, and all triangles are examined for its query (resolve_*.comp).
-// Loops are tested at the bottom (at the top only as docs/reliability.md says, "Values that leave a loop") and conditions
-// are selects: untaken branches and masked loop bodies cost their full time.
+// rounds reports that, and all triangles are examined for its query (resolve_*.comp). Loops test their condition at the
+// end (for the condition at the start see docs/reliability.md, "Values that leave a loop"), and branches are replaced
+// by selections: branches not taken and masked loop bodies take their full time.
 const uint kDescents = 8u;
 const uint kPops = 4u;
 const uint kRounds = 60000u / (kDescents + kMostLeafTriangles + kPops + 1u);

@@ -1,5 +1,5 @@
-// The triangle nearest to a point, and the emptiness of a ball, by one invocation: the near child first, the far child
-// to the stack. Include tree.glsl before.
+// The triangle nearest to a point, and the emptiness of a ball, by one invocation: the near child is visited first, and
+// the far child is put on the stack. Include tree.glsl before.
 #ifndef MEDIAL_VK_TREE_CLOSEST_GLSL
 #define MEDIAL_VK_TREE_CLOSEST_GLSL
 #include "tree/triangle_feature.glsl"

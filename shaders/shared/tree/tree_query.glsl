@@ -1,6 +1,6 @@
-// Definitions that the kernels that answer queries by walking the tree share: bindings, counts, the list of abandoned
-// queries. Bindings from 5 on are the kernel's own. Specialization constant COUNTS_CONSTANT enables the counts of
-// tests.
+// Definitions that the kernels that answer queries by walking the tree share: bindings, counts, the list of queries
+// whose walk was given up. Bindings from 5 on are the kernel's own. Specialization constant COUNTS_CONSTANT enables the
+// counts of tests.
 #ifndef MEDIAL_VK_TREE_QUERY_GLSL
 #define MEDIAL_VK_TREE_QUERY_GLSL
 #include "tree_types.h"

@@ -6,8 +6,8 @@
 // series around c. K is minus the gradient of 1/|x - p|, a harmonic function whose third derivative, as a symmetric
 // form, is at most 3! / |x - p|^4 (Banach: such forms are largest on the diagonal, there it is 6 |P3| / |x - p|^4). The
 // remainder is thus at most 1/2 * 6 / (4 pi (d - r)^4) times the integral of |x - c|^2: texel 1's w over (d - r)^4. The
-// bounds of all parts that are used add up to less than the tolerance: half of it is shared out by area, the other half
-// is spent by the first parts that need no more than 1/64 of the tolerance.
+// bounds of all parts that are used add up to less than the tolerance: half of it is distributed by area, the other
+// half is used by the first parts that require at most 1/64 of the tolerance each.
 #ifndef MEDIAL_VK_WINDING_GLSL
 #define MEDIAL_VK_WINDING_GLSL
 

@@ -53,7 +53,7 @@ struct Line {
   vec4 toward_q;
   uint cell;
   uint voxel;
-  uint accepted;  // 0 no, 1 by its end p, 2 by its end q, if that is inside (see winners)
+  uint accepted;  // 0 no, 1 by its end p, 2 by its end q, if that is inside
   uint seed;      // index among the seeds of its cell
 };
 
@@ -84,7 +84,7 @@ MEDIAL_VK_GPU_CONSTANT kLinkUncrossed = 256u;  // no other triangle meets its in
 
 // A point at which a line may cross a medial sheet, and the sheet's normal.
 struct Aim {
-  vec4 base;       // from the centre of the cell; w: how far the sheet is from the boundary, smaller is better
+  vec4 base;       // from the centre of the cell; w: distance of the sheet from the boundary, smaller is better
   vec4 direction;  // unit; w: 0 if there is none
 };
 MEDIAL_VK_GPU_CONSTANT kAimsPerCell = 4u;
@@ -148,7 +148,7 @@ struct StepConstants {
   uint open_edges;              // 0: the mesh is closed; above kMostOpenEdges: they are not listed
   uint last_level;              // 1: cells that are kept now stay undecided
   uint narrowing_steps;         // of every line
-  uint settles;                 // 1: cells that can hide points near a face or the angle only are given up
+  uint settles;                 // 1: cells that can hold only points near a face or the angle are given up
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint cluster_count;

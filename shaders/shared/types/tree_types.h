@@ -21,7 +21,7 @@ struct QueryConstants {
   uint first_group;       // workgroups that earlier dispatches have run
 };
 
-// Words of the list of queries that gave up; their indices follow from kUnresolvedFirst on.
+// Words of the list of queries whose walk was given up; the indices of the queries follow from kUnresolvedFirst on.
 MEDIAL_VK_GPU_CONSTANT kUnresolvedWaiting = 0u;  // their number, while the list grows
 MEDIAL_VK_GPU_CONSTANT kUnresolvedGroups = 1u;   // three group counts, one workgroup for each
 MEDIAL_VK_GPU_CONSTANT kUnresolvedCount = 4u;    // their number, once it has been prepared

@@ -9,9 +9,9 @@
 
 namespace medial_vk::cli {
 
-/// One line before the work starts: the input, the method and the device.
+/// One line before the work begins: the input, the method and the device.
 std::string opening(const RunRecord& record);
-/// A few aligned lines at the end; `files` have been written.
+/// A few aligned lines at the end, after `files` have been written.
 std::string summary(const RunRecord& record, std::span<const OutputFile> files);
 /// For -v: levels, seconds by the clock of the device, and the options that are not in the summary.
 std::string details(const RunRecord& record);

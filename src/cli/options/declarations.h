@@ -82,8 +82,8 @@ class Declarations {
 /// An application that parses several command lines in sequence.
 class ReusableApp : public CLI::App {
  public:
-  /// CLI11 resets itself between lines, but not after a line that ended with an error, and never resets the order of
-  /// the options, a list that grows from line to line.
+  /// CLI11 resets itself between lines, but not after a line that ended with an error. It never resets the order of the
+  /// options, a list that grows from line to line.
   void forget() {
     clear();
     parse_order_.clear();

@@ -8,7 +8,7 @@
 
 namespace medial_vk::cli {
 
-/// True if `path` is empty or standard output, or ends in `wanted` in any case.
+/// True if `path` is empty or standard output, or ends in `wanted`, in upper or lower case.
 bool may_end_in(const std::string& path, const char* wanted);
 
 /// An option that names a file to write; empty: not given; "-": standard output.
@@ -17,8 +17,8 @@ struct NamedOutput {
   const std::string* file;
 };
 
-/// No file and no standard output may be named twice, and no result may replace the `input` it was made from. Error:
-/// kUsage, naming the options.
+/// No file may be named twice, nor may standard output, and no result may replace the `input` that it is made from.
+/// Error: kUsage, naming the options.
 Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::string& input);
 
 }  // namespace medial_vk::cli

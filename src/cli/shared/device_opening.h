@@ -17,12 +17,12 @@ namespace medial_vk::cli {
 
 class DeviceOpening {
  public:
-  /// Starts on its own thread; with `threads` 1, in take(). `wanted` is the argument of --device, or empty for the best
-  /// device. `progress` shows the programs that its driver compiles.
+  /// Opens the device on a thread of its own; with `threads` 1, in take(). `wanted` is the argument of --device, or
+  /// empty for the best device. `progress` shows the programs that the driver compiles.
   void start(const std::string& wanted, unsigned threads, Progress& progress);
-  /// The number of threads for work on a mesh that runs meanwhile. While a driver is loaded, glibc holds a lock that
-  /// every new thread needs, until all libraries are relocated (25 ms for LLVM): shorter work finishes sooner on the
-  /// existing thread.
+  /// The number of threads for work on a mesh while the device is opened. While a driver is loaded, glibc holds a lock
+  /// that every new thread needs, until all libraries are relocated (25 ms for LLVM): shorter work finishes sooner on
+  /// the existing thread.
   unsigned threads_beside(std::size_t triangles, unsigned wanted) const;
   /// Waits until the device is open. The results are the context, its description, and a line "device" with the time
   /// that this call waited. Without start(), it does nothing. Errors: those of Context::create(), with a remedy.

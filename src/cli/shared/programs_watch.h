@@ -1,4 +1,4 @@
-// What the user sees while the driver compiles the programs of a run, and what signals do meanwhile.
+// The messages of a run, and the effect of signals, while the driver compiles the programs.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace medial_vk::cli {
 
-/// A driver that compiles cannot be stopped, and nothing is written yet: the first signal ends the program. After a
+/// A driver that compiles cannot be stopped, and no file is written yet, so the first signal ends the program. After a
 /// minute of compilation a message names the device, and the remedies.
 class ProgramsWatch {
  public:

@@ -14,9 +14,9 @@ namespace medial_vk::cli {
 /// The checks of all parts, joined to one line per condition; `first_failure` names the link.
 CheckReport joint_check(const FitsRecord& record);
 
-/// One line before the work: the input and the device.
+/// One line before the work begins: the input and the device.
 std::string spheres_opening(const SpheresOptions& options, const FitsRecord& record);
-/// A few lines at the end; `files` have been written.
+/// A few lines at the end, after `files` have been written.
 std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record, std::span<const OutputFile> files);
 /// For -v: one line per part.
 std::string spheres_details(const SpheresOptions& options, const FitsRecord& record);

@@ -25,11 +25,11 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 }
 
 extern "C" void request_stop(int) {
-  // In this order here, and in the opposite order where work begins, so that on any thread one of the two sees the
-  // other.
+  // The order is opposite to that at the beginning of work, so that one of the two threads always sees the other's
+  // write.
   stop_requested = true;
   if (may_end_at_once) end_at_once();
-  // From here either signal kills. signal() is safe in a handler.
+  // From here on either signal ends the program. signal() is safe in a handler.
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
@@ -43,7 +43,7 @@ void install_interrupt_handlers() {
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;  // Reads and writes in progress continue; the flag is tested between them.
   for (const int signal : {SIGINT, SIGTERM}) {
-    // A shell that starts a job in the background, and nohup, ignore signals on purpose: this stays so.
+    // A shell that starts a job in the background, and nohup, make it ignore signals on purpose; they remain ignored.
     struct sigaction before = {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);

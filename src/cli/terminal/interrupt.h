@@ -5,12 +5,12 @@ namespace medial_vk::cli {
 
 void install_interrupt_handlers();
 bool interrupted();
-/// Ends the program if a signal has come, with the message and exit code of EndAtOnce.
+/// Ends the program if a signal has arrived, with the message and exit code of EndAtOnce.
 void end_if_interrupted();
 
 /// While an object exists, the first signal also ends the program at once, with a message and exit code 130. It is for
-/// work that has nothing to undo and cannot be stopped half-way, such as waiting for input that does not come. An
-/// earlier signal is not seen again: call interrupted() after construction.
+/// work that has nothing to undo and cannot be stopped half-way, such as a wait for input that does not come. Signals
+/// before construction are not handled here: call interrupted() after construction.
 class EndAtOnce {
  public:
   EndAtOnce();

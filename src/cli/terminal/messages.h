@@ -9,7 +9,7 @@
 
 namespace medial_vk::cli {
 
-/// The error of an interrupted run: kInterrupted.
+/// The error of a run that a signal has stopped: kInterrupted.
 Error stopped();
 
 /// The commands of the tool, as far as their options differ.
@@ -19,8 +19,8 @@ enum class Command {
   kRobotSpheres,  ///< medial-vk spheres, of a robot
 };
 
-/// A parameter of the library by its name there, and what messages of each command call it: an option of the command,
-/// or words if there is no such option. Empty: no message of that command can contain the parameter.
+/// A parameter of the library by its name there, and its name in the messages of each command: an option of the
+/// command, or words if there is no such option. Empty: no message of that command can contain the parameter.
 struct ParameterWords {
   std::string_view parameter;
   std::string_view extract, spheres, robot_spheres;
@@ -43,8 +43,8 @@ Status print_result(const std::string& text);
 /// Writes to standard error.
 void print_message(const std::string& text);
 
-/// Prints "medial-vk: message" in words of options, with a hint at the help of the command for a usage error. Returns
-/// the exit code.
+/// Prints "medial-vk: message" in words of options; a usage error gets a hint at the help of the command. Returns the
+/// exit code.
 int report_error(const Error& error, Command command);
 
 }  // namespace medial_vk::cli

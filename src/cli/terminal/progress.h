@@ -21,12 +21,12 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { clear(); }
-  /// Whether the user wants messages, on a terminal or elsewhere.
+  /// True if messages were requested, on a terminal or elsewhere.
   bool is_wanted() const { return wanted_; }
 
   /// Draws at most ten times a second. A new stage starts its own clock.
   void update(const char* stage, double done);
-  /// Draws numbers instead, and leaves the clock of the stage.
+  /// Draws numbers instead, and does not change the clock of the stage.
   void update_count(const char* stage, std::size_t done, std::size_t total);
   /// Removes the line, so that other messages can be written.
   void clear();

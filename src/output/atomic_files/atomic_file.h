@@ -1,6 +1,6 @@
 // Output files appear completely or not at all: they are written to an unnamed file in the same folder (O_TMPFILE;
-// under a temporary name where that is not supported), followed by a link or a rename. A killed process leaves nothing
-// behind (except between a link and the rename that replaces a file).
+// under a temporary name where that is not supported), which then gets its name by a link or a rename. A killed process
+// leaves nothing behind, except between a link and the rename that replaces a file.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ namespace medial_vk {
 /// file (/dev/null, a pipe) is written directly, because a rename would destroy it.
 class AtomicFile {
  public:
-  /// With `may_be_unnamed` false, as where O_TMPFILE is not supported. Errors (all calls): kCannotWrite with the path
+  /// `may_be_unnamed` false: behaves as if O_TMPFILE were not supported. Errors (all calls): kCannotWrite with the path
   /// and the reason of the system.
   static Result<AtomicFile> create(const std::string& path, bool may_be_unnamed = true);
   AtomicFile(AtomicFile&& other) noexcept;

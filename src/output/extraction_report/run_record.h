@@ -55,7 +55,7 @@ struct RunRecord {
 
   SheetOptions sheet_options;
   Sheets sheets;
-  std::optional<UnionRecord> ball_union;         ///< None: no output depends on volumes.
+  std::optional<UnionRecord> ball_union;         ///< None if no output depends on volumes.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
   std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
   double orders_end_at = 0;                      ///< Share of the volume at which both orders end.

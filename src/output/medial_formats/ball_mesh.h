@@ -18,8 +18,8 @@ inline constexpr std::uint64_t kLargestBallFile = 4096ull << 20;
 Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, std::uint64_t balls,
                                            std::uint64_t (*bytes)(std::uint32_t detail));
 
-/// The radius with which vertices of a ball are computed, such that none is outside the ball after its coordinates are
-/// rounded: `rounding` is 2^-50 for doubles, 2^-23 for floats (derivation at the definition).
+/// The radius with which the vertices of a ball are computed, such that no vertex is outside the ball after its
+/// coordinates are rounded: `rounding` is 2^-50 for doubles, 2^-23 for floats (derivation at the definition).
 double inscribed_radius(const Point& centre, double radius, double rounding);
 
 /// A PLY with the vertices of all balls in the order of `spheres`, each with the radius, object angle, sheet and colour

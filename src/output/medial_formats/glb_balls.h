@@ -16,7 +16,7 @@ float shortened(double x);
 /// The middle of the box around all centres, rounded to floats; the origin if there are none.
 Point middle_of_centres(std::span<const MedialSphere> spheres);
 
-/// A ball around `centre` + the middle, inside the ball it was made from.
+/// A ball around `centre` + the middle, inside the ball that it represents.
 struct GlbBall {
   std::array<float, 3> centre;
   float radius = 0;

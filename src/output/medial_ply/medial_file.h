@@ -31,7 +31,7 @@ struct MedialFile {
 
 enum class MedialFormat { kPly, kCsv, kNpz, kJson, kGlb };
 
-/// Determines the format by extension, in any case. Error kUsage, naming the known ones.
+/// Determines the format by extension, in upper or lower case. Error: kUsage, which names the known extensions.
 Result<MedialFormat> medial_format_of(const std::string& path);
 
 /// Balls as triangles: the number of subdivisions of the icosahedron (output/medial_formats/icosphere.h).

@@ -12,7 +12,7 @@
 
 namespace medial_vk {
 
-/// Ok if this program can write pages; else kUsage with the component that its build lacked. Costs nothing: call it
+/// Ok if this program can write pages; else kUsage with the component that its build lacked. It takes no time: call it
 /// before the work.
 Status check_page_available();
 

@@ -68,7 +68,7 @@ std::size_t spheres_in(const SphereFile& file, std::size_t level) {
   return count;
 }
 
-/// One entry of foam: the distance by which balls of the level protrude, and the balls.
+/// One entry of foam: the distances by which balls of the level reach out, and the balls.
 std::string foam_level(const PartSpheres& part, std::size_t level, int indent) {
   const std::vector<const Ball*> balls = balls_of(part, level);
   const ReachOut& reach = part.reach[level];

@@ -1,19 +1,19 @@
-// A medial point by its number: its place, its values, its colour, and whether the filter lets it through. The numbers
-// are read from textures, not from attributes of instances: a hundred thousand instances of three corners each are slow
-// on many devices, one list of three hundred thousand corners is not.
+// A medial point by its index: its position, its values, its colour, and the result of the filter. The numbers are read
+// from textures instead of attributes of instances: a hundred thousand instances of three corners each are slow on many
+// devices, while one list of three hundred thousand corners is not.
 uniform mat4 projectionMatrix, modelViewMatrix;
 uniform vec2 leastAngleRadius;
 uniform int colourBy;             // A component of `values`.
 uniform vec2 colourRange;
-uniform sampler2D colourMap;      // Row 0: the map of numbers; row 1: one colour per sheet, by turns.
+uniform sampler2D colourMap;      // Row 0: the map of numbers; row 1: one colour per sheet, in turn.
 #ifdef PICKED
 uniform vec4 picked;              // Centre and radius.
 uniform vec3 pickedColour;
 #else
 uniform sampler2D places;         // Centre and radius.
 uniform sampler2D others;         // Object angle, flux, sheet.
-uniform highp isampler2D spokes;  // Two texels a point, in 32767ths.
-uniform highp usampler2D order;   // Which ball comes when (ORDERED).
+uniform highp isampler2D spokes;  // Two texels per point, in units of 1/32767.
+uniform highp usampler2D order;   // The order in which balls are drawn (ORDERED).
 #endif
 
 struct MedialPoint {
@@ -40,7 +40,7 @@ MedialPoint medial_point(int number) {
   return MedialPoint(place.xyz, place.w, vec4(other.x, place.w, other.yz), index);
 }
 
-// Which: 0 or 1.
+// `which`: 0 or 1.
 vec3 spoke_of(MedialPoint point, int which) {
   ivec2 texel = texel_of(2 * point.index + which, textureSize(spokes, 0).x);
   return vec3(texelFetch(spokes, texel, 0).xyz) / 32767.0;
@@ -55,7 +55,7 @@ bool filtered_out(MedialPoint point) {
 #endif
 }
 
-// Outside of everything that is drawn.
+// A position outside of the picture.
 vec4 nowhere() { return vec4(2.0, 2.0, 2.0, 1.0); }
 
 vec3 attribute_colour(MedialPoint point) {

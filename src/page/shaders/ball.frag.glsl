@@ -21,15 +21,16 @@ void main() {
 #else
   bool cut = cut_away(hit);
   if (cut) {
-    // Where the plane cuts the ball, the flat side of the cut.
+    // Where the plane cuts the ball, its flat side is drawn.
     if (cut_away((along + half_chord) * direction)) discard;
     hit = -cutPlane.w / dot(cutPlane.xyz, direction) * direction;
   }
   vec3 seen = hit;
-  // Cuts lie in one plane: in front is the ball whose power, |p - c|^2 - r^2, is least.
+  // All flat sides lie in one plane: the ball with the least power, |p - c|^2 - r^2, is drawn in front.
   if (cut) seen += kPowerShift * (dot(hit - ball.xyz, hit - ball.xyz) - ball.w * ball.w) * direction;
   vec4 projected = projectionMatrix * vec4(seen, 1.0);
   gl_FragDepth = 0.5 * projected.z / projected.w + 0.5;
-  pixel = vec4(cut ? 0.94 * colour : shade(colour, normal), 1.0);  // A cut is there to be read.
+  // Flat sides are not shaded, so that their colours can be read.
+  pixel = vec4(cut ? 0.94 * colour : shade(colour, normal), 1.0);
 #endif
 }

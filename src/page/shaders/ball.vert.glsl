@@ -1,5 +1,5 @@
-// A ball: a square that covers it on the screen. The fragments find the ball by its equation, so it is round at any size
-// and costs six corners.
+// A ball as a square that covers it on the screen. The fragments solve its equation, so that it is round at any size
+// and requires only six corners.
 out vec3 colour, ray;
 flat out vec4 ball;  // Centre and radius in view space.
 
@@ -10,11 +10,11 @@ void main() {
   vec3 middle = (modelViewMatrix * vec4(point.centre, 1.0)).xyz;
   float radius = point.radius;
   float away = length(middle);
-  if (filtered_out(point) || away <= 1.01 * radius) {  // Seen from inside it is nothing.
+  if (filtered_out(point) || away <= 1.01 * radius) {  // A ball around the eye is not drawn.
     gl_Position = nowhere();
     return;
   }
-  // The square is perpendicular to the line of sight and as large as the cone of tangents is there.
+  // The square is perpendicular to the line of sight, and as large as the cross-section of the cone of tangents there.
   float size = radius * away / sqrt(away * away - radius * radius);
   vec3 towards = middle / away;
   vec3 other = abs(towards.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0);

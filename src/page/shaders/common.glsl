@@ -1,13 +1,14 @@
-// What every kernel of the page shares. Places are in the page's own units: the mesh around 0, of size 1.
+// Definitions that all kernels of the page share. Positions are in the page's own units: the mesh lies around 0 and has
+// size 1.
 precision highp float;
 precision highp int;
-uniform vec4 cutPlane;  // In view space; kept is where dot(xyz, p) + w >= 0.
+uniform vec4 cutPlane;  // In view space; the side with dot(xyz, p) + w >= 0 is kept.
 
 const vec3 kKeyLight = vec3(-0.4479, 0.6470, 0.6171);  // View space, towards the light.
 
 bool cut_away(vec3 viewPosition) { return dot(cutPlane.xyz, viewPosition) + cutPlane.w < 0.0; }
 
-// Lit from the key light and a little from everywhere, so that nothing is black.
+// Light from the key light, and a little from all directions, so that nothing is black.
 vec3 shade(vec3 colour, vec3 normal) {
   float key = max(dot(normal, kKeyLight), 0.0);
   float highlight = pow(max(dot(normal, normalize(kKeyLight + vec3(0, 0, 1))), 0.0), 40.0);

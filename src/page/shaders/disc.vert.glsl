@@ -1,4 +1,5 @@
-// A disc at a medial point in its sheet, which halves the angle between the spokes: a triangle around it.
+// A disc at a medial point, in the plane of its sheet, which bisects the angle between the spokes; drawn as a triangle
+// around the disc.
 uniform float discRadius;
 out vec3 colour, normal, place;
 out vec2 corner;

@@ -1,7 +1,7 @@
 // The surface as glass. BACK: the far wall, seen from inside. PLAIN: one colour (creases), or depth alone.
 in vec3 place;
 uniform vec3 glass, crease;
-uniform float density;  // 0: nothing is seen of it, 1: glass, large: nothing is seen through it.
+uniform float density;  // 0: invisible, 1: glass, large: opaque.
 #ifndef PLAIN
 in vec3 viewNormal;
 #endif

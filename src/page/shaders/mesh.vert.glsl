@@ -5,7 +5,7 @@ in vec3 normal;
 out vec3 viewNormal;
 #endif
 out vec3 place;
-invariant gl_Position;  // The wall is drawn where its own depth was written before.
+invariant gl_Position;  // The wall is drawn where its depth has been written before.
 
 void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;

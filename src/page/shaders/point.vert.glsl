@@ -1,7 +1,7 @@
 // A medial point as a small shaded ball: a sprite that always faces the viewer.
 uniform float pointRadius;
 uniform float pixelsPerUnit;  // At distance 1.
-uniform float pixelRatio;     // Of the device's pixels to those of the page.
+uniform float pixelRatio;     // The device's pixels per pixel of the page.
 out vec3 colour;
 
 void main() {

@@ -1,4 +1,4 @@
-// Two lines from a centre to the places that its ball touches.
+// Two lines from a centre to the contacts of its ball.
 out vec3 colour, place;
 
 void main() {

@@ -12,7 +12,7 @@ void main() {
   vec2 along = (b.xy / b.w - a.xy / a.w) * viewport;
   float size = length(along);
   along = size > 0.0 ? along / size : vec2(1, 0);
-  vec2 corner = kCorners[gl_VertexID];  // x: which end; y: which side.
+  vec2 corner = kCorners[gl_VertexID];  // x: the end; y: the side.
   vec4 end = corner.x < 0.5 ? a : b;
   vec2 shift = corner.y * width * vec2(-along.y, along.x) + (corner.x * 2.0 - 1.0) * 0.5 * width * along;
   gl_Position = end + vec4(shift / viewport * end.w, 0, 0);

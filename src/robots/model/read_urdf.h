@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// A text of numbers without meshes is never longer; it holds some 10,000 links.
+/// The greatest size: room for some 10,000 links, since a URDF contains no meshes.
 inline constexpr std::size_t kMostUrdfBytes = 64u << 20;
 
 /// `name` is used in messages. Elements that spheres do not need (inertia, materials, limits) are not examined. Any

@@ -12,12 +12,12 @@
 
 namespace medial_vk::test {
 
-/// A context that all tests of a program share, since drivers take up to seconds to compile what a test needs. It ends
-/// with the last test, before the driver is unloaded.
+/// A context that all tests of a program share, since drivers take up to seconds to compile the programs of a test. It
+/// is destroyed after the last test, before the driver is unloaded.
 class SharedContext : public testing::Environment {
  public:
   explicit SharedContext(bool validation) : validation_(validation) {}
-  /// Opens a context, with validation if that is wanted and the layer is installed.
+  /// Opens a context, with validation if it is requested and the layer is installed.
   static Result<Context> open(bool validation = true) {
     ContextOptions options = {.device = "", .validation = validation, .cache_folder = "/dev/null"};
     Result<Context> made = Context::create(options);

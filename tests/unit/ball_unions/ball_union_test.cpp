@@ -224,7 +224,8 @@ TEST(BallUnion, OfCoplanarAndCosphericalCentres) {
   EXPECT_EQ(betti(sphere), (BettiNumbers{1, 0, 0}));
 }
 
-/// Volume grows by the surface when all radii do: a central difference with an error of the step's square.
+/// The area is the derivative of the volume by all radii at once: a central difference, with an error of the step's
+/// square.
 TEST(BallUnion, AreaIsTheDerivativeOfVolume) {
   const double step = 1e-4;
   auto larger = random_balls(50, 3, 0.1, 0.3), smaller = larger;

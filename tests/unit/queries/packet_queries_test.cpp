@@ -113,7 +113,7 @@ TEST_F(PacketQueriesTest, EveryShapeOfTeamFindsTheSame) {
     const std::vector<Point> directions = spiral_points(samples);
     std::vector<Texel> queries = samples_of_spheres(directions, 60);
     for (std::size_t i = 0; i < queries.size(); i += 7) queries[i][3] = -1;       // passed over
-    for (std::size_t i = 3; i < queries.size(); i += 7) queries[i][3] = 0.0004f;  // nothing is that near, or few are
+    for (std::size_t i = 3; i < queries.size(); i += 7) queries[i][3] = 0.0004f;  // no triangle is so near, or few are
     const Answers single = query_one_by_one(device, queries);
     for (const PacketShape& shape : all_shapes(Internals::of(*context_))) {
       SCOPED_TRACE(testing::Message() << samples << " samples, width " << shape.width << ", shared memory "

@@ -113,7 +113,7 @@ TEST(Sheets, CreasesJoin) {
 }
 
 // Beside a flat strip of ten rows lies a twisted one, 20 to 65 degrees. The least turns of the points on the twisted
-// side are these; those on the flat side see the row before, too: 20, 20, 25, ... 60. None of these twenty has a
+// side are these; those on the flat side also include the row before: 20, 20, 25, ... 60. None of these twenty has a
 // repulsion above 4: together they have a repulsion of 5 for a limit of 31, and an attraction of 4 for one of 32. (The
 // mean of their turns is 40.25. With 40 points each, 20 are no short border.)
 TEST(Sheets, AllOfABorderDecides) {

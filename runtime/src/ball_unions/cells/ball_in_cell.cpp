@@ -66,8 +66,8 @@ Part measure_pyramid(const CellEdge& edge, std::size_t side) {
 }
 
 // Where more than three planes meet in a point, or nearly, rounding leaves edges whose direction is arbitrary, so that
-// they would subtend any angle at the foot of the centre. Of edges this short, terms of their length squared are below
-// a rounding, so that the integrands at their middles do.
+// they could subtend any angle at the foot of the centre. For edges this short, terms of the square of their length are
+// below a rounding, so the integrands are evaluated at their middles.
 constexpr double kShortEdge = 0x1p-26;
 
 Part measure_short_edge(const PowerCell& cell, const CellEdge& edge, std::size_t side) {

@@ -1,4 +1,4 @@
-// Volume and surface of a ball inside its power cell, in closed form.
+// The volume of a ball, and the area of its sphere, inside its power cell, in closed form.
 #pragma once
 
 #include "ball_unions/cells/power_cell.h"

@@ -38,7 +38,7 @@ Matrix principal_axes(Matrix m) {
 
 Point along(const Matrix& axes, const Point& x) { return {dot(axes[0], x), dot(axes[1], x), dot(axes[2], x)}; }
 
-/// Axes and box.
+/// Fits the axes and the box.
 void fit_box(BallTree::Node& node, std::span<const Ball> balls, std::span<const std::uint32_t> names) {
   Point mean{};
   for (const std::uint32_t j : names) mean = mean + balls[j].centre;
@@ -57,14 +57,14 @@ void fit_box(BallTree::Node& node, std::span<const Ball> balls, std::span<const 
   }
   node.middle = mean;
   for (std::size_t k = 0; k < 3; ++k) node.middle = node.middle + (0.5 * (lower[k] + upper[k])) * node.axes[k];
-  // Again, around the rounded middle.
+  // The sizes are measured again, around the rounded middle.
   for (const std::uint32_t j : names) {
     const Point x = along(node.axes, balls[j].centre - node.middle);
     for (std::size_t k = 0; k < 3; ++k) node.half[k] = std::max(node.half[k], std::fabs(x[k]));
   }
 }
 
-/// Least squares along each axis, then down to the lowest ball.
+/// Fits the slope by least squares along each axis, then lowers the bound to the lowest ball.
 void fit_powers(BallTree::Node& node, std::span<const Ball> balls, std::span<const std::uint32_t> names) {
   const auto lifted = [&](std::uint32_t j) {
     const Point d = balls[j].centre - node.middle;

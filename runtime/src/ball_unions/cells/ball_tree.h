@@ -13,7 +13,7 @@ namespace medial_vk {
 
 /// A complete binary tree over balls, halved along the longest principal axis of their centres. Balls along a sheet lie
 /// near a plane, and their radii change linearly to first order: a node is a box along the principal axes, thin across
-/// the sheet, with a linear bound of powers. Boxes along the coordinate axes with the largest radius in each rule out
+/// the sheet, with a linear bound of powers. Boxes along the coordinate axes, with the largest radius in each, exclude
 /// several times fewer balls (docs/decisions.md).
 class BallTree {
  public:
@@ -23,7 +23,7 @@ class BallTree {
     Point half;                 ///< Half extents of the box of the centres, along the axes.
     Point slope;                ///< With `least`: |c - middle|^2 - r^2 >= least + slope . (c - middle) for its balls,
     double least;               ///< slope and c - middle along the axes.
-    double size;                ///< None of its balls reaches farther from `middle`.
+    double size;                ///< The greatest distance from `middle` that its balls reach.
     double radius;              ///< The largest; below 0 in an empty node.
   };
   static constexpr std::uint32_t kLeaf = 4;

@@ -15,10 +15,10 @@ constexpr std::size_t kLanes = 4;
 
 }  // namespace
 
-/// Ball j takes the points x from ball i where |x - c_j|^2 - r_j^2 < |x - c_i|^2 - r_i^2, a half-space; it takes
-/// something from a polyhedron only if it takes a corner. With x and c_j relative to the node's middle, the power of j
-/// is |x|^2 - 2 x . c_j + (|c_j|^2 - r_j^2) >= |x|^2 + least + (slope - 2 x) . c_j, and the product is least in a
-/// corner of the box. `offset`: from the node's middle to the cell's ball.
+/// Ball j takes the points x from ball i where |x - c_j|^2 - r_j^2 < |x - c_i|^2 - r_i^2, a half-space; it cuts a
+/// polyhedron only if it takes a corner. With x and c_j relative to the node's middle, the power of j is |x|^2 - 2 x .
+/// c_j + (|c_j|^2 - r_j^2) >= |x|^2 + least + (slope - 2 x) . c_j, and the product is least in a corner of the box.
+/// `offset`: from the node's middle to the cell's ball.
 bool CellBuilder::may_cut(const BallTree::Node& node, const Point& offset) const {
   const double radius = balls_[cell_.ball()].radius;
   const double distance = length(offset);
@@ -71,7 +71,7 @@ void CellBuilder::cut_by(std::uint32_t j) {
   const std::uint32_t i = cell_.ball();
   if (j == i || (mask_ != nullptr && !mask_->holds(j))) return;
   if (are_apart(balls_[i], balls_[j])) return;
-  // All corners on a plane that bounds the cell already would be undecided.
+  // For a plane that bounds the cell already, the side of all corners on it would be undecided.
   if (!cell_.was_cut_by(j)) cell_.clip(j);
 }
 

@@ -36,7 +36,7 @@ inline Point direction_of_edge(const Point& between_ends, const Point& between_n
   return (1 / std::sqrt(normals)) * between_normals;
 }
 
-/// Calls f(edge) for every edge, also for those whose length rounding reduces to zero: they locate their faces.
+/// Calls f(edge) for every edge, including those whose length is zero by rounding, since they locate their faces.
 template <class Function>
 void for_each_edge(const PowerCell& cell, double radius, const Function& f) {
   const double unit = 1 / radius;

@@ -114,7 +114,7 @@ bool PowerCell::cuts(const Corner& corner, const Bisector& plane, double height)
   return !exact_.keeps(ball_, name(0), name(1), name(2), plane.ball);
 }
 
-/// False if there are none.
+/// Returns false if there are none.
 bool PowerCell::find_cut_corners(const Bisector& plane) {
   heights_.resize(corners_.size());
   double greatest = -HUGE_VAL;

@@ -26,7 +26,7 @@ class PowerCell {
 
   explicit PowerCell(std::span<const Ball> balls) : balls_(balls), exact_(balls, walls_) {}
 
-  /// The state that restore() needs to continue with a cell.
+  /// The state from which restore() continues with a cell.
   struct Kept {
     std::uint32_t ball = 0;
     std::vector<Wall> walls;
@@ -43,8 +43,8 @@ class PowerCell {
   void start(std::uint32_t i, const RegularTriangulation& triangulation);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before. False if nothing was cut off.
   bool clip(std::uint32_t j);
-  /// Recomputes corners of planes that nearly share a line with more digits. Most corners do not last until the last
-  /// cut, so this is done after it.
+  /// Recomputes with more digits the corners whose planes nearly share a line. It is called after the last cut, since
+  /// most corners are cut off before.
   void sharpen();
   bool was_cut_by(std::uint32_t j) const;
   std::uint32_t ball() const { return ball_; }

@@ -1,8 +1,9 @@
-// The planes that bound the power cell of a ball, and the exact test on which side of a plane three others meet.
+// The planes that bound the power cell of a ball, and the exact test of the side of a plane on which three others meet.
 //
-// All coordinates are relative to the centre of the cell's own ball i. Ball j keeps the points x with
+// All coordinates are relative to the centre of the cell's own ball i. The plane of ball j keeps in the cell the points
+// x with
 //   2 (c_j - c_i) . x <= |c_j - c_i|^2 + r_i^2 - r_j^2                                  (power distances, equation 1.2)
-// for i; a *wall* keeps normal . x <= offset.
+// and a *wall* keeps those with normal . x <= offset.
 #pragma once
 
 #include <array>
@@ -37,12 +38,12 @@ Bisector bisector(std::span<const Ball> balls, std::uint32_t i, std::uint32_t j)
 /// nearly.
 std::pair<Point, double> meeting_point(const Bisector& p, const Bisector& q, const Bisector& s);
 
-// Corners in a cell's box that rounding may have moved by more, in radii, are computed with more digits, also those
-// outside the ball, as edges that pass through it end there: where planes nearly have a line in common, rounding may
-// move a corner anywhere along it, and volumes and simplices must not depend on that.
+// The displacement by rounding, in radii, above which a corner in the cell's box is recomputed with more digits. Where
+// planes nearly have a line in common, rounding may move a corner anywhere along that line, and volumes and simplices
+// must not depend on it. Corners outside the ball count too, since edges that pass through the ball end there.
 inline constexpr double kSharpCorner = 0x1p-40;
-// The same for corners anywhere, at once: beyond this limit, more tests would need exact arithmetic, and more queries a
-// tree. In radii, or in the distance from the centre.
+// The displacement above which any corner is recomputed at once, in radii or in the distance from the centre: less
+// accurate corners would cause more tests in exact arithmetic, and more walks of the tree.
 inline constexpr double kRoughCorner = 0x1p-20;
 
 /// A plane that belongs to one cell only: normal . x <= offset, for exactly these doubles.
@@ -66,8 +67,8 @@ class ExactSide {
   /// The intersection of planes p, q, s of the cell of ball i, relative to its centre, and a bound of its rounding: a
   /// few units in the last place of the point's distance, for any flatness of the corner.
   std::pair<Point, double> meet(std::uint32_t i, std::int32_t p, std::int32_t q, std::int32_t s);
-  /// True if the plane between i and j, which have the same centre, keeps any point: if i is the larger one, or equally
-  /// large and of the smaller number.
+  /// For two balls with the same centre: true if the plane between them keeps any point for i, which is the case if i
+  /// is larger, or equally large with a smaller number.
   bool keeps_concentric(std::uint32_t i, std::uint32_t j) const {
     if (balls_[i].radius != balls_[j].radius) return balls_[i].radius > balls_[j].radius;
     return i < j;

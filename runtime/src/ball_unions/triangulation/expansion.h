@@ -14,7 +14,7 @@ namespace medial_vk {
 /// Memory for the components of expansions, released all at once.
 class ExpansionArena {
  public:
-  /// Room for `count` doubles, until reset().
+  /// Memory for `count` doubles, valid until reset().
   double* take(std::size_t count) {
     while (block_ < blocks_.size() && used_ + count > blocks_[block_].size) next_block();
     if (block_ == blocks_.size()) add_block(count);
@@ -52,14 +52,14 @@ using Expansion = std::span<const double>;
 /// -1, 0 or 1: the largest component outweighs all others.
 inline int sign(Expansion e) { return e.empty() ? 0 : e.back() > 0 ? 1 : -1; }
 
-/// Rounded: off by less than two units in its last place, the components being smaller and smaller.
+/// The rounded value, with an error below two units in its last place, since each component is smaller than the next.
 inline double value(Expansion e) {
   double sum = 0;
   for (const double component : e) sum += component;
   return sum;
 }
 
-/// Sums, differences and products of expansions, exactly. The results live as long as the arena is not reset.
+/// Sums, differences and products of expansions, exactly. The results are valid until the arena is reset.
 class ExpansionMath {
  public:
   explicit ExpansionMath(ExpansionArena& arena) : arena_(&arena) {}

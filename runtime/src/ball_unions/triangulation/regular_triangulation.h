@@ -14,9 +14,9 @@
 namespace medial_vk {
 
 /// Two balls are joined by an edge if their power cells share a face, four by a tetrahedron if theirs share a corner.
-/// Ties are broken as in ExactSide, so that the result depends neither on rounding nor on the order of insertion. Four
-/// points far from all balls are in it: every cell is bounded, and no point of a ball is nearer to one of them than to
-/// that ball. O(n log n) for balls of which each has a bounded number of neighbours.
+/// Ties are broken as in ExactSide, so that the result depends neither on rounding nor on the order of insertion. It
+/// includes four points far from all balls, so that every cell is bounded; no point of a ball has a smaller power to
+/// one of them than to that ball. O(n log n) for balls of which each has a bounded number of neighbours.
 class RegularTriangulation {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -25,7 +25,7 @@ class RegularTriangulation {
     std::array<std::uint32_t, 4> neighbours;  ///< neighbours[k] shares all but balls[k]; kNone if there is none.
   };
 
-  /// The corners but number k, such that det(c_a - c_k, c_b - c_k, c_c - c_k) > 0.
+  /// The corners except number k, in an order with det(c_a - c_k, c_b - c_k, c_c - c_k) > 0.
   static constexpr std::array<std::array<std::size_t, 3>, 4> kOthers = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
   /// The intersection of four power cells, relative to the centre of balls[0], and a bound of its rounding.

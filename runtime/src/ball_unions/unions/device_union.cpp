@@ -117,7 +117,7 @@ void DeviceMeasuring::record(Recorder& r, const std::array<BufferRange, 4>& buff
   r.barrier();
 }
 
-/// Takes the results of the device within the tolerance.
+/// Accepts the results of the device that are within the tolerance.
 void DeviceMeasuring::accept() {
   for (std::size_t n = 0; n < found_.size(); ++n) {
     const std::uint32_t i = tree_.order()[n];

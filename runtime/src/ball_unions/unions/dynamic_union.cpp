@@ -41,7 +41,8 @@ double offset_of(const Ball& ball, const Ball& other) {
 
 /// A plane that is farther from the centre than this cuts no corner off. The offset is a sum of three terms of at most
 /// 4 over a length: where it is above `reach` >= 0 and the length small, so is the difference of the squared radii, and
-/// the 8 roundings stay below the 2^-40 that are added for balls that are not tiny; tiny balls are cut in vain.
+/// the 8 roundings stay below the 2^-40 that are added for balls that are not tiny; for tiny balls the cut is
+/// superfluous.
 double reach_of(const std::vector<PowerCell::Corner>& corners) {
   double reach = 0;
   for (const PowerCell::Corner& corner : corners) reach = std::max(reach, length(corner.at) + corner.slack);

@@ -47,8 +47,8 @@ std::size_t index_in(const std::vector<T>& list, const T& simplex) {
 
 std::uint64_t count_components(const DualComplex& complex);
 
-/// Sorts all lists and adds missing faces. Without rounding none would be missing: where a simplex meets its ball by
-/// less than rounding, its faces may have been found to miss theirs.
+/// Sorts all lists and adds missing faces. Faces are missing by rounding only: if a simplex barely meets its ball, its
+/// faces may have been found to miss theirs.
 void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
 
 }  // namespace medial_vk

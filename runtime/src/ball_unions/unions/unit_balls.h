@@ -16,8 +16,8 @@ double scale_of(std::span<const Ball> balls);
 /// The balls multiplied by that scale, with tiny numbers rounded to multiples of 2^-150.
 Ball scaled_ball(const Ball& ball, double scale);
 std::vector<Ball> scaled_balls(std::span<const Ball> balls, double scale);
-/// Sums with the rounding errors of the additions carried along (Neumaier): the error of the result does not grow with
-/// n.
+/// A sum that also adds up the rounding errors of its additions (Neumaier), so that the error of the result does not
+/// grow with n.
 class CarefulSum {
  public:
   void add(double term);

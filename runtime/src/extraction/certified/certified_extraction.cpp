@@ -75,7 +75,7 @@ class CertifiedRun {
   // Small enough for frequent progress and a prompt stop, large enough to keep a device busy.
   static constexpr std::uint32_t kFirstChunk = 1024, kLargestChunk = 4096;
 
-  // The greatest fill of a buffer: 1 is full.
+  // The greatest fill of a buffer; 1: full.
   struct Fill {
     double share = 0;
     bool overflow = false;

@@ -16,7 +16,8 @@ using gpu::uint;
 static_assert(gpu::kStatistics + gpu::kStatisticsPerLevel * gpu::kMaxLevels <= gpu::kCounterCount);
 
 constexpr uint kTopCellsAlongSide = 8;
-// Contact lists hold clusters as long as a cell's ball is this much larger than half of them.
+// Contact lists hold clusters at levels where the radius of a cell's ball exceeds the median radius of the clusters by
+// this factor.
 constexpr double kCellPerCluster = 1.0;
 
 // The number of kept cells that a chunk should have on a CPU. There a dispatch over that many takes about 0.1 s, the
@@ -39,7 +40,7 @@ constexpr float kSlack = 2e-6f;
 constexpr double kCentreError = 3e-7;
 
 // Below the finest voxel, the number of cells along a sheet that runs on a face of its voxel, or whose angle is the
-// threshold, grows fourfold with every level. Cells smaller than this that can hide nothing else are not subdivided.
+// threshold, grows fourfold with every level. Cells smaller than this that can hold no other points are not subdivided.
 constexpr double kSettleSize = 1.0 / 4096;
 
 const double kHalfDiagonal = std::sqrt(3.0) / 2.0;

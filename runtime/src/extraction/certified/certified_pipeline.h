@@ -1,5 +1,5 @@
 // The certified extraction on the device (docs/theory.md): one recorded sequence takes a range of top cells from their
-// contact lists to medial points. Nothing is read back in the middle; counters on the device size every dispatch.
+// contact lists to medial points. Nothing is read back before its end; counters on the device size every dispatch.
 //
 //   gather contacts of the top cells
 //   for each level, coarse to fine and below the finest voxel:
@@ -44,11 +44,11 @@ class CertifiedPipeline {
   void set_grid(const std::array<std::uint32_t, 3>& grid);
   /// Number of top cells; record() takes ranges of [0, top_cells()).
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
-  /// Most top cells that one recorded sequence can take: their states fit the buffers.
+  /// The greatest number of top cells of one recorded sequence, whose states fit the buffers.
   std::uint32_t largest_chunk() const { return 8 * capacity_.cells; }
-  /// Share of the buffers that a chunk should fill.
+  /// The share of the buffers that a chunk should fill.
   double aim() const;
-  /// A first guess of the number of top cells for that.
+  /// A first estimate of the number of top cells for this share.
   std::uint32_t likely_chunk() const;
   std::uint32_t level_count() const { return coarse_levels_ + 1 + options_.extra_levels; }
   double cell_size(std::uint32_t level) const;
@@ -145,7 +145,7 @@ class CertifiedPipeline {
   // The same for every round of so many entries of the lists.
   void run_rounds(Recorder& r, const Kernel& kernel, const Extent& extent, gpu::StepConstants step,
                   std::uint32_t entries = gpu::kEntriesPerRound);
-  // A kernel that evaluates winding numbers: the tree is bound before its own buffers, open edges after them.
+  // A kernel that evaluates winding numbers: the tree is bound before the kernel's own buffers, open edges after them.
   Kernel side_kernel(const char* shader, std::vector<BufferRange> buffers) const;
   // The pairs of carriers of cells from `first` on, before their search or after (step.second_task).
   void judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level, std::uint32_t first,

@@ -273,7 +273,8 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
       {gpu::kRequests}, step);
 }
 
-// Cells give up at the last level, some before it, from kBoundaryDepth on where the mesh cannot be trusted.
+// Cells are given up at the last level; next to untrusted triangles of the boundary, some are given up earlier, from
+// kBoundaryDepth on.
 void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level) {
   const bool some_settle = step.settles != 0u || (step.depth >= gpu::kBoundaryDepth && mesh_->has_untrusted);
   if (step.last_level == 0u && !some_settle) return;

@@ -12,9 +12,9 @@
 
 namespace medial_vk {
 
-/// While points of one chunk are copied and read by the host, the next chunk may be computed, except for its end, which
-/// writes its own points and waits for before_next(). On a CPU nothing is copied: is_shared() is true, and the host
-/// reads the points before the next chunk begins.
+/// While the points of one chunk are copied and read by the host, the next chunk may be computed, except for its last
+/// part, which writes its own points and waits for before_next(). On a CPU nothing is copied: is_shared() is true, and
+/// the host reads the points before the next chunk begins.
 class ResultDownload {
  public:
   explicit ResultDownload(ContextImpl& context);

@@ -1,5 +1,5 @@
 // The published method on the device: a recorded sequence, in parts, takes a chunk of top cells through the levels of
-// Section 2.3.2 and through Algorithm 2. Nothing is read back in the middle; counters on the device size every
+// Section 2.3.2 and through Algorithm 2. Nothing is read back before its end; counters on the device size every
 // dispatch, and the buffers are large enough for any chunk.
 //
 //   for each level, coarse to fine:

@@ -13,12 +13,13 @@
 namespace medial_vk {
 namespace {
 
-/// With up to this number of balls a second start is worth its cost, as the result depends much on the start.
+/// With up to this number of balls a second start is worth its time, since the result depends strongly on the start.
 constexpr std::size_t kFew = 64;
 /// The least growth of radii before the proof, as a share of the diagonal.
 constexpr double kRoom = 1e-9;
 
-/// Number of elements of the boundary: enough that the protrusion of an element from a ball is negligible.
+/// Number of elements of the boundary: enough that an element reaches only negligibly out of a ball that holds its
+/// middle.
 std::size_t elements_for(std::size_t balls) {
   if (balls <= 16) return 6'000;
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);

@@ -10,11 +10,11 @@
 
 namespace medial_vk {
 
-/// Deterministic. Throws std::bad_alloc, and what `report` throws.
+/// Deterministic. Throws std::bad_alloc, and the exceptions of `report`.
 class Cover {
  public:
-  /// Called with the finished share, from any thread at any time; a smaller one than before is to be ignored. May throw
-  /// Stopped.
+  /// Called with the finished share, from any thread at any time; a share that is smaller than before is ignored. May
+  /// throw Stopped.
   using Report = std::function<void(double)>;
 
   /// Balls grow from these. Keeps a reference to the solid.

@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// Factor by which radii are enlarged, so that elements stay held for any rounding of distances.
+/// The factor by which radii are enlarged, so that balls hold their elements for any rounding of distances.
 inline constexpr double kCoverRoom = 1 + 1e-13;
 
 /// The reach of the ball from a point in it along a unit direction.

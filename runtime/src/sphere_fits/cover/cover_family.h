@@ -22,8 +22,8 @@ constexpr std::size_t cover_top(std::size_t count) {
 
 /// For every top T there are covers of T, T - 1, T - 2 ... balls, one after the other, that depend only on the solid
 /// and on T. The answer for n balls is the cover of least volume with no more than n balls among those of the tops up
-/// to cover_top(n). For a larger number these and others are candidates, so the answer is never larger. A cover with
-/// less volume than an earlier one of its top, which has more balls, is left out.
+/// to cover_top(n). For a larger number the candidates include these, so the volume of the answer is never larger. A
+/// cover of a top is left out if it has less volume than an earlier cover of this top, which has more balls.
 class CoverFamily {
  public:
   /// By top: balls inside, T of them, or fewer for the greatest; more tops may be added later. Keeps references.
@@ -37,8 +37,8 @@ class CoverFamily {
   };
   /// All answers are proved. Throw std::bad_alloc, and Stopped at the request of the progress callback.
   Answer of(std::size_t count);
-  /// A cover of no more balls than `count`, but more than the previous top: with few balls, of no more than this
-  /// volume; none if the one for `count` is larger.
+  /// A cover with few balls and at most this volume: its number of balls is at most `count` and above the previous top.
+  /// Empty if the cover for `count` balls has a larger volume.
   std::vector<Ball> few(std::size_t count, double volume);
 
  private:

@@ -28,7 +28,7 @@ double CoverSearch::cost_of(std::uint32_t element, double height) const {
   return elements_.area(element) * column(height);
 }
 
-/// Of a column over a unit of area.
+/// The volume of a column over a unit of area.
 double CoverSearch::column(double height) const {
   const double spread = height / ease_;
   return height * (1 + spread + spread * spread / 3);
@@ -52,7 +52,7 @@ void CoverSearch::add_holder(std::uint32_t element, const Holder& holder) {
   rank(holder, highest_[element]);
 }
 
-/// Its height.
+/// Removes one holder of an element, and returns the height of its column.
 double CoverSearch::remove_holder(std::uint32_t element, std::uint32_t ball) {
   std::vector<Holder>& holders = holders_[element];
   const auto at = std::find_if(holders.begin(), holders.end(), [ball](const Holder& h) { return h.ball == ball; });
@@ -150,7 +150,7 @@ bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const 
 }
 
 void CoverSearch::refine() {
-  constexpr double kSmall = 0.05;  // of the ball's radius: the protrusion of such an element is negligible
+  constexpr double kSmall = 0.05;  // of the ball's radius: such an element reaches only negligibly out of it
   std::vector<bool> which(elements_.size());
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
     for (const std::uint32_t element : exclusive(i)) {

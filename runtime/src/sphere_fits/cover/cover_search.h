@@ -24,7 +24,7 @@ class CoverSearch {
   void slide();
   /// Assigns the elements that determine the radius of a ball to another one. Returns the number of such changes.
   std::size_t trade();
-  /// Moves the most dispensable balls to those that protrude most. Returns the number moved.
+  /// Moves the most dispensable balls to the balls that reach out most. Returns the number moved.
   std::size_t relocate();
   /// Removes a dispensable ball, after which others have other indices. Precondition: two balls or more.
   void remove_one();
@@ -78,7 +78,8 @@ class CoverSearch {
   std::vector<std::uint32_t> neighbours(std::uint32_t i, std::size_t count) const;
   /// All balls that are not idle, by decreasing cost.
   std::vector<std::uint32_t> costliest_first() const;
-  /// The least growth of the others, as a volume, that would replace this ball; 0 if it holds nothing alone.
+  /// An estimate of the volume by which other balls must grow to replace this ball; 0 if no element is held by it
+  /// alone.
   double price_to_leave(std::uint32_t i) const;
   bool is_same_as_slid(std::uint32_t i, std::size_t alone) const;
   void slide_batch(std::span<const std::uint32_t> batch);

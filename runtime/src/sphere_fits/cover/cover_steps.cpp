@@ -263,7 +263,8 @@ void CoverSearch::take_share(std::uint32_t i, std::uint32_t wide, const Point& t
   }
 }
 
-/// The points where a ball protrudes most, and where it reaches farthest for an element that only it holds.
+/// The point at which a ball reaches out most, and the farthest point to which it reaches for an element that only it
+/// holds.
 std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
   std::array<Point, 2> tips{};
   std::array<double, 2> most = {-1, -1};
@@ -295,7 +296,7 @@ bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   return false;
 }
 
-/// Only a trial shows this.
+/// An estimate, in which one neighbour takes over all elements. Only a trial gives the actual increase.
 double CoverSearch::price_to_leave(std::uint32_t i) const {
   const std::vector<std::uint32_t> alone = exclusive(i);
   if (alone.empty()) return 0;
@@ -309,7 +310,7 @@ double CoverSearch::price_to_leave(std::uint32_t i) const {
 
 std::size_t CoverSearch::relocate() {
   // The share of the volume that a ball adds bounds the gain by another ball beside it; elements that a ball holds
-  // alone must be held by a neighbour: the cheapest balls to remove are tried first.
+  // alone must be held by a neighbour. The balls whose removal is cheapest are tried first.
   const std::size_t tries = std::max<std::size_t>(4, balls_.size() / 6);
   std::vector<std::pair<double, std::uint32_t>> free, wide;
   for (std::uint32_t i = 0; i < balls_.size(); ++i) {
@@ -325,7 +326,7 @@ std::size_t CoverSearch::relocate() {
     const bool moved = from != wide[next].second && move_to(from, wide[next].second);
     relocated += moved;
     ++next;
-    // An idle ball costs nothing: it is tried at one ball after the other.
+    // The removal of an idle ball costs nothing, so it is tried at one ball after the other.
     if (moved || !is_idle) ++at;
   }
   return relocated;

@@ -175,7 +175,7 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions
   return levels;
 }
 
-/// Throws no exception.
+/// Converts exceptions to errors.
 Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& options, bool all_levels,
                                               const Extractor& extractor, const SphereProgress& progress) {
   try {

@@ -23,7 +23,7 @@
 namespace medial_vk {
 namespace {
 
-// More balls than this need finer candidates: that many voxels along the longest side.
+// Larger sets require finer candidates: from `from` balls on, those of `resolution` voxels along the longest side.
 struct Level {
   std::size_t from;
   std::uint32_t resolution;
@@ -32,7 +32,7 @@ constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096
 // Balls of small object angles fill the edges; below this angle, their number grows but not their gain.
 constexpr double kObjectAngle = 0.3;
 
-constexpr std::size_t kGapPeriod = 8;   // one of so many balls is placed by distance instead of volume
+constexpr std::size_t kGapPeriod = 8;   // every eighth ball is placed by distance instead of volume
 constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
 constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
 constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
@@ -114,7 +114,8 @@ class Placing {
     return false;
   }
 
-  /// Samples decide when to try a proof; one that fails determines how much lower they must be.
+  /// Samples decide when a proof is attempted; a proof that fails determines the gap of the samples below which the
+  /// next one is attempted.
   Result<bool> gap_met() {
     const double sampled = gaps_.widest_on_boundary().size;
     if (!(sampled <= sampled_gap_)) return false;
@@ -318,7 +319,7 @@ class Placing {
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
   double estimated_error_;     // estimate of the steps below which the error is measured
-  double sampled_gap_;         // gap of samples below which a proof is tried
+  double sampled_gap_;         // gap of samples below which a proof is attempted
   std::vector<double> steps_;  // by slot
 };
 

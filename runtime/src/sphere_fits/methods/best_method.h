@@ -5,13 +5,13 @@
 
 namespace medial_vk {
 
-/// Balls inside the solid, one after the other: each is the medial ball that adds most volume, exactly measured, or,
-/// one in eight and where that adds nearly as much, lies where the union is farthest from the boundary; then it and its
-/// neighbours slide in the direction of the greatest growth of the union, while their contacts move along the boundary
-/// (docs/theory.md, "Tight spheres"). Neither the choice of a ball nor its motion depends on the requested number, and
-/// no step reduces the union: more balls never leave more volume uncovered. With the contract balanced they also grow
-/// and move beyond the boundary to minimise SymmetricDifference, and more balls never make that larger. Errors: those
-/// of approximate_by_spheres().
+/// Adds balls inside the solid one after the other. The next ball is the medial ball that adds the most volume,
+/// measured exactly; or the ball in the widest gap between union and boundary, which is chosen for every eighth ball,
+/// and for any other if it adds at least 0.4 of that volume. Then the ball and its neighbours slide in the direction of
+/// the greatest growth of the union, while their contacts move along the boundary (docs/theory.md, "Tight spheres").
+/// Neither the choice of a ball nor its motion depends on the requested number, and no step reduces the union, so more
+/// balls never leave more volume uncovered. With the contract balanced, balls also grow and move beyond the boundary to
+/// minimise SymmetricDifference, which more balls never increase. Errors: those of approximate_by_spheres().
 Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
                                const SphereProgress& progress);
 

@@ -88,7 +88,7 @@ Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Ex
   return out;
 }
 
-/// Method source may have no set of so few balls; one of more balls contains the curve, too.
+/// Method source may have no set of so few balls; a larger set also contains the curve.
 Result<SphereSet> inside_of_at_least(const Solid& solid, SphereOptions options, const Extractor& extractor,
                                      const SphereProgress& progress) {
   options.contract = SphereContract::kInside;
@@ -116,7 +116,7 @@ Result<CoverageCurve> curve_of(const Solid& solid, const SphereOptions& options,
   return out;
 }
 
-/// Throws no exception.
+/// Converts exceptions to errors.
 template <class Work>
 auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
     -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {

@@ -1,4 +1,4 @@
-// Orders of balls whose prefixes are good sets, too, and the volume of each prefix.
+// Orders of balls whose prefixes are also good sets, and the volume of each prefix.
 #pragma once
 
 #include <cstddef>

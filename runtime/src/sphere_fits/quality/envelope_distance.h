@@ -19,7 +19,7 @@ struct DistanceOptions {
 /// By branch and bound on functions with Lipschitz constant 1 (docs/theory.md, "Tight spheres"). Where the mesh is
 /// open, the surface that closes the solid is no part of the boundary: solid_to_balls then cannot exclude cells
 /// outside, so its bounds may stay far apart, and balls_to_solid decides a cell's side at its middle. Does not throw.
-/// Errors: kUsage (no balls), kOutOfMemory, kInterrupted (`threads` does not go on).
+/// Errors: kUsage (no balls), kOutOfMemory, kInterrupted (a stop by `threads`).
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
                                             const DistanceOptions& options = {});
 

@@ -13,7 +13,8 @@
 namespace medial_vk {
 namespace {
 
-/// Cells of a grid over the solid's box, at most so many along a side, in each of which two samples are taken.
+/// The greatest and the least number of cells along a side of the grid over the solid's box; two samples are taken in
+/// each cell.
 constexpr std::size_t kStrata = 96, kLeastStrata = 24;
 constexpr std::size_t kBlock = 4;  // cells along the side of a block
 /// Number of samples on each sphere, as in cuRobo.

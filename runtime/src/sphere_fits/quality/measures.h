@@ -17,10 +17,10 @@ struct MeasureOptions {
   Threads threads = {};
 };
 
-/// Precondition: at least one ball. Exact are the union's volume; the solid's, if Solid::has_volume(); the volume error
-/// of balls that are proved to lie inside such a solid or to cover it. Other volumes are estimates from two samples in
-/// each cell of a grid, with their standard error. Does not throw. Errors: those of measure_ball_union(), kOutOfMemory,
-/// kInterrupted (`threads` does not go on).
+/// Precondition: at least one ball. The volume of the union is exact; so is that of the solid, if Solid::has_volume(),
+/// and the volume error of balls that are proved to lie inside such a solid or to cover it. Other volumes are estimates
+/// from two samples in each cell of a grid, with their standard error. Does not throw. Errors: those of
+/// measure_ball_union(), kOutOfMemory, kInterrupted (a stop by `threads`).
 Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball> balls,
                                        const MeasureOptions& options = {});
 

@@ -12,10 +12,10 @@
 
 namespace medial_vk {
 
-/// Throws Stopped if `threads` is stopped.
+/// Throws Stopped at a stop by `threads`.
 InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});
 
-/// Errors: kOutOfMemory, kInterrupted (`threads` does not go on).
+/// Errors: kOutOfMemory, kInterrupted (a stop by `threads`).
 Result<CoverProof> prove_cover(const Solid& solid, const Envelope& envelope, const Threads& threads = {});
 /// The same for balls, at least one. Errors: also those of measure_ball_union().
 Result<CoverProof> prove_cover(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});

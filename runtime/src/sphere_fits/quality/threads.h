@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// Gets a stage and the finished share of it; returns false to stop. For one thread at a time.
+/// Receives a stage and its finished share; returns false to stop. For one thread at a time.
 using SphereProgress = std::function<bool(const char* stage, double done)>;
 
 /// Thrown by loops that are stopped.

@@ -24,15 +24,15 @@ class BallSteps {
  private:
   /// The replacement of the ball; no value if no direction is better.
   virtual std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) = 0;
-  /// The gain of that; 0: there is none, and nothing has changed.
+  /// The gain of this replacement; 0: there is none, and nothing has changed.
   virtual Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) = 0;
 };
 
 /// Balls stay inside the solid and touch its boundary; the gain is that of the volume of the union.
 std::unique_ptr<BallSteps> sliding_steps(const Solid& solid);
 
-/// Balls may reach out; the gain is the decrease of the volume between the solid and the union (docs/theory.md,
-/// "Balanced"), by the estimate of SymmetricDifference. Throws std::bad_alloc.
+/// Balls may reach out of the solid; the gain is the decrease of the volume between the solid and the union
+/// (docs/theory.md, "Balanced"), by the estimate of SymmetricDifference. Throws std::bad_alloc.
 std::unique_ptr<BallSteps> balancing_steps(const Solid& solid);
 
 /// Without a hole in the boundary, growth and motion within empty balls cannot leave the solid; near a hole the winding

@@ -86,7 +86,7 @@ double GapFinder::refresh(Sample& sample) const {
   return least;
 }
 
-/// The ball that was nearest bounds each gap, so few must be remeasured.
+/// The ball that was nearest bounds each gap, so only a few gaps must be remeasured.
 GapFinder::Gap GapFinder::widest_on_boundary() {
   std::vector<std::pair<double, std::uint32_t>> bounds;
   for (std::uint32_t k = 0; k < samples_.size(); ++k) {

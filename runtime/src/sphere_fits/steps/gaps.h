@@ -13,7 +13,8 @@ namespace medial_vk {
 /// Found among samples of the boundary and the vertices of the envelope: for the choice of balls, not for proofs.
 class GapFinder {
  public:
-  /// Keeps references to both. `reach_out`: balls may, so vertices of the envelope that are outside are left out.
+  /// Keeps references to both. `reach_out`: balls may reach out of the solid, so vertices of the envelope outside are
+  /// left out.
   GapFinder(const Solid& solid, const DynamicUnion& balls, bool reach_out = false);
 
   struct Gap {
@@ -21,7 +22,7 @@ class GapFinder {
     double size = 0;
     /// For a gap on the boundary: the point half way to the nearest ball, if there is one.
     Point towards_balls = {0, 0, 0};
-    /// For a gap on the boundary: a unit normal into the solid, at a corner the mean one.
+    /// For a gap on the boundary: a unit normal into the solid; at a corner, the mean normal.
     Point inward = {0, 0, 0};
   };
   /// To be called after a change, addition or removal of the ball in a slot.

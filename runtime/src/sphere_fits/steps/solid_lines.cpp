@@ -48,7 +48,7 @@ class Shadow {
     if (a > b) return -side_of(b, a, at);
     return (flat(b, 0) - flat(a, 0)) * (at[1] - flat(a, 1)) - (flat(b, 1) - flat(a, 1)) * (at[0] - flat(a, 0));
   }
-  /// A line that meets the edge is taken to be on the left of it, as its lower vertex sees it.
+  /// A line that meets the edge counts as on the left of it, seen from its lower vertex.
   bool is_left(std::uint32_t a, std::uint32_t b, double side) const { return a < b ? side >= 0 : side > 0; }
 
   void cross_one(const Triangle& t, const std::array<double, 2>& at, std::uint32_t line,
@@ -64,7 +64,7 @@ class Shadow {
     const double sum = side[0] + side[1] + side[2];
     double height = 0;
     for (std::size_t k = 0; k < 3; ++k) height += (sum != 0 ? side[k] / sum : 1.0 / 3) * mesh_.vertices[t[k]][axis_];
-    // Seen from ahead, the corners of a triangle that the line leaves the solid through go round to the left.
+    // Where the line leaves the solid, the corners of the triangle are counter-clockwise as seen from ahead.
     crossings.push_back({line, lefts == 3 ? -1 : 1, height});
   }
 

@@ -1,4 +1,4 @@
-// The content, the view and the size of a picture: the part that the command line chooses.
+// The content, the view and the size of a picture, as chosen by the command line.
 #pragma once
 
 #include <array>

@@ -52,7 +52,7 @@ class Composer {
     Vector3f colour = background(height_share);
     if (layers_.back.nearness[pixel] > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
-    // A disc in front of the wall protrudes only by its own size: the wall stays in front of it.
+    // A disc reaches in front of the wall only by its own size, so the wall is drawn in front of it.
     if (layers_.front.nearness[pixel] > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
     return on_line(x, y) ? mix(colour, kInk, 0.60f) : colour;
   }

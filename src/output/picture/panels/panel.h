@@ -33,7 +33,7 @@ inline Frame frame_of(const Panel& panel, const Picture& picture, std::uint32_t 
   return {0.06f * w, 0.06f * h, 0.94f * w, h - legend};
 }
 
-/// The greatest distance, in pixels, at which a mark shades another.
+/// The greatest distance, in pixels, at which a mark shades another mark.
 constexpr float kGreatestReach = 32;
 /// The same distance as a part of the radius of the shape.
 constexpr float kReach = 0.12f;

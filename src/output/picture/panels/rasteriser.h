@@ -40,13 +40,14 @@ enum class Keep { kNearest, kFarthest };
 
 void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer);
 
-/// Discs of at least `least_radius` pixels. Those seen from the rim are kept thick enough to be visible.
+/// Draws discs of at least `least_radius` pixels. Discs seen from the rim are kept thick enough to be visible.
 void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer);
 
 /// Draws each ball within the part where it is visible; `samples` per pixel and side.
 void draw_balls(std::span<const Mark> balls, const Camera& camera, float samples, MarkLayer& layer);
 
-/// The balls that are nearest at the centre of a pixel, the nearest first, each with the part where it is visible.
+/// The balls that are nearest at the centre of some pixel, the nearest first, each with the part of the picture where
+/// it is visible.
 std::vector<Mark> seen_balls(std::span<const Mark> balls, const Camera& camera, std::uint32_t width,
                              std::uint32_t height);
 

@@ -28,7 +28,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<std::uint64_t>* co
   return info;
 }
 
-/// Never closed, because the runtime uses the same library.
+/// The library is never closed, because the runtime uses it too.
 PFN_vkGetInstanceProcAddr load_vulkan() {
   void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
