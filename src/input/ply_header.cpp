@@ -146,9 +146,9 @@ std::uint64_t size_of(PlyType type) {
   return 0;
 }
 
-int PlyElement::find(std::string_view wanted, std::string_view other_name) const {
+int PlyElement::find(std::string_view property_name, std::string_view other_name) const {
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].name == wanted || (!other_name.empty() && properties[i].name == other_name)) {
+    if (properties[i].name == property_name || (!other_name.empty() && properties[i].name == other_name)) {
       return static_cast<int>(i);
     }
   }

@@ -28,7 +28,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   /// Index of the property with one of these names; -1: none.
-  int find(std::string_view wanted, std::string_view other_name = {}) const;
+  int find(std::string_view property_name, std::string_view other_name = {}) const;
   /// The fewest bytes that one of these elements can take, with all lists empty.
   std::uint64_t smallest_size(PlyFormat format) const;
 };

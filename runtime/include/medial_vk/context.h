@@ -26,10 +26,10 @@ struct DeviceDescription {
   std::string why_not;             ///< If not usable: the reason.
 };
 
-/// Reports that `made` of the `wanted` programs that a call requires have been compiled: 0 in the first report, all in
+/// Reports that `made` of the `total` programs that a call requires have been compiled: 0 in the first report, all in
 /// the last. A driver takes from milliseconds to minutes for one program. It is called from any thread, one call at a
 /// time, and must not throw.
-using ProgramsProgress = std::function<void(std::size_t made, std::size_t wanted)>;
+using ProgramsProgress = std::function<void(std::size_t made, std::size_t total)>;
 
 struct ContextOptions {
   /// An index, or part of a name (case does not matter). Empty: the value of the environment variable MEDIAL_VK_DEVICE;

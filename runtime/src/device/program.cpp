@@ -134,24 +134,24 @@ Status make_program(const ContextImpl& context, VkPipelineCache cache, const Emb
 /// ends by an exception.
 class ProgramsReport {
  public:
-  ProgramsReport(const ProgramsProgress& progress, std::size_t wanted) : progress_(progress), wanted_(wanted) {
-    if (progress_) progress_(0, wanted_);
+  ProgramsReport(const ProgramsProgress& progress, std::size_t total) : progress_(progress), total_(total) {
+    if (progress_) progress_(0, total_);
   }
   ProgramsReport(const ProgramsReport&) = delete;
   ProgramsReport& operator=(const ProgramsReport&) = delete;
   ~ProgramsReport() {
-    if (progress_ && made_ < wanted_) progress_(wanted_, wanted_);
+    if (progress_ && made_ < total_) progress_(total_, total_);
   }
   void add_one() {
     const std::scoped_lock lock(mutex_);
     ++made_;
-    if (progress_) progress_(made_, wanted_);
+    if (progress_) progress_(made_, total_);
   }
 
  private:
   const ProgramsProgress progress_;
   std::mutex mutex_;
-  std::size_t wanted_, made_ = 0;
+  std::size_t total_, made_ = 0;
 };
 
 }  // namespace

@@ -17,10 +17,10 @@
 #include "base/point_ops.h"
 #include "base/quoted.h"
 #include "base/stopwatch.h"
+#include "part_fits/distribute_balls.h"
 #include "part_fits/kept_extractions.h"
 #include "part_fits/place_ball.h"
 #include "part_fits/resident_meshes.h"
-#include "part_fits/share_out.h"
 
 namespace medial_vk {
 namespace {
@@ -161,7 +161,7 @@ class Fitting {
         if (!curve) return curve.error();
         curves[i] = std::move(curve).value();
       }
-      counts = share_out(curves, group.balls);
+      counts = distribute_balls(curves, group.balls);
       for (std::size_t i = 0; i < curves.size(); ++i) is_known = is_known && is_long_enough(curves[i], counts[i]);
     }
     return counts;

@@ -19,8 +19,8 @@ bool same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-bool may_end_in(const std::string& path, const char* wanted) {
-  return path.empty() || path == "-" || file_extension(path) == wanted;
+bool may_end_in(const std::string& path, const char* extension) {
+  return path.empty() || path == "-" || file_extension(path) == extension;
 }
 
 Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::string& input) {

@@ -8,8 +8,8 @@
 
 namespace medial_vk::cli {
 
-/// True if `path` is empty or standard output, or ends in `wanted`, in upper or lower case.
-bool may_end_in(const std::string& path, const char* wanted);
+/// True if `path` is empty or standard output, or ends in `extension`, in upper or lower case.
+bool may_end_in(const std::string& path, const char* extension);
 
 /// An option that names a file to write; empty: not given; "-": standard output.
 struct NamedOutput {

@@ -28,18 +28,18 @@ void ProgramsWatch::set_device(const std::string& name) {
       name, kPatience);
 }
 
-void ProgramsWatch::update(std::size_t made, std::size_t wanted, Progress& progress) {
+void ProgramsWatch::update(std::size_t made, std::size_t total, Progress& progress) {
   if (made == 0) {
     guard_.emplace();
     end_if_interrupted();
-    if (progress.is_wanted()) {
+    if (progress.is_requested()) {
       std::signal(SIGALRM, say_too_slow);
       ::alarm(kPatience);
     }
   }
-  progress.update_count("programs", made, wanted);
-  if (made < wanted) return;
-  if (progress.is_wanted()) ::alarm(0);
+  progress.update_count("programs", made, total);
+  if (made < total) return;
+  if (progress.is_requested()) ::alarm(0);
   guard_.reset();
 }
 

@@ -17,7 +17,7 @@ class ProgramsWatch {
   /// For the message; before the first update().
   void set_device(const std::string& name);
   /// ContextOptions::programs_progress.
-  void update(std::size_t made, std::size_t wanted, Progress& progress);
+  void update(std::size_t made, std::size_t total, Progress& progress);
 
  private:
   std::optional<EndAtOnce> guard_;

@@ -87,9 +87,9 @@ std::string in_words_of_options(std::string message, Command command) {
   return message;
 }
 
-Error with_hint(Error error, const std::string& wanted) {
+Error with_hint(Error error, const std::string& device) {
   if (error.code != ErrorCode::kNoDevice) return error;
-  error.message += wanted.empty()
+  error.message += device.empty()
                        ? "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device (Debian: apt install "
                          "libvulkan1 mesa-vulkan-drivers), or use --backend cpu, which needs no Vulkan."
                        : "\nmedial-vk --list-devices shows what is here.";

@@ -35,8 +35,8 @@ std::string in_words_of_options(std::string message, Command command);
 /// The exit code of an error.
 int exit_code(ErrorCode code);
 
-/// An error kNoDevice with a remedy appended; others unchanged. `wanted` is the argument of --device, or empty.
-Error with_hint(Error error, const std::string& wanted = {});
+/// An error kNoDevice with a remedy appended; others unchanged. `device` is the argument of --device, or empty.
+Error with_hint(Error error, const std::string& device = {});
 
 /// Writes to standard output. Error: kCannotWrite.
 Status print_result(const std::string& text);

@@ -38,7 +38,7 @@ std::string count_line(const std::string& stage, std::size_t done, std::size_t t
   return fmt::format("{} {} of {}", bar(stage, share), done, total);
 }
 
-Progress::Progress(bool wanted) : wanted_(wanted), drawing_(wanted && isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool requested) : requested_(requested), drawing_(requested && isatty(STDERR_FILENO) == 1) {}
 
 void Progress::draw(const std::string& line) {
   last_drawn_ = Clock::now();

@@ -16,13 +16,13 @@ std::string count_line(const std::string& stage, std::size_t done, std::size_t t
 
 class Progress {
  public:
-  /// Draws only if `wanted` and standard error is a terminal.
-  explicit Progress(bool wanted);
+  /// Draws only if `requested` and standard error is a terminal.
+  explicit Progress(bool requested);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { clear(); }
   /// True if messages were requested, on a terminal or elsewhere.
-  bool is_wanted() const { return wanted_; }
+  bool is_requested() const { return requested_; }
 
   /// Draws at most ten times a second. A new stage starts its own clock.
   void update(const char* stage, double done);
@@ -36,7 +36,7 @@ class Progress {
 
   using Clock = std::chrono::steady_clock;
 
-  bool wanted_;
+  bool requested_;
   bool drawing_;
   bool visible_ = false;
   std::string stage_;

@@ -84,11 +84,11 @@ void append_ball(std::string& out, const Icosphere& unit, const MedialSphere& sp
 
 }  // namespace
 
-Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, std::uint64_t balls,
+Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> requested, std::uint64_t balls,
                                            std::uint64_t (*bytes)(std::uint32_t detail)) {
   const auto fits = [&](std::uint32_t detail) { return balls <= kLargestBallFile / bytes(detail); };
-  std::uint32_t detail = wanted.value_or(kUsualSphereDetail);
-  while (!wanted && detail > 0 && !fits(detail)) --detail;
+  std::uint32_t detail = requested.value_or(kUsualSphereDetail);
+  while (!requested && detail > 0 && !fits(detail)) --detail;
   if (fits(detail)) return detail;
   return Error{kCannotWrite,
                fmt::format("{} balls as a mesh of sphere detail {} take {} MiB, more than {}; use {}, or write them as "

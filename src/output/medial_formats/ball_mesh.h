@@ -15,7 +15,7 @@ inline constexpr std::uint64_t kLargestBallFile = 4096ull << 20;
 
 /// The requested detail; otherwise the largest up to kUsualSphereDetail with which `balls` of `bytes(detail)` each stay
 /// below kLargestBallFile. Error kCannotWrite, with a remedy, if none does.
-Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> wanted, std::uint64_t balls,
+Result<std::uint32_t> choose_sphere_detail(std::optional<std::uint32_t> requested, std::uint64_t balls,
                                            std::uint64_t (*bytes)(std::uint32_t detail));
 
 /// The radius with which the vertices of a ball are computed, such that no vertex is outside the ball after its

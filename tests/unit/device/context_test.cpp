@@ -259,7 +259,7 @@ TEST(PipelineCacheFolder, FollowsTheXdgRules) {
 TEST_F(ContextTest, ReportsTheProgramsThatItMakes) {
   std::vector<std::pair<std::size_t, std::size_t>> reports;
   ContextOptions reporting = options();
-  reporting.programs_progress = [&](std::size_t made, std::size_t wanted) { reports.emplace_back(made, wanted); };
+  reporting.programs_progress = [&](std::size_t made, std::size_t total) { reports.emplace_back(made, total); };
   Result<Context> context = Context::create(reporting);
   ASSERT_TRUE(context.ok());
   ContextImpl& impl = Internals::of(context.value());

@@ -41,11 +41,11 @@ DrawingBuffer upload_marks(DrawingDevice& device, const std::vector<Mark>& marks
 
 class DevicePainter::Impl {
  public:
-  Impl(const DeviceDescription& wanted, const PainterOptions& options)
-      : device_(wanted, options.validation, options.loader),
-        samples_(options.samples != 0   ? options.samples
-                 : wanted.type == "cpu" ? 2
-                                        : 4),
+  Impl(const DeviceDescription& description, const PainterOptions& options)
+      : device_(description, options.validation, options.loader),
+        samples_(options.samples != 0        ? options.samples
+                 : description.type == "cpu" ? 2
+                                             : 4),
         tile_({kTileSamples / samples_, kTileSamples / samples_}),
         layer_({(tile_.width + 2 * kBorder) * samples_, (tile_.height + 2 * kBorder) * samples_}),
         pipelines_(device_, layer_, tile_) {

@@ -49,11 +49,11 @@ void DrawingDevice::check(VkResult result, const char* call) {
                                                                            : fmt::format("error {}", int{result})));
 }
 
-DrawingDevice::DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader) {
+DrawingDevice::DrawingDevice(const DeviceDescription& description, bool validation, PFN_vkGetInstanceProcAddr loader) {
   try {
     get_instance_proc_addr_ = loader != nullptr ? loader : load_vulkan();
     create_instance(validation);
-    physical_device_ = find(wanted);
+    physical_device_ = find(description);
     create_device(physical_device_);
   } catch (...) {
     destroy();  // the destructor of a partially constructed object is not called
@@ -114,16 +114,16 @@ void DrawingDevice::add_messenger() {
   check(create(instance_, &info, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
 
-VkPhysicalDevice DrawingDevice::find(const DeviceDescription& wanted) const {
+VkPhysicalDevice DrawingDevice::find(const DeviceDescription& description) const {
   std::uint32_t count = 0;
   check(instance_functions_.EnumeratePhysicalDevices(instance_, &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> devices(count);
   check(instance_functions_.EnumeratePhysicalDevices(instance_, &count, devices.data()), "vkEnumeratePhysicalDevices");
-  if (wanted.index >= devices.size()) throw DrawingError(wanted.name + " is gone");
+  if (description.index >= devices.size()) throw DrawingError(description.name + " is gone");
   VkPhysicalDeviceProperties properties{};
-  instance_functions_.GetPhysicalDeviceProperties(devices[wanted.index], &properties);
-  if (wanted.name != properties.deviceName) throw DrawingError(wanted.name + " is gone");
-  return devices[wanted.index];
+  instance_functions_.GetPhysicalDeviceProperties(devices[description.index], &properties);
+  if (description.name != properties.deviceName) throw DrawingError(description.name + " is gone");
+  return devices[description.index];
 }
 
 void DrawingDevice::create_device(VkPhysicalDevice physical_device) {

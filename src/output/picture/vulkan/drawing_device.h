@@ -32,9 +32,9 @@ struct DrawingImage {
 
 class DrawingDevice {
  public:
-  /// Opens the physical device that `wanted` describes: the one with its index, which must have its name. `loader`:
+  /// Opens the physical device of this description: the one with its index, which must have its name. `loader`:
   /// null for that of the system.
-  DrawingDevice(const DeviceDescription& wanted, bool validation, PFN_vkGetInstanceProcAddr loader);
+  DrawingDevice(const DeviceDescription& description, bool validation, PFN_vkGetInstanceProcAddr loader);
   DrawingDevice(const DrawingDevice&) = delete;
   DrawingDevice& operator=(const DrawingDevice&) = delete;
   ~DrawingDevice();
@@ -57,7 +57,7 @@ class DrawingDevice {
  private:
   void create_instance(bool validation);
   void add_messenger();
-  VkPhysicalDevice find(const DeviceDescription& wanted) const;
+  VkPhysicalDevice find(const DeviceDescription& description) const;
   void create_device(VkPhysicalDevice physical_device);
   void check_format(VkFormat format, VkImageUsageFlags usage) const;
   VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted);

@@ -26,7 +26,7 @@ struct NeedCurve {
 /// The worth of the next ball to a part depends on that part alone and on its number of balls. So if the curves do not
 /// depend on `total` and reach far enough, a larger total gives no part fewer (the shares are house-monotone; M.
 /// Balinski and H. P. Young, "Fair Representation", 1982).
-std::vector<std::size_t> share_out(std::span<const NeedCurve> curves, std::size_t total);
+std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std::size_t total);
 
 /// The length of a curve that determines the worth of one more ball than `count`.
 std::size_t curve_length(std::size_t count);

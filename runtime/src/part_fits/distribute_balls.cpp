@@ -1,4 +1,4 @@
-#include "part_fits/share_out.h"
+#include "part_fits/distribute_balls.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ class Need {
 
 std::size_t curve_length(std::size_t count) { return count + std::max<std::size_t>(4, count / 4); }
 
-std::vector<std::size_t> share_out(std::span<const NeedCurve> curves, std::size_t total) {
+std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std::size_t total) {
   std::vector<std::size_t> counts(curves.size(), 1);
   std::vector<Need> needs;
   for (const NeedCurve& curve : curves) needs.emplace_back(curve);

@@ -1,5 +1,5 @@
 // The distribution of a number of balls among curves.
-#include "part_fits/share_out.h"
+#include "part_fits/distribute_balls.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@ using testing::ElementsAre;
 TEST(ShareOut, GivesWhereItCoversMost) {
   const NeedCurve large = {{8, 4, 2, 1, 0.5}, false}, small = {{0.8, 0.4, 0.2, 0.1, 0.05}, false}, ball = {{}, true};
   const std::vector<NeedCurve> curves = {small, ball, large};
-  EXPECT_THAT(share_out(curves, 3), ElementsAre(1, 1, 1));
-  EXPECT_THAT(share_out(curves, 4), ElementsAre(1, 1, 2));
-  EXPECT_THAT(share_out(curves, 6), ElementsAre(1, 1, 4));
-  const std::vector<std::size_t> many = share_out(curves, 100);
+  EXPECT_THAT(distribute_balls(curves, 3), ElementsAre(1, 1, 1));
+  EXPECT_THAT(distribute_balls(curves, 4), ElementsAre(1, 1, 2));
+  EXPECT_THAT(distribute_balls(curves, 6), ElementsAre(1, 1, 4));
+  const std::vector<std::size_t> many = distribute_balls(curves, 100);
   EXPECT_EQ(many[1], 1u);
   EXPECT_EQ(many[0] + many[2], 99u);
   EXPECT_GT(many[2], many[0]);
@@ -26,11 +26,11 @@ TEST(ShareOut, GivesWhereItCoversMost) {
 
 TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
   const NeedCurve late = {{10, 10, 0}, false}, early = {{10, 9, 8}, false};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{early, late}, 4), ElementsAre(1, 3));
+  EXPECT_THAT(distribute_balls(std::vector<NeedCurve>{early, late}, 4), ElementsAre(1, 3));
   const NeedCurve ball = {{}, true};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
+  EXPECT_THAT(distribute_balls(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
   const NeedCurve ends = {{3, 2, 1}, false, true};
-  EXPECT_THAT(share_out(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
+  EXPECT_THAT(distribute_balls(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
 }
 
 TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
@@ -46,7 +46,7 @@ TEST(ShareOut, MoreInTotalGivesNoPartFewer) {
   }
   std::vector<std::size_t> before(curves.size(), 0);
   for (std::size_t total = curves.size(); total < 600; ++total) {
-    const std::vector<std::size_t> counts = share_out(curves, total);
+    const std::vector<std::size_t> counts = distribute_balls(curves, total);
     std::size_t sum = 0;
     for (std::size_t part = 0; part < counts.size(); ++part) {
       EXPECT_GE(counts[part], before[part]) << total;
