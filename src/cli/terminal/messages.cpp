@@ -37,6 +37,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget", "--memory", "the memory budget", "the memory budget"},
+    library_only("mesh"),
     {"method", {}, "--method", "--method"},
     {"mode", "--mode", {}, {}},
     library_only("nearest"),
