@@ -45,7 +45,7 @@ TEST_F(SpheresCommand, BestBallsInsideAreProvedCheckedAndMeasured) {
 TEST_F(SpheresCommand, CoversAreProvedCheckedAndMeasured) {
   const ToolResult result = best({"part.obj", "--count", "4", "--contract", "cover", "--check"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("20 triangles covered part by part, no hole within"));
+  EXPECT_THAT(result.err, HasSubstr("20 triangles covered piece by piece, no hole within"));
   EXPECT_THAT(result.out, HasSubstr("the balls cover every triangle"));
   EXPECT_EQ(report()["parts"][0]["check"], "passed");
   EXPECT_TRUE(report()["volume_error"].is_null());

@@ -35,7 +35,7 @@ How many spheres (goals that are given together must all be met):
                         (csv, json, foam)
 
 What they promise:
-      --contract WHAT   inside: no sphere reaches out (default); cover: nothing
+      --contract WHAT   inside: no sphere sticks out (default); cover: nothing
                         of the solid is left out, for safety; balanced: no
                         promise, the least volume between spheres and solid
       --method HOW      best: chosen and moved for the least volume uncovered, or

@@ -37,7 +37,7 @@ std::string where(const SpheresOptions& options, const FitsRecord& record) {
 std::string promise(SphereContract contract) {
   switch (contract) {
     case SphereContract::kInside:
-      return "inside: no sphere reaches out of the solid";
+      return "inside: no sphere sticks out";
     case SphereContract::kCover:
       return "cover: nothing is left out";
     case SphereContract::kBalanced:
@@ -65,7 +65,7 @@ std::string certificate_text(SphereContract contract, const FitsRecord& record) 
     case SphereContract::kCover:
       if (triangles == 0)
         return fmt::format("{}, each of which is the geometry itself", counted(spheres, "sphere", "spheres"));
-      return fmt::format("{} covered part by part{}", counted(triangles, "triangle", "triangles"),
+      return fmt::format("{} covered piece by piece{}", counted(triangles, "triangle", "triangles"),
                          closed ? ", no hole within" : "; the mesh is open: its surface only");
     case SphereContract::kBalanced:
       break;
@@ -97,9 +97,9 @@ std::optional<std::string> difference_text(SphereContract contract, const FitsRe
   if (!(whole > 0)) return std::nullopt;
   if (variance == 0) {
     return fmt::format("{:.3g} % of the volume is {}", 100 * difference / whole,
-                       contract == SphereContract::kCover ? "added" : "uncovered or outside");
+                       contract == SphereContract::kCover ? "added" : "uncovered or sticks out");
   }
-  return fmt::format("{:.3g} % of the volume, uncovered or outside (+- {:.2g} %, standard error)",
+  return fmt::format("{:.3g} % of the volume, uncovered or sticking out (+- {:.2g} %, standard error)",
                      100 * difference / whole, 100 * std::sqrt(variance) / whole);
 }
 
