@@ -73,8 +73,8 @@ TEST(LargeMesh, DistancesToATorusOfFiveMillionTriangles) {
   }
 }
 
-// More than a minute: scripts/soak runs it. (At a low resolution the lists of triangles are long: slower, not faster.)
-TEST(LargeMesh, DISABLED_TheCircleInATorusOfFiveMillionTriangles) {
+// Minutes, so it has the label `full`. (At a low resolution the lists of triangles are long: slower, not faster.)
+TEST(LargeMesh, TheCircleInATorusOfFiveMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   ExtractionOptions options;
   options.resolution = 80;
