@@ -1,4 +1,4 @@
-// Host memory that runs out: every allocation of the runtime fails once.
+// Host memory that runs out: every allocation of the library fails once.
 #include <gmock/gmock.h>
 
 #include <algorithm>
