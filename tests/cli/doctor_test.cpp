@@ -168,7 +168,8 @@ TEST_F(Doctor, BrokenDriverFilesAreNamed) {
   ASSERT_EQ(drivers.size(), 3u);
   EXPECT_EQ(drivers[0]["problem"], "the file is not JSON");
   EXPECT_THAT(drivers[1]["problem"].get<std::string>(), HasSubstr("/nowhere/libvulkan_none.so"));
-  EXPECT_THAT(drivers[2]["problem"].get<std::string>(), HasSubstr("it finds no device here"));
+  EXPECT_EQ(drivers[2]["problem"], "it finds no device here");
+  EXPECT_THAT(drivers[2]["detail"].get<std::string>(), HasSubstr("no Vulkan driver"));
 }
 
 // Loader 1.3.239 then finds no driver at all, others pass over the file.

@@ -38,6 +38,7 @@ std::span<const RequiredLimit> required_limits() { return kRequired; }
 
 std::vector<DeviceLimit> compare_limits(VkPhysicalDeviceLimits limits) {
   std::vector<DeviceLimit> compared;
+  compared.reserve(kRequired.size());
   for (const RequiredLimit& limit : kRequired) compared.push_back({limit.name, limit.needed, limit.of(limits)});
   return compared;
 }

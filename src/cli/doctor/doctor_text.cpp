@@ -82,10 +82,14 @@ std::string variables_text(const std::vector<VariableRecord>& variables) {
   return out;
 }
 
-std::string driver_result(const DriverRecord& driver) {
-  if (!driver.excluded.empty()) return driver.excluded;
-  if (!driver.problem.empty()) return driver.problem;
-  return driver.is_probed ? joined(driver.devices) : "not tried";
+std::string driver_result(const DriverRecord& driver, bool verbose) {
+  if (!driver.excluded.empty()) return wrapped("    left out  ", driver.excluded);
+  if (!driver.devices.empty()) return wrapped("    devices   ", joined(driver.devices));
+  const bool is_at_fault = driver.is_broken || driver.misbehaves;
+  const std::string text = driver.problem.empty() ? "not tried" : driver.problem;
+  const bool has_detail = verbose && !driver.detail.empty();
+  return wrapped(is_at_fault ? "    problem   " : "    devices   ",
+                 (is_at_fault ? "" : "none: ") + text + (has_detail ? fmt::format(" ({})", driver.detail) : ""));
 }
 
 std::string drivers_text(const DoctorRecord& record, bool verbose) {
@@ -101,7 +105,7 @@ std::string drivers_text(const DoctorRecord& record, bool verbose) {
     out += "  " + driver.file + "\n";
     if (verbose && !driver.library.empty())
       out += wrapped("    library   ", fmt::format("{}, Vulkan {}", driver.library, driver.api_version));
-    out += wrapped(driver.devices.empty() ? "    problem   " : "    devices   ", driver_result(driver));
+    out += driver_result(driver, verbose);
   }
   return out;
 }
@@ -114,6 +118,7 @@ std::string subgroups_text(const DeviceSubgroups& subgroups) {
 
 std::string heaps_text(const std::vector<DeviceHeap>& heaps) {
   std::vector<std::string> texts;
+  texts.reserve(heaps.size());
   for (const DeviceHeap& heap : heaps)
     texts.push_back(memory_size(heap.bytes) + (heap.is_local ? " of the device" : " of the host"));
   return joined(texts);
@@ -139,10 +144,19 @@ std::string trial_text(const TrialRecord& trial, double reference_seconds) {
   return fmt::format("{}; agrees with the CPU reference ({})", time, duration(reference_seconds));
 }
 
+/// Vulkan does not tell which driver a device comes from; its name does, where drivers were tried one by one.
+std::string files_of(const std::string& device, const std::vector<DriverRecord>& drivers) {
+  std::vector<std::string> files;
+  for (const DriverRecord& driver : drivers)
+    if (std::ranges::find(driver.devices, device) != driver.devices.end()) files.push_back(driver.file);
+  return files.empty() ? "unknown" : joined(files);
+}
+
 std::string device_text(const ExaminedDevice& device, const DoctorRecord& record, bool verbose) {
   const DeviceDescription& description = device.description;
   std::string out = fmt::format("Device {}: {}\n", description.index, description.name);
   out += field("type", description.type);
+  out += field("file", files_of(description.name, record.drivers));
   out += field("driver", description.driver);
   out += field("Vulkan", version_text(description.api_version) + " (1.2 is needed)");
   out += field("memory", heaps_text(description.heaps));
@@ -182,6 +196,11 @@ std::string listing_text(const DoctorRecord& record, bool verbose) {
   return shows ? out + "  Messages of loader and drivers:\n" + indented(record.listing_messages, "  | ") : out;
 }
 
+const char* result_text(const DoctorRecord& record, const Status& verdict) {
+  if (verdict.ok()) return "the default device works";
+  return record.default_device ? "the default device does not work" : "there is no device that can be used";
+}
+
 }  // namespace
 
 std::string doctor_text(const DoctorRecord& record, const Status& verdict, bool verbose) {
@@ -197,9 +216,7 @@ std::string doctor_text(const DoctorRecord& record, const Status& verdict, bool 
     for (const std::string& text : record.advice) advice += wrapped("  - ", text);
     parts.push_back(std::move(advice));
   }
-  parts.push_back(verdict.ok()            ? "Result: the default device works.\n"
-                  : record.default_device ? "Result: the default device does not work.\n"
-                                          : "Result: there is no device that can be used.\n");
+  parts.push_back(fmt::format("Result: {}.\n", result_text(record, verdict)));
   std::erase_if(parts, [](const std::string& part) { return part.empty(); });
   return fmt::format("{}", fmt::join(parts, "\n"));
 }

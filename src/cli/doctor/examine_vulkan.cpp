@@ -14,6 +14,7 @@
 
 #include "cli/doctor/child_process.h"
 #include "medial_vk/context.h"
+#include "medial_vk/host_device.h"
 #include "output/doctor_report/findings_json.h"
 
 namespace medial_vk::cli {
@@ -22,8 +23,8 @@ namespace {
 // How the texts of the child processes begin.
 constexpr std::string_view kDevices = "devices ", kError = "error ", kNoLibrary = "no library ";
 
-/// Vulkan's own header is not needed for one function.
-using EnumerateVersion = std::int32_t (*)(std::uint32_t* version);
+/// Usual for drivers of cards that the machine does not have.
+constexpr const char* kFindsNone = "it finds no device here";
 
 /// The reason of the last dlopen() that failed.
 std::string dl_problem() {
@@ -50,9 +51,11 @@ LoaderRecord open_loader() {
   if (library == nullptr) return loader;
   loader.problem.clear();
   loader.library = file_of(library);
-  const auto enumerate = reinterpret_cast<EnumerateVersion>(::dlsym(library, "vkEnumerateInstanceVersion"));
-  if (enumerate == nullptr || enumerate(&loader.version) != 0)
-    loader.problem = "it is a loader of Vulkan 1.0; 1.2 is needed";
+  const auto enumerate =
+      reinterpret_cast<PFN_vkEnumerateInstanceVersion>(::dlsym(library, "vkEnumerateInstanceVersion"));
+  if (enumerate == nullptr || enumerate(&loader.version) != VK_SUCCESS) loader.version = VK_API_VERSION_1_0;
+  const std::uint32_t needed = device_requirements().api_version;
+  if (loader.version < needed) loader.problem = fmt::format("it is too old, {} is needed", version_text(needed));
   return loader;
 }
 
@@ -138,11 +141,12 @@ void examine_driver(std::chrono::milliseconds limit, DriverRecord& driver) {
   }
   const Result<std::vector<DeviceDescription>> devices = decoded_list(outcome.value().result);
   if (!devices) {
-    driver.problem = fmt::format("it finds no device here ({})", devices.error().message);
+    driver.problem = kFindsNone;
+    driver.detail = devices.error().message;
     return;
   }
   for (const DeviceDescription& device : devices.value()) driver.devices.push_back(device.name);
-  if (driver.devices.empty()) driver.problem = "it finds no device here";
+  if (driver.devices.empty()) driver.problem = kFindsNone;
 }
 
 }  // namespace medial_vk::cli

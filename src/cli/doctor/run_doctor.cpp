@@ -37,6 +37,15 @@ class DoctorRun {
     if (!options_.report.empty()) {
       if (Status status = check_writable(options_.report); !status) return status;
     }
+    if (Status status = examine(); !status) return status;
+    progress_.clear();
+    if (interrupted()) return stopped();
+    return conclude();
+  }
+
+ private:
+  /// Until something is written a signal may end the program.
+  Status examine() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
     examine_surroundings();
@@ -47,11 +56,9 @@ class DoctorRun {
     }
     choose_default();
     record_.advice = advice_on(record_);
-    progress_.clear();
-    return conclude();
+    return {};
   }
 
- private:
   void examine_surroundings() {
     const Environment environment = process_environment();
     record_.machine = examine_machine(environment);
@@ -130,7 +137,7 @@ class DoctorRun {
   }
 
   Status conclude() const {
-    const Status works = verdict();
+    Status works = verdict();
     if (!options_.report.empty()) {
       const OutputFile file = {options_.report, doctor_report_json(record_, works)};
       if (Status status = write_files({&file, 1}); !status) return status;

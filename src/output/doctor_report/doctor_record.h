@@ -40,7 +40,6 @@ struct MachineRecord {
   std::vector<GraphicsCard> cards;
   std::vector<DeviceNode> nodes;   ///< /dev/dri and those of NVIDIA.
   bool has_nvidia_kernel = false;  ///< The kernel module of NVIDIA's own driver is loaded.
-  bool is_superuser = false;
 };
 
 struct LoaderRecord {
@@ -63,6 +62,7 @@ struct DriverRecord {
   std::string api_version;           ///< As the file gives it.
   std::string excluded;              ///< The filter that keeps the loader from it; empty: none.
   std::string problem;               ///< Why no device comes from it; empty: devices do.
+  std::string detail;                ///< More about the problem, else empty.
   bool stops_loader = false;         ///< Some loaders fail altogether because of this file.
   bool is_broken = false;            ///< The file is at fault, or the library that it names.
   bool misbehaves = false;           ///< A process that used it crashed, or did not end.

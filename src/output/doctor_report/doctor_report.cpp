@@ -61,6 +61,7 @@ Json drivers_json(const std::vector<DriverRecord>& drivers) {
                     {"api_version", or_null(driver.api_version)},
                     {"excluded", or_null(driver.excluded)},
                     {"problem", or_null(driver.problem)},
+                    {"detail", or_null(driver.detail)},
                     {"devices", driver.devices}});
   }
   return json;

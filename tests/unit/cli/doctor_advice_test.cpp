@@ -182,6 +182,7 @@ TEST(DoctorText, ShowsADeviceWithItsLimits) {
   const std::string text = doctor_text(on_lavapipe(), {}, false);
   EXPECT_THAT(text, HasSubstr("loader      /usr/lib/libvulkan.so.1, version 1.3.239\n"));
   EXPECT_THAT(text, HasSubstr("Device 0: llvmpipe\n"));
+  EXPECT_THAT(text, HasSubstr("  file        /usr/share/vulkan/icd.d/lvp.json\n"));
   EXPECT_THAT(text, HasSubstr("  driver      some driver 1.0\n"));
   EXPECT_THAT(text, HasSubstr("  memory      2.0 GiB of the device, 8.0 GiB of the host\n"));
   EXPECT_THAT(text, HasSubstr("  subgroups   8 invocations; basic, vote\n"));
@@ -191,6 +192,23 @@ TEST(DoctorText, ShowsADeviceWithItsLimits) {
   EXPECT_THAT(text, testing::EndsWith("\nResult: the default device works.\n"));
   EXPECT_THAT(text, Not(HasSubstr("Advice")));
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+}
+
+TEST(DoctorText, ShowsWhatComesOfEachDriverFile) {
+  DoctorRecord record = on_lavapipe();
+  record.drivers = {driver("/a.json", {"one", "two"}), driver("/b.json", {}), driver("/c.json", {}),
+                    driver("/d.json", {})};
+  record.drivers[1].detail = "no Vulkan driver finds a device";
+  record.drivers[2].problem = "the file is not JSON";
+  record.drivers[2].is_broken = true;
+  record.drivers[3].excluded = "not selected by VK_LOADER_DRIVERS_SELECT";
+  const std::string text = doctor_text(record, {}, false);
+  EXPECT_THAT(text, HasSubstr("  /a.json\n    devices   one, two\n"));
+  EXPECT_THAT(text, HasSubstr("  /b.json\n    devices   none: it finds no device here\n"));
+  EXPECT_THAT(text, HasSubstr("  /c.json\n    problem   the file is not JSON\n"));
+  EXPECT_THAT(text, HasSubstr("  /d.json\n    left out  not selected by VK_LOADER_DRIVERS_SELECT\n"));
+  EXPECT_THAT(text, HasSubstr("  file        unknown\n"));
+  EXPECT_THAT(doctor_text(record, {}, true), HasSubstr("it finds no device here (no Vulkan driver finds a device)\n"));
 }
 
 TEST(DoctorText, LinesAreAtMost100CharactersLong) {
