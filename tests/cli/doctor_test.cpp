@@ -254,6 +254,17 @@ TEST_F(Doctor, WrongResultsAre7) {
   EXPECT_THAT(result.out, HasSubstr("Do not use device 0"));
 }
 
+// Some drivers do not survive what an older version of theirs has kept.
+TEST_F(Doctor, ProgramsInTheCacheThatCauseACrashAreNamed) {
+  MEDIAL_VK_SKIP_WITHOUT_LAVAPIPE();
+  EXPECT_EQ(run_tool(faulty_call("crash_with_cache")).exit_code, 0);  // nothing is kept yet
+  const ToolResult result = run_tool(faulty_call("crash_with_cache", {"--report", "r.json"}));
+  EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+  EXPECT_EQ(report()["devices"][0]["trial"]["end"], "crashed");
+  EXPECT_EQ(report()["devices"][0]["trial"]["works_without_cache"], true);
+  EXPECT_THAT(report()["advice"].dump(), HasSubstr("remove the folder " + path("cache/medial-vk")));
+}
+
 TEST_F(Doctor, ASignalEndsItWhileADriverHangs) {
   MEDIAL_VK_SKIP_WITHOUT_LAVAPIPE();
   for (const int signal : {SIGINT, SIGTERM}) {

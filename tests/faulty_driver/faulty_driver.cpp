@@ -4,6 +4,7 @@
 //   crash_at_once, hang_at_once   when the loader opens it
 //   crash, hang                   when work is submitted
 //   skip_work                     dispatches are left out: results are wrong
+//   crash_with_cache              when it receives programs of an earlier run
 #include <dlfcn.h>
 #include <unistd.h>
 #include <vulkan/vulkan_core.h>
@@ -50,6 +51,14 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const 
 
 VKAPI_ATTR void VKAPI_CALL leave_out(VkCommandBuffer, std::uint32_t, std::uint32_t, std::uint32_t) {}
 
+PFN_vkCreatePipelineCache real_create_cache = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL create_cache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                            const VkAllocationCallbacks* callbacks, VkPipelineCache* cache) {
+  if (has_fault("crash_with_cache") && info->initialDataSize > 0) crash();
+  return real_create_cache(device, info, callbacks, cache);
+}
+
 PFN_vkGetDeviceProcAddr real_device_functions = nullptr;
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char* name) {
@@ -57,6 +66,10 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const 
   if (std::strcmp(name, "vkQueueSubmit") == 0) {
     real_submit = reinterpret_cast<PFN_vkQueueSubmit>(found);
     return reinterpret_cast<PFN_vkVoidFunction>(submit);
+  }
+  if (std::strcmp(name, "vkCreatePipelineCache") == 0) {
+    real_create_cache = reinterpret_cast<PFN_vkCreatePipelineCache>(found);
+    return reinterpret_cast<PFN_vkVoidFunction>(create_cache);
   }
   if (std::strcmp(name, "vkCmdDispatch") == 0 && has_fault("skip_work"))
     return reinterpret_cast<PFN_vkVoidFunction>(leave_out);

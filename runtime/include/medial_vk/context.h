@@ -85,11 +85,11 @@ class Context {
   /// work has finished. Errors: kNoDevice (the message gives the reason), kOutOfMemory.
   static Result<Context> adopt(const HostDevice& host);
   static Result<std::vector<DeviceDescription>> list_devices();
-  /// The index of the one among `devices`, the answer of list_devices(), that create() opens for this value of
-  /// ContextOptions::device. Error: kNoDevice, as of create().
+  /// The index of the one among `devices`, as list_devices() returns them, that create() opens for this value of
+  /// ContextOptions::device. Errors: kNoDevice, as of create(); kOutOfMemory.
   static Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices,
                                              const std::string& device = {});
-  /// The folder of the pipeline cache where ContextOptions::cache_folder is empty; empty: none.
+  /// The folder of the pipeline cache where ContextOptions::cache_folder is empty; empty: none. Throws std::bad_alloc.
   static std::string default_cache_folder();
 
   Context(Context&&) noexcept;

@@ -24,7 +24,7 @@ struct ChildOutcome {
 
 /// Runs `work` in a copy of this process and waits for it, at most for `limit`. Standard input is empty there; nothing
 /// that it writes appears, and no core file. It ends with this process. Precondition: no other thread runs, since the
-/// copy has this one only. Error: kInternal, if the system refuses a process.
+/// copy has this one only; the result is not empty. Error: kInternal, if the system refuses a process.
 Result<ChildOutcome> run_in_child(const std::function<std::string()>& work, std::chrono::milliseconds limit);
 
 }  // namespace medial_vk::cli
