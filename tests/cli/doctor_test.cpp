@@ -240,7 +240,7 @@ TEST_F(Doctor, ADriverThatHangsIsReported) {
   const ToolResult at_once = run_tool(faulty_call("hang_at_once", {"--time-limit", "1"}));
   EXPECT_EQ(at_once.exit_code, 4) << at_once.out << at_once.err;
   EXPECT_THAT(at_once.out, HasSubstr("did not end within 1 s"));
-  const ToolResult later = run_tool(faulty_call("hang", {"--time-limit", "4", "--report", "r.json"}));
+  const ToolResult later = run_tool(faulty_call("hang", {"--time-limit", "6", "--report", "r.json"}));
   EXPECT_EQ(later.exit_code, 4) << later.out << later.err;
   EXPECT_EQ(report()["devices"][0]["trial"]["end"], "too_long");
 }
