@@ -193,7 +193,8 @@ class Adviser {
         std::ranges::any_of(record_.drivers, is_other_matter))
       return;
     say("No driver leads to a device. For a graphics card install its driver: that of NVIDIA, or Mesa's for AMD and "
-        "Intel. Without a card, on servers and in containers, Mesa's lavapipe computes on the CPU. Both are in one "
+        "Intel. Without a card, on servers and in containers, Mesa's lavapipe computes on the CPU. Those of Mesa are "
+        "in one "
         "package (Debian and Ubuntu: apt install mesa-vulkan-drivers; Fedora: dnf install mesa-vulkan-drivers; Arch: "
         "pacman -S vulkan-swrast, vulkan-radeon or vulkan-intel). Without any driver, --backend cpu runs on one "
         "thread.");

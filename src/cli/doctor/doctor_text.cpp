@@ -173,7 +173,7 @@ std::string device_text(const ExaminedDevice& device, const DoctorRecord& record
 
 std::string default_text(const DoctorRecord& record) {
   if (!record.default_device) return "Default device: none\n" + wrapped("  ", record.default_reason);
-  return fmt::format("Default device: {}, {}\n", *record.default_device, record.default_reason);
+  return wrapped("Default device: ", fmt::format("{}, {}", *record.default_device, record.default_reason));
 }
 
 std::string cache_text(const CacheRecord& cache) {
