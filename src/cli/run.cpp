@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/doctor/run_doctor.h"
 #include "cli/extract/run_extract.h"
 #include "cli/options/options.h"
 #include "cli/spheres/run_spheres.h"
@@ -38,8 +39,16 @@ Status run_action(const Options& options) {
   return run_extract(options);
 }
 
-Status parse_and_run(const std::vector<std::string>& arguments) {
-  if (!arguments.empty() && arguments[0] == "spheres") return run_spheres({arguments.begin() + 1, arguments.end()});
+/// By the first argument.
+Command command_of(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return Command::kExtract;
+  if (arguments[0] == "spheres") return Command::kSpheres;
+  return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
+}
+
+Status parse_and_run(Command command, const std::vector<std::string>& arguments) {
+  if (command == Command::kSpheres) return run_spheres({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();
   return run_action(options.value());
@@ -49,9 +58,9 @@ Status parse_and_run(const std::vector<std::string>& arguments) {
 
 int run(const std::vector<std::string>& arguments) {
   install_interrupt_handlers();
-  const Command command = !arguments.empty() && arguments[0] == "spheres" ? Command::kSpheres : Command::kExtract;
+  const Command command = command_of(arguments);
   try {
-    const Status status = parse_and_run(arguments);
+    const Status status = parse_and_run(command, arguments);
     return status ? 0 : report_error(status.error(), command);
   } catch (const std::bad_alloc&) {
     return report_error({ErrorCode::kOutOfMemory, "out of memory; try a lower --resolution"}, command);

@@ -22,7 +22,8 @@ class PoorDevice : public FaultTest {
     EXPECT_TRUE(devices.ok());
     for (const DeviceDescription& device : devices.value()) {
       EXPECT_FALSE(device.usable);
-      EXPECT_THAT(context.error().message, HasSubstr(device.why_not));
+      EXPECT_FALSE(device.why_not.empty());
+      for (const std::string& reason : device.why_not) EXPECT_THAT(context.error().message, HasSubstr(reason));
     }
     return context.error();
   }

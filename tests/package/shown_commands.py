@@ -66,7 +66,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"]):
+    for words in ([], ["spheres"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,25 @@
 struct VkAllocationCallbacks;  // of vulkan.h, which this header does not include
 
 namespace medial_vk {
+
+/// A limit of Vulkan that the library needs. The device suffices if `there` is at least `needed`.
+struct DeviceLimit {
+  std::string name;  ///< As in VkPhysicalDeviceLimits.
+  std::uint32_t needed = 0;
+  std::uint32_t there = 0;
+};
+
+struct DeviceHeap {
+  std::uint64_t bytes = 0;
+  bool is_local = false;  ///< Memory of the device itself.
+};
+
+/// Invocations that run together. None are required: with them some kernels are faster.
+struct DeviceSubgroups {
+  std::uint32_t size = 0;               ///< 0: unknown, of a device below Vulkan 1.1.
+  std::vector<std::string> operations;  ///< Those of VkSubgroupFeatureFlagBits that the device has: "basic", "vote" ...
+  bool in_compute = false;              ///< Kernels may use them.
+};
 
 /// One physical device as Vulkan lists it.
 struct DeviceDescription {
@@ -23,7 +43,11 @@ struct DeviceDescription {
   std::uint32_t api_version = 0;
   std::uint64_t memory_bytes = 0;  ///< Size of the largest device-local heap.
   bool usable = false;             ///< Vulkan 1.2, a compute queue and sufficient limits.
-  std::string why_not;             ///< If not usable: the reason.
+  /// If not usable: every reason, each a phrase such as "it has no compute queue".
+  std::vector<std::string> why_not;
+  std::vector<DeviceLimit> limits;  ///< All that the library needs.
+  std::vector<DeviceHeap> heaps;
+  DeviceSubgroups subgroups;
 };
 
 /// Reports that `made` of the `total` programs that a call requires have been compiled: 0 in the first report, all in
@@ -56,7 +80,7 @@ struct HostDevice;  // host_device.h
 /// once, on any threads: they share nothing. A context and the scenes on it are for one thread at a time.
 class Context {
  public:
-  /// Errors: kNoDevice (the message lists the devices found and the reason why each is not usable), kOutOfMemory.
+  /// Errors: kNoDevice (the message lists the devices found and the reasons why each is not usable), kOutOfMemory.
   static Result<Context> create(const ContextOptions& options = {});
   /// A context on the host's device, which must outlive it. Precondition of the destructor: all recorded or submitted
   /// work has finished. Errors: kNoDevice (the message gives the reason), kOutOfMemory.
@@ -64,6 +88,12 @@ class Context {
   /// All physical devices, in Vulkan's order, with the reasons why some are not usable. Errors: kNoDevice (no loader or
   /// no driver of Vulkan), kOutOfMemory.
   static Result<std::vector<DeviceDescription>> list_devices();
+  /// The index of the one among `devices`, as list_devices() returns them, that create() opens for this value of
+  /// ContextOptions::device. Errors: kNoDevice, as of create(); kOutOfMemory.
+  static Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices,
+                                             const std::string& device = {});
+  /// The folder of the pipeline cache where ContextOptions::cache_folder is empty; empty: none. Throws std::bad_alloc.
+  static std::string default_cache_folder();
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;

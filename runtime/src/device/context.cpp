@@ -28,10 +28,7 @@ Result<PhysicalDevice> select_device(VkInstance instance, const std::string& dev
   std::vector<DeviceDescription> descriptions;
   for (const PhysicalDevice& device : devices.value()) descriptions.push_back(device.description);
 
-  const bool by_option = !device_option.empty();
-  const Result<std::uint32_t> chosen =
-      choose_device(descriptions, by_option ? device_option : environment("MEDIAL_VK_DEVICE"),
-                    by_option ? "`device`" : "MEDIAL_VK_DEVICE");
+  const Result<std::uint32_t> chosen = Context::choose_device(descriptions, device_option);
   if (!chosen.ok()) return chosen.error();
   return devices.value()[chosen.value()];
 }
@@ -165,6 +162,17 @@ Result<std::vector<DeviceDescription>> Context::list_devices() try {
 } catch (const std::bad_alloc&) {
   return out_of_memory("listing Vulkan devices");
 }
+
+Result<std::uint32_t> Context::choose_device(std::span<const DeviceDescription> devices,
+                                             const std::string& device) try {
+  const bool by_option = !device.empty();
+  return medial_vk::choose_device(devices, by_option ? device : environment("MEDIAL_VK_DEVICE"),
+                                  by_option ? "`device`" : "MEDIAL_VK_DEVICE");
+} catch (const std::bad_alloc&) {
+  return out_of_memory("choosing a Vulkan device");
+}
+
+std::string Context::default_cache_folder() { return pipeline_cache_folder({}); }
 
 const DeviceDescription& Context::device() const { return impl_->description; }
 

@@ -50,15 +50,49 @@ std::string driver_text(VkPhysicalDevice device, const VkPhysicalDevicePropertie
   return text;
 }
 
-std::uint64_t largest_local_heap(VkPhysicalDevice device) {
+std::vector<DeviceHeap> heaps_of(VkPhysicalDevice device) {
   VkPhysicalDeviceMemoryProperties memory{};
   vkGetPhysicalDeviceMemoryProperties(device, &memory);
-  std::uint64_t largest = 0;
+  std::vector<DeviceHeap> heaps;
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
     const VkMemoryHeap& heap = memory.memoryHeaps[i];
-    if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) largest = std::max<std::uint64_t>(largest, heap.size);
+    heaps.push_back({heap.size, (heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0});
   }
+  return heaps;
+}
+
+std::uint64_t largest_local_heap(const std::vector<DeviceHeap>& heaps) {
+  std::uint64_t largest = 0;
+  for (const DeviceHeap& heap : heaps) largest = std::max(largest, heap.is_local ? heap.bytes : 0);
   return largest;
+}
+
+std::vector<std::string> operation_names(VkSubgroupFeatureFlags operations) {
+  constexpr std::pair<VkSubgroupFeatureFlags, const char*> kNames[] = {
+      {VK_SUBGROUP_FEATURE_BASIC_BIT, "basic"},
+      {VK_SUBGROUP_FEATURE_VOTE_BIT, "vote"},
+      {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "arithmetic"},
+      {VK_SUBGROUP_FEATURE_BALLOT_BIT, "ballot"},
+      {VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "shuffle"},
+      {VK_SUBGROUP_FEATURE_SHUFFLE_RELATIVE_BIT, "shuffle relative"},
+      {VK_SUBGROUP_FEATURE_CLUSTERED_BIT, "clustered"},
+      {VK_SUBGROUP_FEATURE_QUAD_BIT, "quad"}};
+  std::vector<std::string> names;
+  for (const auto& [bit, name] : kNames)
+    if ((operations & bit) != 0) names.emplace_back(name);
+  return names;
+}
+
+DeviceSubgroups subgroups_of(VkPhysicalDevice device, std::uint32_t api_version) {
+  if (api_version < VK_API_VERSION_1_1) return {};  // which added them
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  VkPhysicalDeviceProperties2 query{};
+  query.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  query.pNext = &subgroup;
+  vkGetPhysicalDeviceProperties2(device, &query);
+  return {subgroup.subgroupSize, operation_names(subgroup.supportedOperations),
+          (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0};
 }
 
 /// A family with compute, without graphics if there is such a family: on a desktop the other one draws the windows,
@@ -81,6 +115,16 @@ std::vector<VkQueueFamilyProperties> families_of(VkPhysicalDevice handle) {
   return families;
 }
 
+/// The only test of a device's suitability; everything that opens, adopts or lists devices goes through it.
+std::vector<std::string> reasons_against(const DeviceDescription& device, bool has_compute) {
+  std::vector<std::string> reasons;
+  if (device.api_version < VK_API_VERSION_1_2)
+    reasons.push_back("it has Vulkan " + version_text(device.api_version) + ", 1.2 is needed");
+  if (!has_compute) reasons.emplace_back("it has no compute queue");
+  for (std::string& reason : limits_too_low(device.limits)) reasons.push_back(std::move(reason));
+  return reasons;
+}
+
 PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(handle, &properties);
@@ -94,17 +138,15 @@ PhysicalDevice describe(VkPhysicalDevice handle, std::uint32_t index) {
   description.type = type_name(properties.deviceType);
   description.driver = driver_text(handle, properties);
   description.api_version = properties.apiVersion;
-  description.memory_bytes = largest_local_heap(handle);
+  description.limits = compare_limits(properties.limits);
+  description.heaps = heaps_of(handle);
+  description.memory_bytes = largest_local_heap(description.heaps);
+  description.subgroups = subgroups_of(handle, properties.apiVersion);
 
   const std::optional<std::uint32_t> family = compute_family(families);
-  if (properties.apiVersion < VK_API_VERSION_1_2) {
-    description.why_not = "it has Vulkan " + version_text(properties.apiVersion) + ", 1.2 is needed";
-  } else if (!family) {
-    description.why_not = "it has no compute queue";
-  } else if (std::string too_low = limit_too_low(properties.limits); !too_low.empty()) {
-    description.why_not = std::move(too_low);
-  } else {
-    description.usable = true;
+  description.why_not = reasons_against(description, family.has_value());
+  description.usable = description.why_not.empty();
+  if (description.usable) {
     device.queue_family = *family;
     device.timestamp_valid_bits = families[*family].timestampValidBits;
     device.transfer_family = choose_transfer_family(families);
@@ -129,7 +171,7 @@ std::string list_text(std::span<const DeviceDescription> devices) {
   for (const DeviceDescription& device : devices) {
     text += text.empty() ? "" : "; ";
     text += std::to_string(device.index) + ": " + device.name + " (" + device.type + ")";
-    if (!device.usable) text += " - not usable, " + device.why_not;
+    if (!device.usable) text += " - not usable, " + reasons_text(device);
   }
   return text;
 }
@@ -155,6 +197,12 @@ std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamil
   return std::nullopt;
 }
 
+std::string reasons_text(const DeviceDescription& device) {
+  std::string text;
+  for (const std::string& reason : device.why_not) text += (text.empty() ? "" : "; ") + reason;
+  return text;
+}
+
 Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   std::vector<VkPhysicalDevice> handles;
   VkResult result = VK_INCOMPLETE;
@@ -170,6 +218,8 @@ Result<std::vector<PhysicalDevice>> enumerate_devices(VkInstance instance) {
   if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
     Error error = vulkan_error("vkEnumeratePhysicalDevices", result);
     if (error.code != ErrorCode::kOutOfMemory) error.code = ErrorCode::kNoDevice;
+    // So the loader answers where drivers are installed for devices that are not there.
+    if (result == VK_ERROR_INITIALIZATION_FAILED) error.message = "no Vulkan driver finds a device; " + error.message;
     return error;
   }
   std::vector<PhysicalDevice> devices;
@@ -183,7 +233,7 @@ PhysicalDevice describe_device(VkPhysicalDevice handle, std::uint32_t queue_fami
   if (!device.description.usable) return device;
   if (queue_family >= families.size() || (families[queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
     device.description.usable = false;
-    device.description.why_not = "its queue family " + std::to_string(queue_family) + " does not compute";
+    device.description.why_not = {"its queue family " + std::to_string(queue_family) + " does not compute"};
     return device;
   }
   device.queue_family = queue_family;
@@ -201,7 +251,7 @@ Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices, 
     const DeviceDescription& device = devices[*index];
     if (device.usable) return *index;
     return Error{ErrorCode::kNoDevice,
-                 origin + " " + choice + ": \"" + device.name + "\" cannot be used: " + device.why_not};
+                 origin + " " + choice + ": \"" + device.name + "\" cannot be used: " + reasons_text(device)};
   }
 
   const std::string wanted = lower_case(choice);  // empty: part of every name

@@ -23,6 +23,9 @@ struct PhysicalDevice {
   DeviceDescription description;
 };
 
+/// The reasons why it is not usable, separated by semicolons.
+std::string reasons_text(const DeviceDescription& device);
+
 /// A family that only copies: its queues are engines of their own, which run in parallel with the others.
 std::optional<std::uint32_t> choose_transfer_family(std::span<const VkQueueFamilyProperties> families);
 

@@ -38,7 +38,7 @@ Result<PhysicalDevice> describe_host_device(const HostDevice& host) {
   if (host.api_version < needs.api_version) return not_usable("its instance is older than Vulkan 1.2");
   if (!covers(host.enabled_features, needs.features)) return not_usable("a feature that is needed is not enabled");
   PhysicalDevice device = describe_device(host.physical_device, host.queue_family);
-  if (!device.description.usable) return not_usable(device.description.why_not);
+  if (!device.description.usable) return not_usable(reasons_text(device.description));
   return device;
 }
 

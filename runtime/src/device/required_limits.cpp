@@ -36,13 +36,21 @@ constexpr std::array kRequired = {
 
 std::span<const RequiredLimit> required_limits() { return kRequired; }
 
-std::string limit_too_low(VkPhysicalDeviceLimits limits) {
-  for (const RequiredLimit& limit : kRequired) {
-    if (limit.of(limits) >= limit.needed) continue;
-    return std::string("its ") + limit.name + " is " + std::to_string(limit.of(limits)) + ", " +
-           std::to_string(limit.needed) + " are needed";
+std::vector<DeviceLimit> compare_limits(VkPhysicalDeviceLimits limits) {
+  std::vector<DeviceLimit> compared;
+  compared.reserve(kRequired.size());
+  for (const RequiredLimit& limit : kRequired) compared.push_back({limit.name, limit.needed, limit.of(limits)});
+  return compared;
+}
+
+std::vector<std::string> limits_too_low(const std::vector<DeviceLimit>& limits) {
+  std::vector<std::string> reasons;
+  for (const DeviceLimit& limit : limits) {
+    if (limit.there >= limit.needed) continue;
+    reasons.push_back("its " + limit.name + " is " + std::to_string(limit.there) + ", " + std::to_string(limit.needed) +
+                      " are needed");
   }
-  return {};
+  return reasons;
 }
 
 }  // namespace medial_vk

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
+
+#include "medial_vk/context.h"
 
 namespace medial_vk {
 
@@ -18,8 +21,10 @@ struct RequiredLimit {
 
 std::span<const RequiredLimit> required_limits();
 
-/// "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed", for the first limit that is too low; empty if none
-/// is.
-std::string limit_too_low(VkPhysicalDeviceLimits limits);
+/// Each of them with its value on a device.
+std::vector<DeviceLimit> compare_limits(VkPhysicalDeviceLimits limits);
+
+/// "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed", for each limit that is too low.
+std::vector<std::string> limits_too_low(const std::vector<DeviceLimit>& limits);
 
 }  // namespace medial_vk

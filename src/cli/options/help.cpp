@@ -14,6 +14,8 @@ Usage:
   medial-vk [options] MESH     MESH is OBJ, PLY, STL or OFF; "-": standard input
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
+  medial-vk doctor [options]   whether it works on this machine, and what is
+                               missing: medial-vk doctor --help
 
 Examples:
   medial-vk bunny.obj                          writes bunny.medial.ply here

@@ -26,7 +26,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"count", {}, "--count", kRobotCount},
     {"count_per_link", {}, {}, "--count-per-link"},
     same("deep_angle", "the deep angle"),
-    same("device", "--device"),
+    {"device", "--device", "--device", "--device", "--device"},
     {"epsilon", "--epsilon", "epsilon", "epsilon"},
     {"error", {}, "--error", "--error"},
     {"extra_levels", "--extra-levels", "the number of extra levels", "the number of extra levels"},
@@ -36,7 +36,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("largest"),
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
-    {"memory_budget", "--memory", "the memory budget", "the memory budget"},
+    {"memory_budget", "--memory", "the memory budget", "the memory budget", "the memory budget"},
     library_only("mesh"),
     {"method", {}, "--method", "--method"},
     {"mode", "--mode", {}, {}},
@@ -47,7 +47,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("query_error"),
     {"radius", "--radius", "the radius threshold", "the radius threshold"},
     library_only("removal_orders"),
-    same("resolution", "--resolution"),
+    {"resolution", "--resolution", "--resolution", "--resolution", "the resolution"},
     library_only("samples"),
     library_only("sheets"),
     library_only("sphere"),
@@ -67,8 +67,23 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.spheres;
     case Command::kRobotSpheres:
       return parameter.robot_spheres;
+    case Command::kDoctor:
+      return parameter.doctor;
   }
   return parameter.extract;
+}
+
+const char* name_of(Command command) {
+  switch (command) {
+    case Command::kExtract:
+      break;
+    case Command::kSpheres:
+    case Command::kRobotSpheres:
+      return "medial-vk spheres";
+    case Command::kDoctor:
+      return "medial-vk doctor";
+  }
+  return "medial-vk";
 }
 
 }  // namespace
@@ -94,7 +109,8 @@ Error with_hint(Error error, const std::string& device) {
   error.message += device.empty()
                        ? "\nInstall the Vulkan driver of your graphics card, or Mesa's CPU device (Debian: apt install "
                          "libvulkan1 mesa-vulkan-drivers), or use --backend cpu, which needs no Vulkan."
-                       : "\nmedial-vk --list-devices shows what is here.";
+                       : "\nmedial-vk --list-devices shows the devices that are here.";
+  error.message += "\nmedial-vk doctor shows what is there, what is missing, and what to do.";
   return error;
 }
 
@@ -127,8 +143,7 @@ int exit_code(ErrorCode code) {
 
 int report_error(const Error& error, Command command) {
   print_message(fmt::format("medial-vk: {}\n", in_words_of_options(error.message, command)));
-  const char* const name = command == Command::kExtract ? "medial-vk" : "medial-vk spheres";
-  if (error.code == ErrorCode::kUsage) print_message(fmt::format("Try {} --help.\n", name));
+  if (error.code == ErrorCode::kUsage) print_message(fmt::format("Try {} --help.\n", name_of(command)));
   return exit_code(error.code);
 }
 

@@ -17,6 +17,7 @@ enum class Command {
   kExtract,       ///< medial-vk
   kSpheres,       ///< medial-vk spheres, of a mesh
   kRobotSpheres,  ///< medial-vk spheres, of a robot
+  kDoctor,        ///< medial-vk doctor
 };
 
 /// A parameter of the library by its name there, and its name in the messages of each command: an option of the
@@ -24,6 +25,7 @@ enum class Command {
 struct ParameterWords {
   std::string_view parameter;
   std::string_view extract, spheres, robot_spheres;
+  std::string_view doctor = {};  ///< Of few: its small extraction has options that cannot be at fault.
 };
 
 /// Every parameter that messages of the library name.

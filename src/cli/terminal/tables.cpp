@@ -48,7 +48,7 @@ std::string device_table(const std::vector<DeviceDescription>& devices) {
   rows.reserve(devices.size());
   for (const DeviceDescription& device : devices) {
     rows.push_back({std::to_string(device.index), device.name, device.type, memory_size(device.memory_bytes),
-                    device.driver, device.usable ? "yes" : "no: " + device.why_not});
+                    device.driver, device.usable ? "yes" : fmt::format("no: {}", fmt::join(device.why_not, "; "))});
   }
   return format_table({{"index", true}, {"name"}, {"type"}, {"memory", true}, {"driver"}, {"usable"}}, rows);
 }

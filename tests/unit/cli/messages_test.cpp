@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/options/doctor_options.h"
 #include "cli/options/options.h"
 #include "cli/options/spheres_options.h"
 #include "common/tool_errors.h"
@@ -118,6 +119,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kExtract), "medial-vk: no\nTry medial-vk --help.\n");
   EXPECT_EQ(printed(Command::kSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
+  EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }
 
 TEST(Messages, LiteralsOfASource) {
@@ -147,10 +149,12 @@ TEST(Messages, ParametersAreThoseOfPublicHeaders) {
 TEST(Messages, WordsNameOptionsOfTheirCommand) {
   const auto options_in = [](const std::string& text) { return matches(text, "(--[a-z-]+)"); };
   const std::set<std::string> of_extract = options_in(help_text()), of_spheres = options_in(spheres_help_text());
+  const std::set<std::string> of_doctor = options_in(doctor_help_text());
   for (const ParameterWords& parameter : parameter_words()) {
     EXPECT_THAT(of_extract, testing::IsSupersetOf(options_in(std::string(parameter.extract))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.spheres))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.robot_spheres))));
+    EXPECT_THAT(of_doctor, testing::IsSupersetOf(options_in(std::string(parameter.doctor))));
   }
 }
 

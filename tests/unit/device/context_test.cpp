@@ -10,6 +10,7 @@
 
 #include "device/context_impl.h"
 #include "device/pipeline_cache.h"
+#include "device/required_limits.h"
 #include "support/device/device.h"
 #include "write_sequence_spirv.h"
 
@@ -84,7 +85,24 @@ TEST_F(ContextTest, ListsDevices) {
     EXPECT_GT(device.memory_bytes, 0u);
     EXPECT_EQ(device.usable, device.why_not.empty());
     EXPECT_THAT(device.type, testing::AnyOf("discrete", "integrated", "virtual", "cpu", "other"));
+    EXPECT_EQ(device.limits.size(), required_limits().size());
+    for (const DeviceLimit& limit : device.limits) EXPECT_EQ(device.usable, limit.there >= limit.needed) << limit.name;
+    const auto is_largest = [&](const DeviceHeap& heap) { return heap.is_local && heap.bytes == device.memory_bytes; };
+    EXPECT_TRUE(std::any_of(device.heaps.begin(), device.heaps.end(), is_largest));
+    EXPECT_GT(device.subgroups.size, 0u);
+    EXPECT_THAT(device.subgroups.operations, testing::Contains("basic"));
   }
+}
+
+TEST_F(ContextTest, TheDeviceThatIsChosenIsTheOneThatOpens) {
+  const auto devices = Context::list_devices();
+  ASSERT_TRUE(devices.ok());
+  const Result<std::uint32_t> chosen = Context::choose_device(devices.value());
+  ASSERT_TRUE(chosen.ok()) << chosen.error().message;
+  EXPECT_EQ(Context::create(options()).value().device().index, chosen.value());
+  const test::ScopedEnvironment variable("MEDIAL_VK_DEVICE", "no such device");
+  EXPECT_THAT(Context::choose_device(devices.value()).error().message, HasSubstr("MEDIAL_VK_DEVICE"));
+  EXPECT_TRUE(Context::choose_device(devices.value(), std::to_string(chosen.value())).ok());
 }
 
 TEST_F(ContextTest, OpensByIndexAndByName) {
@@ -244,6 +262,7 @@ TEST(PipelineCacheFolder, FollowsTheXdgRules) {
   {
     const test::ScopedEnvironment xdg("XDG_CACHE_HOME", "/elsewhere");
     EXPECT_EQ(pipeline_cache_folder(""), "/elsewhere/medial-vk");
+    EXPECT_EQ(Context::default_cache_folder(), "/elsewhere/medial-vk");
   }
   {
     const test::ScopedEnvironment xdg("XDG_CACHE_HOME", "relative/is/ignored");

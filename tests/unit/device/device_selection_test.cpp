@@ -24,7 +24,7 @@ std::vector<DeviceDescription> workstation() {
       device(2, "NVIDIA GeForce RTX 4090", "discrete"), device(3, "NVIDIA GeForce RTX 3060", "discrete"),
       device(4, "Old Card", "discrete")};
   devices[4].usable = false;
-  devices[4].why_not = "it has Vulkan 1.1.0, 1.2 is needed";
+  devices[4].why_not = {"it has Vulkan 1.1.0, 1.2 is needed", "it has no compute queue"};
   return devices;
 }
 
@@ -72,7 +72,7 @@ TEST(DeviceSelection, UnusableDeviceSaysWhy) {
     const auto chosen = choose_device(workstation(), choice, "device");
     ASSERT_FALSE(chosen.ok());
     EXPECT_EQ(chosen.error().code, ErrorCode::kNoDevice);
-    EXPECT_THAT(chosen.error().message, HasSubstr("1.2 is needed"));
+    EXPECT_THAT(chosen.error().message, HasSubstr("it has Vulkan 1.1.0, 1.2 is needed; it has no compute queue"));
   }
 }
 

@@ -34,7 +34,7 @@ RunRecord some_record() {
   record.radii = Range{0.01, 0.5};
   record.host_times = {{"read", 0.01}, {"extract", 2.0}};
   record.device_times = {{"dismiss cells", 1.5}};
-  record.device = DeviceDescription{0, "Some GPU", "discrete", "driver 1.2", 0, 8ull << 30, true, ""};
+  record.device = DeviceDescription{0, "Some GPU", "discrete", "driver 1.2", 0, 8ull << 30, true, {}, {}, {}, {}};
   return record;
 }
 
@@ -215,7 +215,7 @@ TEST(ReportTables, DevicesThatAreNoUseSayWhy) {
   good.memory_bytes = 8ull << 30;
   poor.index = 1;
   poor.name = "Old GPU";
-  poor.why_not = "its maxPerStageDescriptorStorageBuffers is 4, 16 are needed";
+  poor.why_not = {"its maxPerStageDescriptorStorageBuffers is 4, 16 are needed"};
   const std::string table = cli::device_table({good, poor});
   EXPECT_THAT(table, HasSubstr("8.0 GiB"));
   EXPECT_THAT(table, HasSubstr("yes\n"));

@@ -1,0 +1,67 @@
+// The command line of `medial-vk doctor`: defaults, ranges, and helpful messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/options/doctor_options.h"
+
+namespace medial_vk::cli {
+namespace {
+
+using testing::HasSubstr;
+
+DoctorOptions parsed(const std::vector<std::string>& arguments) {
+  const Result<DoctorOptions> options = parse_doctor_options(arguments);
+  EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
+  return options.ok() ? options.value() : DoctorOptions{};
+}
+
+std::string message_of(const std::vector<std::string>& arguments) {
+  const Result<DoctorOptions> options = parse_doctor_options(arguments);
+  EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
+  if (options.ok()) return "";
+  EXPECT_EQ(options.error().code, ErrorCode::kUsage);
+  return options.error().message;
+}
+
+TEST(DoctorOptions, Defaults) {
+  const DoctorOptions options = parsed({});
+  EXPECT_EQ(options, DoctorOptions());
+  EXPECT_EQ(options.time_limit, 60u);
+  EXPECT_FALSE(options.help);
+}
+
+TEST(DoctorOptions, AllAtOnce) {
+  const DoctorOptions options = parsed({"--device", "radeon", "--report", "-", "--time-limit", "5", "-v"});
+  EXPECT_EQ(options.device, "radeon");
+  EXPECT_EQ(options.report, "-");
+  EXPECT_EQ(options.time_limit, 5u);
+  EXPECT_TRUE(options.verbose);
+  EXPECT_TRUE(parsed({"--help"}).help);
+  EXPECT_TRUE(parsed({"-q"}).quiet);
+}
+
+TEST(DoctorOptions, WrongOnesAreNamed) {
+  EXPECT_THAT(message_of({"--devise", "0"}), HasSubstr("did you mean --device?"));
+  EXPECT_THAT(message_of({"part.stl"}), HasSubstr("unexpected 'part.stl': doctor takes options only"));
+  EXPECT_THAT(message_of({"--time-limit", "0"}), HasSubstr("--time-limit"));
+  EXPECT_THAT(message_of({"--time-limit", "1e3"}), HasSubstr("--time-limit"));
+  EXPECT_THAT(message_of({"--time-limit", "86401"}), HasSubstr("86400"));
+  EXPECT_THAT(message_of({"-q", "-v"}), HasSubstr("-q and -v"));
+  EXPECT_THAT(message_of({"--device"}), HasSubstr("--device"));
+}
+
+TEST(DoctorOptions, NoLineAffectsTheNext) {
+  DoctorOptionParser parser;
+  ASSERT_TRUE(parser.parse({"--device", "1", "-q"}).ok());
+  ASSERT_FALSE(parser.parse({"--time-limit", "x"}).ok());
+  EXPECT_EQ(parser.parse({}).value(), DoctorOptions());
+}
+
+TEST(DoctorOptions, HelpNamesEveryOption) {
+  const std::string help = doctor_help_text();
+  for (const char* option : {"--device", "--time-limit", "--report", "--quiet", "--verbose", "--help"})
+    EXPECT_THAT(help, HasSubstr(option));
+}
+
+}  // namespace
+}  // namespace medial_vk::cli
