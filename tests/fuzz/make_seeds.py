@@ -59,7 +59,29 @@ def medial(ascii_form, points, count=None, header=("grid_origin -1 -1 -1", "voxe
     return data
 
 
+def scene(parts, vertices=VERTICES, faces=FACES):
+    """What the process of assimp hands over (src/scene_files/scene_parts.cpp)."""
+    data = b"medial-vk scene 1\n" + struct.pack("=Q", len(parts))
+    for name in parts:
+        data += struct.pack("=Q", len(name)) + name + struct.pack("=QQ", 1, 0) + struct.pack("=Q", len(vertices))
+        data += b"".join(struct.pack("=3d", *vertex) for vertex in vertices) + struct.pack("=Q", len(faces))
+        data += b"".join(struct.pack("=3I", *face) for face in faces)
+    return data
+
+
 def main():
+    (CORPUS / "decode_scene").mkdir(exist_ok=True)
+    write("decode_scene/one", scene([b"part"]))
+    write("decode_scene/two", scene([b"", b"\xff"]))
+    write("decode_scene/none", scene([]))
+    write("decode_scene/bad_index", scene([b"a"], faces=[(0, 1, 4)]))
+    write("decode_scene/infinite", scene([b"a"], vertices=[(0, 0, float("inf"))]))
+    write("decode_scene/cut", scene([b"a"])[:-7])
+    message = b"input: assimp cannot read it"
+    write("decode_scene/error", b"medial-vk scene 1\n" + struct.pack("=QQQ", 2**64 - 1, 2, len(message)) + message)
+    write("decode_scene/glb", b"glTF\2\0\0\0")
+    write("decode_scene/gltf", b' {"asset":{}}')
+    write("decode_scene/collada", b"<?xml?><COLLADA/>")
     write("read_stl/binary", stl(4, FACES))
     write("read_stl/binary_solid", stl(4, FACES, title=b"solid facet endsolid"))
     write("read_stl/binary_nothing", stl(0, []))

@@ -11,7 +11,8 @@ std::string help_text() {
 that touch its surface in two places, at most one per voxel.
 
 Usage:
-  medial-vk [options] MESH     MESH is OBJ, PLY, STL or OFF; "-": standard input
+  medial-vk [options] MESH     OBJ, PLY, STL, OFF, glTF, GLB, 3MF, FBX, COLLADA
+                               and more; "-": standard input
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
 

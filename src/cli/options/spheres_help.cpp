@@ -11,8 +11,8 @@ std::string spheres_help_text() {
 robot: for collision checks, distances, shadows. Tight, and with a promise.
 
 Usage:
-  medial-vk spheres [options] MESH          OBJ, PLY, STL or OFF; "-": standard
-                                            input
+  medial-vk spheres [options] MESH          OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
+                                            FBX, COLLADA ...; "-": standard input
   medial-vk spheres [options] ROBOT.urdf    with the meshes that it names
 
 Examples:

@@ -8,8 +8,8 @@
 #include "base/stopwatch.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
-#include "input/read_mesh.h"
 #include "medial_vk/prepare.h"
+#include "scene_files/read_mesh_file.h"
 
 namespace medial_vk::cli {
 Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& opening, unsigned threads,
@@ -17,7 +17,7 @@ Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& ope
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
-  Result<Mesh> mesh = read_mesh(path);
+  Result<Mesh> mesh = read_mesh_file(path);
   if (!mesh) return mesh.error();
   times.push_back({"read", stopwatch.lap()});
   threads = opening.threads_beside(mesh.value().triangles.size(), threads);
