@@ -142,6 +142,77 @@ TEST_F(SceneFiles, WithoutTheReaderOtherFormatsAreRead) {
   EXPECT_EQ(run_tool(call).exit_code, 0);
 }
 
+// ---- --each
+
+/// Three nodes: two of one name, one without a name of the file's own.
+std::string three_parts(const Mesh& last) {
+  return test::to_gltf({{{part()}}, {{test::make_box({1, 2, 3})}}, {{last}}},
+                       {{.name = "an L/1", .mesh = 0}, {.name = "box", .mesh = 1}, {.name = "Box", .mesh = 2}})
+      .text;
+}
+
+TEST_F(SceneFiles, EachWritesTheFilesOfEveryMesh) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  test::write_file(path("s.gltf"), three_parts(test::make_box({2, 2, 2})));
+  const ToolResult result = run_cpu({"s.gltf", "--each", "--report", "r.json", "--medial-mesh", "m.ma", "--check"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(folder_.names(),
+              ElementsAre("m.Box-2.ma", "m.an_L_1.ma", "m.box.ma", "r.Box-2.json", "r.an_L_1.json", "r.box.json",
+                          "s.Box-2.medial.ply", "s.an_L_1.medial.ply", "s.box.medial.ply", "s.gltf"));
+  EXPECT_THAT(read_file(path("r.Box-2.json")), HasSubstr("\"part\": \"Box-2\""));
+  EXPECT_THAT(read_file(path("r.Box-2.json")), HasSubstr("\"output\": \"s.Box-2.medial.ply\""));
+  EXPECT_THAT(result.err, HasSubstr("s.gltf: an_L_1: "));
+  EXPECT_THAT(result.out, HasSubstr("an_L_1:\ncondition"));
+  EXPECT_THAT(result.out, HasSubstr("Box-2:\ncondition"));
+  // Each is what the mesh alone gives.
+  test::write_file(path("l.obj"), test::to_obj(part()));
+  const ToolResult alone = run_cpu({"l.obj", "-o", "-"});
+  EXPECT_TRUE(alone.out == read_file(path("s.an_L_1.medial.ply")));
+  // Without --each they are one solid, and the report has no such key.
+  EXPECT_EQ(run_cpu({"s.gltf", "--report", "r.json"}).exit_code, 0);
+  EXPECT_THAT(read_file(path("r.json")), Not(HasSubstr("\"part\"")));
+}
+
+TEST_F(SceneFiles, EachOfAFileWithOneMeshIsOneResult) {
+  test::write_file(path("l.obj"), test::to_obj(part()));
+  const ToolResult result = run_cpu({"l.obj", "--each", "-o", "out.csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(folder_.names(), ElementsAre("l.obj", "out.1.csv"));
+}
+
+TEST_F(SceneFiles, AnErrorInOneMeshLeavesNoFileOfAny) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  Mesh sheet = test::make_box({1, 1, 1});
+  sheet.triangles.resize(1);
+  test::write_file(path("s.gltf"), three_parts(sheet));
+  const ToolResult result = run_cpu({"s.gltf", "--each"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("medial-vk: mesh 3 of 3, Box-2: s.gltf: "));
+  EXPECT_THAT(result.err, HasSubstr("; nothing was written"));
+  EXPECT_THAT(folder_.names(), ElementsAre("s.gltf"));
+}
+
+TEST_F(SceneFiles, AFileOfEachThatCannotBeWrittenIsReportedBeforeTheWork) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  test::write_file(path("s.gltf"), three_parts(test::make_box({2, 2, 2})));
+  fs::create_directory(path("s.box.medial.ply"));
+  const ToolResult result = run_cpu({"s.gltf", "--each"});
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_THAT(result.err, HasSubstr("s.box.medial.ply"));
+  EXPECT_THAT(result.err, Not(HasSubstr("triangles")));
+  EXPECT_THAT(folder_.names(), ElementsAre("s.box.medial.ply", "s.gltf"));
+}
+
+TEST_F(SceneFiles, AResultOfEachNeverReplacesTheInput) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  const std::string glb = test::to_gltf({{{part()}}}, {{"part", 0}}, test::GltfBuffer::kGlb).text;
+  test::write_file(path("s.part.glb"), glb);
+  const ToolResult result = run_cpu({"s.part.glb", "--each", "-o", "s.glb"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--output would overwrite the input s.part.glb"));
+  EXPECT_TRUE(read_file(path("s.part.glb")) == glb);
+}
+
 TEST_F(SceneFiles, ARobotOfColladaWithAThirdSlash) {
   if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
   fs::create_directories(path("arm/meshes"));

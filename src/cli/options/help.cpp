@@ -29,6 +29,9 @@ Output:
                         balls as .glb (glTF: a node for each); "-": PLY on
                         standard output (default: MESH's name with .medial.ply,
                         here)
+      --each            a result for each mesh of a scene (glTF, 3MF, FBX ...)
+                        instead of one for all: every output is a file with
+                        the mesh's name before its extension
       --ascii           PLY as text instead of binary
       --mesh-spheres    balls as one triangle mesh, .ply or .glb (default:
                         MESH's name with .spheres.ply)

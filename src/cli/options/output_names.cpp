@@ -40,4 +40,15 @@ Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::str
   return {};
 }
 
+std::string with_part(const std::string& path, const std::string& part) {
+  const fs::path name(path);
+  fs::path stem = name.stem();
+  std::string extension = name.extension().string();
+  if (file_extension(path) == ".ply" && (stem.extension() == ".medial" || stem.extension() == ".spheres")) {
+    extension = stem.extension().string() + extension;
+    stem = stem.stem();
+  }
+  return (name.parent_path() / (stem.string() + "." + part + extension)).string();
+}
+
 }  // namespace medial_vk::cli
