@@ -213,6 +213,41 @@ TEST_F(SceneFiles, AResultOfEachNeverReplacesTheInput) {
   EXPECT_TRUE(read_file(path("s.part.glb")) == glb);
 }
 
+TEST_F(SceneFiles, SpheresOfEachMesh) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  test::write_file(path("s.gltf"), three_parts(test::make_box({2, 2, 2})));
+  const std::vector<std::string> goal = {"spheres", "s.gltf", "--count", "2", "--backend", "cpu", "--resolution", "12"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), goal.begin(), goal.end());
+    return run(more);
+  };
+  const ToolResult result = with({"--each", "--report", "r.json", "--check"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(folder_.names(), ElementsAre("r.Box-2.json", "r.an_L_1.json", "r.box.json", "s.Box-2.spheres.csv",
+                                           "s.an_L_1.spheres.csv", "s.box.spheres.csv", "s.gltf"));
+  EXPECT_THAT(read_file(path("r.box.json")), HasSubstr("\"mesh\": \"box\""));
+  EXPECT_THAT(read_file(path("r.box.json")), HasSubstr("\"part\": \"box\""));
+  EXPECT_THAT(result.out, HasSubstr("Box-2:\ncondition"));
+  // Without --each it is one set for all.
+  EXPECT_EQ(with({"-o", "all.csv"}).exit_code, 0);
+  EXPECT_EQ(with({"--each", "-o", "-"}).exit_code, 2);
+  test::write_file(path("a.urdf"), "<robot name=\"a\"/>");
+  const ToolResult robot = run({"spheres", "a.urdf", "--each", "--total", "3"});
+  EXPECT_EQ(robot.exit_code, 2);
+  EXPECT_THAT(robot.err, HasSubstr("--each is about the meshes of a scene"));
+}
+
+TEST_F(SceneFiles, AnErrorInOneMeshLeavesNoSpheresOfAny) {
+  if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
+  Mesh sheet = test::make_box({1, 1, 1});
+  sheet.triangles.resize(1);
+  test::write_file(path("s.gltf"), three_parts(sheet));
+  const ToolResult result = run({"spheres", "s.gltf", "--each", "--count", "2", "--backend", "cpu"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("medial-vk: mesh 3 of 3, Box-2: s.gltf: "));
+  EXPECT_THAT(folder_.names(), ElementsAre("s.gltf"));
+}
+
 TEST_F(SceneFiles, ARobotOfColladaWithAThirdSlash) {
   if (!reads_scenes()) GTEST_SKIP() << "built without assimp";
   fs::create_directories(path("arm/meshes"));

@@ -7,27 +7,14 @@
 #include <vector>
 
 #include "cli/options/options.h"
-#include "cli/shared/device_opening.h"
-#include "cli/terminal/progress.h"
+#include "cli/shared/shared_of_run.h"
 #include "medial_vk/analysis.h"
-#include "medial_vk/context.h"
 #include "medial_vk/indexed_mesh.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/extraction_report/run_record.h"
 #include "output/medial_ply/medial_file.h"
 
 namespace medial_vk::cli {
-
-/// What all meshes of a run share.
-struct SharedOfRun {
-  explicit SharedOfRun(bool shows_progress) : progress(shows_progress) {}
-
-  Progress progress;
-  DeviceOpening opening;
-  std::optional<Context> context;
-  std::optional<DeviceDescription> device;
-  std::vector<StageTime> times;  ///< Of the steps that all meshes share.
-};
 
 /// The calls come in the order of their declaration, each once.
 class MeshRun {

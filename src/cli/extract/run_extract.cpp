@@ -57,7 +57,10 @@ class ExtractionRun {
       shared_.opening.start(options_.device, options_.threads, shared_.progress);  // while the mesh is read
     if (Status status = read(); !status) return status;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      if (Status status = run_part(i); !status) return in_part(i, status.error());
+      Status status = run_part(i);
+      if (!status) {
+        return options_.each ? error_in_part(status.error(), i, runs_.size(), runs_[i]->record().part) : status;
+      }
     }
     shared_.progress.clear();
     if (interrupted()) return stopped();
@@ -69,7 +72,7 @@ class ExtractionRun {
  private:
   Status read() {
     shared_.progress.update("read", 0);
-    Result<std::vector<ScenePart>> parts = read_meshes(options_, shared_.times);
+    Result<std::vector<ScenePart>> parts = read_meshes(options_.mesh, options_.each, shared_.times);
     shared_.progress.clear();
     if (!parts) return parts.error();
     parts_ = std::move(parts).value();
@@ -94,14 +97,6 @@ class ExtractionRun {
     if (!options_.quiet) print_message(run.opening_line());
     if (Status status = run.analyse_mesh(); !status) return status;
     return run.make_files();
-  }
-
-  /// The error of a part with its name, and what that means for the others.
-  Error in_part(std::size_t i, Error error) const {
-    if (!options_.each || error.code == ErrorCode::kInterrupted) return error;
-    const std::string part = fmt::format("mesh {} of {}, {}", i + 1, runs_.size(), runs_[i]->record().part);
-    const std::string rest = runs_.size() > 1 ? "; nothing was written" : "";
-    return {error.code, fmt::format("{}: {}{}", part, error.message, rest)};
   }
 
   /// All files of all parts, or none.

@@ -76,16 +76,6 @@ void declare(CLI::App& app, Options& options) {
   add.action("-h,--help", Action::kHelp, options.action);
 }
 
-/// Several meshes have several files of each kind, which standard output cannot hold.
-Status check_each(const Options& options) {
-  if (!options.each) return {};
-  for (const NamedOutput& output : outputs_of(options)) {
-    if (*output.file == "-")
-      return usage_error(fmt::format("--each writes a file for each mesh: {} cannot be -", output.option));
-  }
-  return {};
-}
-
 /// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
 std::string default_output(const Options& options) {
   const std::string stem = options.mesh == "-" ? "stdin" : fs::path(options.mesh).stem().string();
@@ -156,7 +146,9 @@ Status complete_files(Options& options) {
   if (!may_end_in(options.medial_mesh, ".ply") && !may_end_in(options.medial_mesh, ".ma")) {
     return usage_error(fmt::format("--medial-mesh: '{}' ends in neither .ply nor .ma", options.medial_mesh));
   }
-  if (Status status = check_each(options); !status) return status;
+  if (options.each) {
+    if (Status status = check_no_stream(outputs_of(options)); !status) return status;
+  }
   return check_outputs_differ(outputs_of(options), options.mesh);
 }
 

@@ -12,10 +12,28 @@
 #include "scene_files/read_mesh_file.h"
 
 namespace medial_vk::cli {
-namespace {
+Result<std::vector<ScenePart>> read_meshes(const std::string& path, bool each, std::vector<StageTime>& times) {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  Stopwatch stopwatch;
+  std::vector<ScenePart> parts(1);
+  if (each) {
+    Result<std::vector<ScenePart>> read = read_mesh_parts(path);
+    if (!read) return read.error();
+    parts = std::move(read).value();
+  } else {
+    Result<Mesh> mesh = read_mesh_file(path);
+    if (!mesh) return mesh.error();
+    parts.front().mesh = std::move(mesh).value();
+  }
+  times.push_back({"read", stopwatch.lap()});
+  return parts;
+}
 
-Result<PreparedMesh> prepare_read(Mesh mesh, const std::string& path, const DeviceOpening& opening, unsigned threads,
-                                  std::vector<StageTime>& times) {
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const DeviceOpening& opening, unsigned threads,
+                                    std::vector<StageTime>& times) {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
   Stopwatch stopwatch;
   threads = opening.threads_beside(mesh.triangles.size(), threads);
   Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads);
@@ -24,43 +42,12 @@ Result<PreparedMesh> prepare_read(Mesh mesh, const std::string& path, const Devi
   return prepared;
 }
 
-}  // namespace
-
-Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& opening, unsigned threads,
-                               std::vector<StageTime>& times) {
-  const EndAtOnce guard;
-  if (interrupted()) return stopped();
-  Stopwatch stopwatch;
-  Result<Mesh> mesh = read_mesh_file(path);
-  if (!mesh) return mesh.error();
-  times.push_back({"read", stopwatch.lap()});
-  return prepare_read(std::move(mesh).value(), path, opening, threads, times);
-}
-
-Result<std::vector<ScenePart>> read_meshes(const Options& options, std::vector<StageTime>& times) {
-  const EndAtOnce guard;
-  if (interrupted()) return stopped();
-  Stopwatch stopwatch;
-  std::vector<ScenePart> parts(1);
-  if (options.each) {
-    Result<std::vector<ScenePart>> read = read_mesh_parts(options.mesh);
-    if (!read) return read.error();
-    parts = std::move(read).value();
-  } else {
-    Result<Mesh> mesh = read_mesh_file(options.mesh);
-    if (!mesh) return mesh.error();
-    parts.front().mesh = std::move(mesh).value();
-  }
-  times.push_back({"read", stopwatch.lap()});
-  return parts;
-}
-
 Result<PreparedMesh> prepare_loaded(Mesh mesh, const Options& options, const DeviceOpening& opening,
                                     std::vector<StageTime>& times) {
+  Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options.mesh, opening, options.threads, times);
+  if (!prepared || options.perturb == 0) return prepared;
   const EndAtOnce guard;
   if (interrupted()) return stopped();
-  Result<PreparedMesh> prepared = prepare_read(std::move(mesh), options.mesh, opening, options.threads, times);
-  if (!prepared || options.perturb == 0) return prepared;
   Stopwatch stopwatch;
   prepared = perturb_mesh(std::move(prepared).value(), options.perturb, options.seed, options.threads);
   if (prepared) {

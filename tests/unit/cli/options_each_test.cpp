@@ -4,6 +4,7 @@
 
 #include "cli/options/options.h"
 #include "cli/options/output_names.h"
+#include "cli/options/spheres_options.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -16,7 +17,8 @@ TEST(EachOptions, TheNameComesBeforeTheExtension) {
   EXPECT_EQ(with_part("a.medial.ply", "x"), "a.x.medial.ply");
   EXPECT_EQ(with_part("../a.spheres.PLY", "x"), "../a.x.spheres.PLY");
   EXPECT_EQ(with_part("a.other.ply", "x"), "a.other.x.ply");
-  EXPECT_EQ(with_part("a.medial.csv", "x"), "a.medial.x.csv");
+  EXPECT_EQ(with_part("a.medial.csv", "x"), "a.x.medial.csv");
+  EXPECT_EQ(with_part("a.spheres.foam.json", "x"), "a.x.spheres.foam.json");
   EXPECT_EQ(with_part("report", "x"), "report.x");
 }
 
@@ -38,6 +40,18 @@ TEST(EachOptions, EveryOutputGetsTheName) {
   for (const NamedOutput& output : outputs_of(part)) EXPECT_THAT(*output.file, HasSubstr(".x")) << output.option;
   // What was not requested stays so.
   EXPECT_EQ(options_of_part(parse_options({"m.glb", "--each"}).value(), "x").report, "");
+}
+
+TEST(EachOptions, EveryOutputOfSpheresGetsTheName) {
+  const Result<SpheresOptions> parsed = parse_spheres_options(
+      {"m.glb", "--each", "--count", "3", "--report", "r.json", "--picture", "p.png", "--histogram", "h.svg"});
+  ASSERT_TRUE(parsed.ok()) << parsed.error().message;
+  const SpheresOptions part = options_of_part(parsed.value(), "x");
+  EXPECT_EQ(part.output, "m.x.spheres.csv");
+  EXPECT_EQ(part.report, "r.x.json");
+  EXPECT_EQ(part.picture, "p.x.png");
+  EXPECT_EQ(part.histogram, "h.x.svg");
+  EXPECT_EQ(outputs_of(part).size(), 4u);
 }
 
 TEST(EachOptions, StandardOutputIsForOneResult) {
