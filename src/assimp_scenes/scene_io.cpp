@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_ASSIMP)  // else nothing of assimp may be needed to build
 #include "assimp_scenes/scene_io.h"
 
 #include <fmt/format.h>
@@ -130,3 +131,4 @@ void SceneIo::Close(Assimp::IOStream* stream) { delete stream; }
 bool SceneIo::ComparePaths(const char* one, const char* second) const { return std::strcmp(one, second) == 0; }
 
 }  // namespace medial_vk
+#endif

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_ASSIMP)  // else nothing of assimp may be needed to build
 #include "assimp_scenes/scene_meshes.h"
 
 #include <assimp/scene.h>
@@ -181,3 +182,4 @@ Result<std::vector<ScenePart>> meshes_of(const aiScene& scene, const std::string
 }
 
 }  // namespace medial_vk
+#endif

@@ -78,7 +78,8 @@ Result<Mesh> read_by_content(std::string_view bytes, const std::string& name) {
   if (extension == "stl")
     return is_text_stl(bytes, first_word) ? read_ascii_stl(bytes, name) : read_binary_stl(bytes, name);
   if (looks_like_obj(bytes)) return read_obj(bytes, name);
-  return file_error(name, "neither content nor extension is that of a mesh file, such as OBJ, PLY, STL, OFF, glTF or 3MF");
+  return file_error(name,
+                    "neither content nor extension is that of a mesh file, such as OBJ, PLY, STL, OFF, glTF or 3MF");
 }
 
 Error too_long(const std::string& name, std::uint64_t most_bytes) {

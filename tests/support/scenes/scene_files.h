@@ -18,7 +18,7 @@ struct SceneNode {
   std::array<double, 3> translation = {0, 0, 0};
   std::array<double, 4> rotation = {0, 0, 0, 1};
   std::array<double, 3> scale = {1, 1, 1};
-  int skin = -1;  ///< Index of the only joint of a skin that moves all of the mesh; -1: none.
+  int skin = -1;                  ///< Index of the only joint of a skin that moves all of the mesh; -1: none.
   bool has_bind_matrices = true;  ///< Of the skin, at the identity. glTF does not require them.
 };
 
