@@ -19,6 +19,17 @@ function(run_host what program)
   endif()
 endfunction()
 
+# check_for_users(FILE TEXT): fails if TEXT, of FILE, names files of the source tree that only contributors need. The
+# commands that build the source tree, in README.md, are for its users, too.
+function(check_for_users file text)
+  if(file MATCHES "/README\\.md$")
+    string(REGEX REPLACE "\n## Two commands\n(#?[^#]|##[#]*[^# ])*\n## " "\n## " text "${text}")
+  endif()
+  if(text MATCHES "\\.ci/|scripts/lint|scripts/test|scripts/check-rooms|cmake/rooms|tests/|bench/")
+    message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}, which is not installed")
+  endif()
+endfunction()
+
 run("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${work}/first)
 file(RENAME ${work}/first ${prefix})  # nothing in it may depend on where it was installed
 foreach(file bin/medial-vk libexec/medial-vk/medial-vk-read-scene include/medial_vk/context.h
@@ -42,6 +53,7 @@ endif()
 foreach(file IN LISTS documents)
   file(READ ${file} text)
   get_filename_component(folder ${file} DIRECTORY)
+  check_for_users(${file} "${text}")
   string(REPLACE "](" "<link>" text "${text}")  # brackets would join elements of the list
   string(REGEX MATCHALL "<link>[^]);#:]+[)#]" links "${text}")
   foreach(link IN LISTS links)
@@ -51,9 +63,10 @@ foreach(file IN LISTS documents)
     endif()
   endforeach()
 endforeach()
-file(GLOB_RECURSE installed_text ${prefix}/*.cmake ${prefix}/*.pc ${prefix}/*.h)
+file(GLOB_RECURSE installed_text ${prefix}/*.cmake ${prefix}/*.pc ${prefix}/*.h ${prefix}/*.1)
 foreach(file IN LISTS installed_text)
   file(READ ${file} text)
+  check_for_users(${file} "${text}")
   foreach(folder ${SOURCE_DIR} ${BUILD_DIR})
     string(FIND "${text}" "${folder}" position)
     if(NOT position EQUAL -1)
