@@ -32,23 +32,36 @@ bool is_off_keyword(std::string_view word) {
          word.find_first_not_of("STCN4n") == word.size() - 3;
 }
 
-/// True for "solid" and then a facet or the end of the solid, within the first lines.
+bool is_word(std::string_view word, std::string_view lower_case) {
+  return std::ranges::equal(word, lower_case, [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
+  });
+}
+
+/// True for "solid" and then, within the first lines, a facet or the end of the solid. A binary file has bytes that are
+/// zero, if only in the attributes of its facets.
 bool looks_like_ascii_stl(std::string_view bytes) {
-  TextScanner scanner(bytes.substr(0, 4096), 0, false);
-  if (scanner.word() != "solid") return false;
+  bytes = bytes.substr(0, 4096);
+  TextScanner scanner(bytes, 0, false);
+  if (!is_word(scanner.word_across_lines(), "solid") || bytes.find('\0') != std::string_view::npos) return false;
   while (scanner.next_line()) {
     const std::string_view word = scanner.word();
-    if (word == "facet" || word == "endsolid") return true;
-    if (!word.empty()) return false;
+    if (is_word(word, "facet") || is_word(word, "endsolid")) return true;
   }
   return false;
+}
+
+/// For a file whose extension says that it is STL: text, although no facet is near its beginning.
+bool is_text_stl(std::string_view bytes, std::string_view first_word) {
+  return is_word(first_word, "solid") && bytes.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
 /// True if the first line that is no comment begins as usual in OBJ.
 bool looks_like_obj(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, 65536), '#', true);
   const std::string_view word = scanner.word_across_lines();
-  constexpr std::string_view kKeywords[] = {"v", "vn", "vt", "o", "g", "s", "f", "mtllib", "usemtl"};
+  constexpr std::string_view kKeywords[] = {"v", "vn", "vt", "vp", "o",   "g",      "s",      "mg",
+                                            "f", "fo", "l",  "p",  "lod", "mtllib", "usemtl", "cstype"};
   return std::ranges::find(kKeywords, word) != std::end(kKeywords);
 }
 
@@ -62,9 +75,11 @@ Result<Mesh> read_by_content(std::string_view bytes, const std::string& name) {
   if (extension == "obj") return read_obj(bytes, name);
   if (extension == "ply") return read_ply(bytes, name);
   if (extension == "off") return read_off(bytes, name);
-  if (extension == "stl") return first_word == "solid" ? read_ascii_stl(bytes, name) : read_binary_stl(bytes, name);
+  if (extension == "stl")
+    return is_text_stl(bytes, first_word) ? read_ascii_stl(bytes, name) : read_binary_stl(bytes, name);
   if (looks_like_obj(bytes)) return read_obj(bytes, name);
-  return file_error(name, "neither content nor extension is that of an OBJ, PLY, STL or OFF file");
+  return file_error(name,
+                    "neither content nor extension is that of a mesh file, such as OBJ, PLY, STL, OFF, glTF or 3MF");
 }
 
 Error too_long(const std::string& name, std::uint64_t most_bytes) {
@@ -79,7 +94,12 @@ std::uint64_t known_length(std::FILE* file) {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-Result<std::string> read_bytes(const std::string& path, const std::string& name, std::uint64_t most_bytes) {
+}  // namespace
+
+std::string name_of_input(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+Result<std::string> read_mesh_bytes(const std::string& path, std::uint64_t most_bytes) {
+  const std::string name = name_of_input(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
       path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
       [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
@@ -102,8 +122,6 @@ Result<std::string> read_bytes(const std::string& path, const std::string& name,
   return bytes;
 }
 
-}  // namespace
-
 Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name) {
   try {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // the byte order mark that some editors write
@@ -121,9 +139,9 @@ Result<Mesh> parse_mesh(std::string_view bytes, const std::string& name) {
 }
 
 Result<Mesh> read_mesh(const std::string& path, std::uint64_t most_bytes) {
-  const std::string name = path == "-" ? "standard input" : path;
+  const std::string name = name_of_input(path);
   try {
-    const Result<std::string> bytes = read_bytes(path, name, most_bytes);
+    const Result<std::string> bytes = read_mesh_bytes(path, most_bytes);
     if (!bytes.ok()) return bytes.error();
     return parse_mesh(bytes.value(), name);
   } catch (const std::bad_alloc&) {

@@ -1,5 +1,5 @@
-// Wavefront OBJ: v and f; all other lines are skipped. Indices count from 1, or back from the last vertex if negative,
-// and may carry texture and normal indices behind slashes.
+// Wavefront OBJ: v and f, and fo, the older name of f; all other lines are skipped. Indices count from 1, or back from
+// the last vertex if negative, and may carry texture and normal indices behind slashes.
 #include <fmt/format.h>
 
 #include "input/polygon_soup.h"
@@ -18,12 +18,16 @@ class ObjReader {
       const std::string_view keyword = scanner_.word();
       Status status;
       if (keyword == "v") status = read_vertex();
-      if (keyword == "f") status = read_face();
+      if (keyword == "f" || keyword == "fo") status = read_face();
+      if (keyword == "surf") has_surfaces_ = true;
       if (!status) return status.error();
     } while (scanner_.next_line());
     // A face may name later vertices; only at the end is their number known.
     for (const Forward& f : forward_) {
       if (f.vertex > soup_.vertices.size()) return index_error(f.line, static_cast<std::int64_t>(f.vertex));
+    }
+    if (soup_.sizes.empty() && has_surfaces_) {
+      return file_error(name_, "no faces: it holds free-form surfaces only; export it as polygons");
     }
     return triangulate(std::move(soup_));
   }
@@ -78,6 +82,7 @@ class ObjReader {
   const std::string& name_;
   PolygonSoup soup_;
   std::vector<Forward> forward_;
+  bool has_surfaces_ = false;
 };
 
 }  // namespace

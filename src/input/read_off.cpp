@@ -1,6 +1,6 @@
 // OFF as written by Geomview and its successors: an optional keyword with prefixes for extra columns (COFF, NOFF,
 // STOFF, CNOFF, ...), three counts, vertices, faces. Further values (normals, colours) on the line of a vertex or a
-// face are skipped.
+// face are skipped. nOFF names its dimension after the keyword.
 #include <fmt/format.h>
 
 #include "input/polygon_soup.h"
@@ -32,11 +32,14 @@ class OffReader {
 
   Status read_counts() {
     std::string_view word = next();
-    if (word.ends_with("OFF")) {
-      if (word.find_first_of("4n") != std::string_view::npos) {
-        return error(fmt::format("{}: only three dimensions can be read", quoted(word)));
-      }
+    if (word.ends_with("OFF") || word.ends_with("off")) {
+      const std::string_view keyword = word;
       word = next();
+      const bool has_dimension = keyword.find('n') != std::string_view::npos;
+      if (keyword.find('4') != std::string_view::npos || (has_dimension && word != "3")) {
+        return error(fmt::format("{}: only three dimensions can be read", quoted(keyword)));
+      }
+      if (has_dimension) word = next();
       if (word == "BINARY") return error("binary OFF is not read; use binary PLY");
     }
     for (std::uint64_t* count : {&vertices_, &faces_}) {

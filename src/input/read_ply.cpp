@@ -1,10 +1,12 @@
-// PLY (Turk 1994), text and binary. Vertices are the element "vertex" with x, y, z of any type; faces are the element
-// "face" with a list vertex_index or vertex_indices. Other elements and properties are skipped.
+// PLY (Turk 1994), text and binary. Vertices are the element "vertex" with x, y, z of any type; faces are the elements
+// "face" and "tristrips", each with a list vertex_index or vertex_indices. Other elements and properties are skipped.
 #include <fmt/format.h>
 
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "input/ply_header.h"
 #include "input/polygon_soup.h"
@@ -160,15 +162,14 @@ class PlyReader {
 
   Result<Mesh> read() {
     if (const Status status = check_elements(); !status) return status.error();
-    bool has_vertices = false, has_faces = false;
+    int left = (vertex_ != nullptr ? 1 : 0) + (face_ != nullptr ? 1 : 0) + (strips_ != nullptr ? 1 : 0);
     for (const PlyElement& element : header_.elements) {
-      const bool is_vertex = element.name == "vertex" && !has_vertices;
-      const bool is_face = element.name == "face" && !has_faces;
-      const Status status = is_vertex ? read_vertices(element) : is_face ? read_faces(element) : skip(element);
+      const bool is_used = &element == vertex_ || &element == face_ || &element == strips_;
+      const Status status = &element == vertex_ ? read_vertices(element)
+                            : is_used           ? read_faces(element)
+                                                : skip(element);
       if (!status) return status.error();
-      has_vertices = has_vertices || is_vertex;
-      has_faces = has_faces || is_face;
-      if (has_vertices && has_faces) break;  // the rest does not matter
+      if (is_used && --left == 0) break;  // the rest does not matter
     }
     return triangulate(std::move(soup_));
   }
@@ -177,7 +178,6 @@ class PlyReader {
   /// Before any memory is allocated, tests that the file has the required elements, and room for all that it declares.
   Status check_elements() {
     std::uint64_t room = body_.bytes_left() + 1;  // the last end of line may be missing
-    const PlyElement *vertex = nullptr, *face = nullptr;
     for (const PlyElement& element : header_.elements) {
       const std::uint64_t each = element.smallest_size(header_.format);
       if (each > 0 && element.count > room / each) {
@@ -186,28 +186,45 @@ class PlyReader {
                                       element.count, quoted(element.name), body_.bytes_left()));
       }
       room -= each * element.count;
-      if (element.name == "vertex" && vertex == nullptr) vertex = &element;
-      if (element.name == "face" && face == nullptr) face = &element;
-      if (element.name == "tristrips" && face == nullptr) {
-        return file_error(name_, "holds triangle strips, which are not read; save it with faces");
-      }
+      if (element.name == "vertex" && vertex_ == nullptr) vertex_ = &element;
+      if (element.name == "face" && face_ == nullptr) face_ = &element;
+      if (element.name == "tristrips" && strips_ == nullptr) strips_ = &element;
     }
-    if (vertex == nullptr) return file_error(name_, "header declares no element \"vertex\"");
-    if (face == nullptr) return file_error(name_, "no faces: header declares no element \"face\"");
-    if (vertex->count > kMaxVertices) return file_error(name_, fmt::format("{} vertices are too many", vertex->count));
-    vertices_ = vertex->count;
+    // Some programs declare both elements and leave one of them empty, at times without a property.
+    if (face_ != nullptr && face_->count == 0 && strips_ != nullptr) face_ = nullptr;
+    if (strips_ != nullptr && strips_->count == 0 && face_ != nullptr) strips_ = nullptr;
+    if (vertex_ == nullptr) return file_error(name_, "header declares no element \"vertex\"");
+    if (face_ == nullptr && strips_ == nullptr) {
+      return file_error(name_, "no faces: header declares no element \"face\" and no element \"tristrips\"");
+    }
+    return check_properties();
+  }
+
+  /// Finds the properties to be read.
+  Status check_properties() {
+    if (vertex_->count > kMaxVertices)
+      return file_error(name_, fmt::format("{} vertices are too many", vertex_->count));
+    vertices_ = vertex_->count;
     for (int k = 0; k < 3; ++k) {
       const std::string_view axis = std::string_view("xyz").substr(k, 1);
-      axis_[k] = vertex->find(axis);
-      if (axis_[k] < 0 || vertex->properties[axis_[k]].is_list) {
+      axis_[k] = vertex_->find(axis);
+      if (axis_[k] < 0 || vertex_->properties[axis_[k]].is_list) {
         return file_error(name_, fmt::format("element \"vertex\" has no property \"{}\"", axis));
       }
     }
-    indices_ = face->find("vertex_indices", "vertex_index");
-    if (indices_ < 0 || !face->properties[indices_].is_list) {
-      return file_error(name_, "element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
+    for (const PlyElement* element : {face_, strips_}) {
+      if (element != nullptr && indices_of(*element) < 0) {
+        return file_error(
+            name_, fmt::format("element {} has no list \"vertex_indices\" or \"vertex_index\"", quoted(element->name)));
+      }
     }
     return {};
+  }
+
+  /// The list of indices among the properties of an element; -1: there is none.
+  static int indices_of(const PlyElement& element) {
+    const int at = element.find("vertex_indices", "vertex_index");
+    return at >= 0 && element.properties[at].is_list ? at : -1;
   }
 
   Status skip(const PlyElement& element) {
@@ -245,13 +262,24 @@ class PlyReader {
     return {};
   }
 
+  /// Of the faces or of the strips.
   Status read_faces(const PlyElement& element) {
-    soup_.sizes.reserve(element.count);
-    soup_.corners.reserve(3 * element.count);
+    const int indices = indices_of(element);
+    const bool is_strips = &element == strips_;
+    if (!is_strips) {
+      soup_.sizes.reserve(soup_.sizes.size() + element.count);
+      soup_.corners.reserve(soup_.corners.size() + 3 * element.count);
+    }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (int at = 0; at < static_cast<int>(element.properties.size()); ++at) {
         const PlyProperty& property = element.properties[at];
-        if (Status status = at == indices_ ? read_face(i, property) : body_.skip(property); !status) return status;
+        Status status;
+        if (at != indices) {
+          status = body_.skip(property);
+        } else {
+          status = is_strips ? read_strips(i, property) : read_face(i, property);
+        }
+        if (!status) return status;
       }
     }
     return {};
@@ -264,22 +292,66 @@ class PlyReader {
     for (std::uint64_t k = 0; k < size; ++k) {
       PlyValue value;
       if (Status status = body_.read(property.type, value); !status) return status;
-      if (!value.is_integer || value.integer < 0 || value.integer >= static_cast<std::int64_t>(vertices_)) {
-        const std::string index = value.is_integer ? fmt::format("{}", value.integer) : fmt::format("{}", value.real);
-        return body_.error(fmt::format("face {} uses vertex {} of {}", face, index, vertices_));
-      }
+      if (!is_vertex(value)) return index_error("face", face, value);
       soup_.corners.push_back(static_cast<std::uint32_t>(value.integer));
     }
     soup_.sizes.push_back(static_cast<std::uint32_t>(size));
     return {};
   }
 
+  /// One list holds any number of strips, which -1 divides. In a strip every vertex after the second makes a triangle
+  /// with the two before it. Every second triangle is turned over, so that all of a strip have the same orientation.
+  Status read_strips(std::uint64_t list, const PlyProperty& property) {
+    std::uint64_t size = 0;
+    if (Status status = body_.read_length(property, size); !status) return status;
+    std::uint32_t before[2] = {0, 0};
+    std::uint64_t length = 0;  // of the present strip
+    const auto end_strip = [&] {
+      if (length == 1 || length == 2) add_polygon({before + 2 - length, before + 2});
+      length = 0;
+    };
+    for (std::uint64_t k = 0; k < size; ++k) {
+      PlyValue value;
+      if (Status status = body_.read(property.type, value); !status) return status;
+      if (value.is_integer && value.integer == -1) {
+        end_strip();
+        continue;
+      }
+      if (!is_vertex(value)) return index_error("strip list", list, value);
+      const auto vertex = static_cast<std::uint32_t>(value.integer);
+      // A repeated vertex leads the strip to another place or turns it over: it is no face that somebody drew.
+      const bool is_joint = before[0] == before[1] || before[0] == vertex || before[1] == vertex;
+      if (length >= 2 && !is_joint) {
+        const std::uint32_t corners[] = {before[length % 2], before[1 - length % 2], vertex};
+        add_polygon(corners);
+      }
+      before[0] = std::exchange(before[1], vertex);
+      ++length;
+    }
+    end_strip();
+    return {};
+  }
+
+  void add_polygon(std::span<const std::uint32_t> corners) {
+    soup_.corners.insert(soup_.corners.end(), corners.begin(), corners.end());
+    soup_.sizes.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+
+  bool is_vertex(const PlyValue& value) const {
+    return value.is_integer && value.integer >= 0 && value.integer < static_cast<std::int64_t>(vertices_);
+  }
+
+  Error index_error(const char* where, std::uint64_t number, const PlyValue& value) const {
+    const std::string index = value.is_integer ? fmt::format("{}", value.integer) : fmt::format("{}", value.real);
+    return body_.error(fmt::format("{} {} uses vertex {} of {}", where, number, index, vertices_));
+  }
+
   PlyHeader header_;
   PlyBody body_;
   const std::string& name_;
   std::uint64_t vertices_ = 0;
+  const PlyElement *vertex_ = nullptr, *face_ = nullptr, *strips_ = nullptr;  // of header_; null: not there
   int axis_[3] = {-1, -1, -1};
-  int indices_ = -1;
   PolygonSoup soup_;
 };
 

@@ -59,8 +59,9 @@ std::optional<fs::path> find_package(const std::string& name, const MeshPlaces& 
 
 Error invalid(std::string message) { return {ErrorCode::kInvalidMesh, std::move(message)}; }
 
-/// "name/meshes/a.stl" of package://name/meshes/a.stl.
-Result<fs::path> path_in_package(const std::string& inner, const MeshPlaces& places, const std::string& uri) {
+/// `inner` is "name/meshes/a.stl" of package://name/meshes/a.stl. Some files have a third slash before the name.
+Result<fs::path> path_in_package(std::string inner, const MeshPlaces& places, const std::string& uri) {
+  if (inner.starts_with('/')) inner.erase(0, 1);
   const std::string name = inner.substr(0, inner.find('/'));
   if (name.empty() || name == "." || name == "..") {
     return invalid(fmt::format("{} names no package", medial_vk::quoted(uri)));

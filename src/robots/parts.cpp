@@ -7,19 +7,18 @@
 #include <map>
 #include <utility>
 
-#include "common/file_extension.h"
-#include "input/read_mesh.h"
 #include "input/text_scanner.h"
 #include "medial_vk/prepare.h"
-#include "robots/read_collada.h"
+#include "scene_files/read_mesh_file.h"
 
 namespace medial_vk {
 namespace {
 
 /// The name of a mesh in foam: its file without the scheme.
 std::string short_name(const std::string& uri) {
-  const std::size_t scheme = uri.starts_with("package://") ? 10 : 0;
-  return uri.substr(scheme);
+  if (!uri.starts_with("package://")) return uri;
+  const std::size_t start = uri.find_first_not_of('/', 10);
+  return start == std::string::npos ? std::string() : uri.substr(start);
 }
 
 /// A mirror inverts the orientation of triangles; prepare_mesh() would restore it, but only if all agree.
@@ -112,8 +111,7 @@ class PartLoader {
     found = path.value();
     const auto known = files_.find(path.value());
     if (known != files_.end()) return &known->second;
-    const bool is_collada = file_extension(path.value()) == ".dae";
-    Result<Mesh> mesh = is_collada ? read_collada(path.value()) : read_mesh(path.value());
+    Result<Mesh> mesh = read_mesh_file(path.value());
     if (!mesh) return mesh.error();
     return &files_.emplace(path.value(), std::move(mesh).value()).first->second;
   }

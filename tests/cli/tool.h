@@ -28,6 +28,8 @@ class ScratchFolder {
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);
+/// The path of the tool as it was built.
+std::string tool_path();
 
 struct ToolResult {
   int exit_code = -1;  ///< 128 + signal if a signal killed it.
@@ -41,6 +43,7 @@ struct ToolCall {
   std::string standard_input = {};                      ///< Its bytes.
   std::map<std::string, std::string> environment = {};  ///< Added to the test's own.
   std::uint64_t address_space = 0;                      ///< Limit in bytes, 0: none.
+  std::string program = {};                             ///< Empty: the tool as it was built.
   bool endless_input = false;  ///< After these bytes standard input neither delivers more nor ends.
 };
 

@@ -38,6 +38,15 @@ def ply(order, element_vertex, vertex_format, element_face, face_format, faces=F
     return data
 
 
+def strips(order, types, form, indices):
+    """The tetrahedron as a list of triangle strips."""
+    name = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    data = f"ply\nformat {name} 1.0\nelement vertex 4\nproperty char x\nproperty char y\nproperty char z\n"
+    data += f"element tristrips 1\nproperty list {types} vertex_indices\nend_header\n"
+    data = data.encode() + b"".join(struct.pack("3b", *vertex) for vertex in VERTICES)
+    return data + struct.pack(f"{order}{form[0]}{len(indices)}{form[1]}", len(indices), *indices)
+
+
 def medial(ascii_form, points, count=None, header=("grid_origin -1 -1 -1", "voxel_size 0.5")):
     lines = ["ply", "format " + ("ascii" if ascii_form else "binary_little_endian") + " 1.0", "comment medial-vk 1.0"]
     lines += ["comment " + line for line in header]
@@ -50,7 +59,29 @@ def medial(ascii_form, points, count=None, header=("grid_origin -1 -1 -1", "voxe
     return data
 
 
+def scene(parts, vertices=VERTICES, faces=FACES):
+    """What the process of assimp hands over (src/scene_files/scene_parts.cpp)."""
+    data = b"medial-vk scene 1\n" + struct.pack("=Q", len(parts))
+    for name in parts:
+        data += struct.pack("=Q", len(name)) + name + struct.pack("=QQ", 1, 0) + struct.pack("=Q", len(vertices))
+        data += b"".join(struct.pack("=3d", *vertex) for vertex in vertices) + struct.pack("=Q", len(faces))
+        data += b"".join(struct.pack("=3I", *face) for face in faces)
+    return data
+
+
 def main():
+    (CORPUS / "decode_scene").mkdir(exist_ok=True)
+    write("decode_scene/one", scene([b"part"]))
+    write("decode_scene/two", scene([b"", b"\xff"]))
+    write("decode_scene/none", scene([]))
+    write("decode_scene/bad_index", scene([b"a"], faces=[(0, 1, 4)]))
+    write("decode_scene/infinite", scene([b"a"], vertices=[(0, 0, float("inf"))]))
+    write("decode_scene/cut", scene([b"a"])[:-7])
+    message = b"input: assimp cannot read it"
+    write("decode_scene/error", b"medial-vk scene 1\n" + struct.pack("=QQQ", 2**64 - 1, 2, len(message)) + message)
+    write("decode_scene/glb", b"glTF\2\0\0\0")
+    write("decode_scene/gltf", b' {"asset":{}}')
+    write("decode_scene/collada", b"<?xml?><COLLADA/>")
     write("read_stl/binary", stl(4, FACES))
     write("read_stl/binary_solid", stl(4, FACES, title=b"solid facet endsolid"))
     write("read_stl/binary_nothing", stl(0, []))
@@ -72,6 +103,11 @@ def main():
               ply(order, xyz.format("uint64"), "3Q", indices.format("uint", "double"), "I3d"))
         write(f"read_ply/{name}_bad_index",
               ply(order, xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i", [(0, 1, 4)]))
+    whole = [0, 2, 1, 3, -1, 3, 0, 2, 2, 3]
+    write("read_ply/little_strips", strips("<", "int int", "ii", whole))
+    write("read_ply/big_strips", strips(">", "uchar short", "Bh", whole))
+    write("read_ply/float_strips", strips("<", "ushort float", "Hf", whole))
+    write("read_ply/strips_bad_index", strips("<", "uchar char", "Bb", [-1, 0, 1, 2, -2]))
     extras = xyz.format("float") + "property uchar red\nproperty list uchar short more\n"
     write("read_ply/little_extras", ply("<", extras, "3fxx", indices.format("uchar", "int"), "B3i"))
     write("read_ply/little_cut", ply("<", xyz.format("float"), "3f", indices.format("uchar", "int"), "B3i")[:-5])

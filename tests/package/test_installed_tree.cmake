@@ -32,7 +32,8 @@ endfunction()
 
 run("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${work}/first)
 file(RENAME ${work}/first ${prefix})  # nothing in it may depend on where it was installed
-foreach(file bin/medial-vk include/medial_vk/context.h include/medial_vk/extraction.h include/medial_vk/result.h)
+foreach(file bin/medial-vk libexec/medial-vk/medial-vk-read-scene include/medial_vk/context.h
+    include/medial_vk/extraction.h include/medial_vk/result.h)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")
   endif()
@@ -77,6 +78,15 @@ endforeach()
 run("medial-vk --version" ${prefix}/bin/medial-vk --version)
 if(NOT output MATCHES "${VERSION}")
   message(FATAL_ERROR "medial-vk --version does not print ${VERSION}: ${output}")
+endif()
+
+# The moved tool finds the program that reads scenes: it answers, that it reads the file or that it was built without
+# assimp.
+file(WRITE ${work}/triangle.gltf "{\"asset\":{\"version\":\"2.0\"}}")
+execute_process(COMMAND ${prefix}/bin/medial-vk ${work}/triangle.gltf --backend cpu ERROR_VARIABLE errors
+  RESULT_VARIABLE result)
+if(NOT result EQUAL 3 OR NOT errors MATCHES "no faces|assimp cannot read|this build reads no")
+  message(FATAL_ERROR "medial-vk does not read a scene after installation: exit status ${result}\n${errors}")
 endif()
 
 # No symbol of Vulkan or volk may leak out of the library.

@@ -5,35 +5,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <new>
-#include <optional>
-#include <stop_token>
-#include <string_view>
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "check_reports/check_sheets.h"
+#include "cli/extract/mesh_run.h"
 #include "cli/extract/summary.h"
 #include "cli/options/options.h"
-#include "cli/shared/device_opening.h"
 #include "cli/shared/load.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
-#include "cli/terminal/numbers.h"
-#include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
-#include "common/file_extension.h"
-#include "medial_vk/analysis.h"
 #include "output/atomic_files/atomic_file.h"
-#include "output/charts_and_tables/ball_volumes.h"
-#include "output/charts_and_tables/volume_curve.h"
-#include "output/extraction_report/report_json.h"
-#include "output/medial_formats/encode_medial_mesh.h"
-#include "output/medial_formats/encode_points.h"
 #include "output/page/page.h"
-#include "output/picture/picture.h"
-#include "reference_bridge/check_balls.h"
-#include "reference_bridge/reference_extractor.h"
+#include "scene_files/part_names.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -48,274 +33,118 @@ constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(
 constexpr bool kIsSanitized = false;
 #endif
 
-AnalysisOptions analysis_options(const Options& options) {
-  AnalysisOptions out;
-  out.extraction = options.extraction;
-  out.sheets = options.sheets;
-  out.sheets->areas = false;  // unless volumes are measured
-  out.simplify = options.simplify;
-  out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
-  out.keep_volume = options.keep_volume;
-  out.keep_topology = options.keep_topology;
-  out.removal_orders = !options.sheet_curve.empty();
-  out.medial_mesh = !options.medial_mesh.empty();
-  out.threads = options.threads;
-  return out;
+/// An early test, which saves hours of work.
+Status check_outputs(const Options& options) {
+  if (!options.html.empty()) {
+    if (Status status = check_page_available(); !status) return status;
+  }
+  for (const NamedOutput& output : outputs_of(options)) {
+    if (output.file->empty()) continue;
+    if (Status status = check_writable(*output.file); !status) return status;
+  }
+  return {};
 }
 
-/// One run after the parsing of options: load, analyse, encode, write.
+/// One run after the parsing of options: load, analyse, encode, write. With --each there are several meshes, one after
+/// the other, whose files are written together at the end.
 class ExtractionRun {
  public:
-  explicit ExtractionRun(const Options& options) : options_(options), progress_(!options.quiet) {}
+  explicit ExtractionRun(const Options& options) : options_(options), shared_(!options.quiet) {}
 
   Status run() {
-    if (Status status = check_outputs(); !status) return status;
+    if (Status status = check_outputs(options_); !status) return status;
     if (options_.backend != Backend::kCpu)
-      opening_.start(options_.device, options_.threads, progress_);  // while the mesh is read
-    if (Status status = load(); !status) return status;
-    if (Status status = opening_.take(context_, record_.device, record_.host_times); !status) return status;
-    if (!options_.quiet) print_message(opening(record_));
-    if (Status status = analyse_mesh(); !status) return status;
-    if (Status status = make_files(); !status) return status;
-    progress_.clear();
+      shared_.opening.start(options_.device, options_.threads, shared_.progress);  // while the mesh is read
+    if (Status status = read(); !status) return status;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      Status status = run_part(i);
+      if (!status) {
+        return options_.each ? error_in_part(status.error(), i, runs_.size(), runs_[i]->record().part) : status;
+      }
+    }
+    shared_.progress.clear();
     if (interrupted()) return stopped();
-    if (Status status = write_files(files_); !status) return status;
+    if (Status status = write_all(); !status) return status;
     leave_device();
     return conclude();
   }
 
  private:
-  /// An early test, which saves hours of work.
-  Status check_outputs() const {
-    if (!options_.html.empty()) {
-      if (Status status = check_page_available(); !status) return status;
-    }
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.html,
-                                    &options_.medial_mesh, &options_.sheet_curve, &options_.ball_volumes}) {
-      if (path->empty()) continue;
-      if (Status status = check_writable(*path); !status) return status;
+  Status read() {
+    shared_.progress.update("read", 0);
+    Result<std::vector<ScenePart>> parts = read_meshes(options_.mesh, options_.each, shared_.times);
+    shared_.progress.clear();
+    if (!parts) return parts.error();
+    parts_ = std::move(parts).value();
+    std::vector<std::string> names;
+    if (options_.each) names = safe_part_names(parts_);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      Options of_part = options_;
+      if (options_.each) {
+        of_part = options_of_part(options_, names[i]);
+        if (Status status = check_outputs(of_part); !status) return status;
+        if (Status status = check_outputs_differ(outputs_of(of_part), of_part.mesh); !status) return status;
+      }
+      runs_.push_back(std::make_unique<MeshRun>(std::move(of_part), options_.each ? names[i] : std::string(), shared_));
     }
     return {};
   }
 
-  Status load() {
-    progress_.update("read", 0);
-    Result<PreparedMesh> mesh = load_mesh(options_, opening_, record_.host_times);
-    progress_.clear();
-    if (!mesh) return mesh.error();
-    record_.input = options_.mesh;
-    record_.output = options_.output;
-    record_.options = options_.extraction;
-    record_.backend = options_.backend;
-    record_.seed = options_.seed;
-    record_.perturb = options_.perturb;
-    record_.simplify = options_.simplify;
-    record_.mesh = mesh.value().report;
-    return index(std::move(mesh).value());
+  Status run_part(std::size_t i) {
+    MeshRun& run = *runs_[i];
+    if (Status status = run.load(std::exchange(parts_[i].mesh, Mesh())); !status) return status;
+    if (Status status = run.take_device(); !status) return status;
+    if (!options_.quiet) print_message(run.opening_line());
+    if (Status status = run.analyse_mesh(); !status) return status;
+    return run.make_files();
   }
 
-  Status index(PreparedMesh mesh) {
-    const EndAtOnce guard;
-    if (interrupted()) return stopped();
-    Stopwatch stopwatch;
-    const unsigned threads = opening_.threads_beside(mesh.mesh.triangles.size(), options_.threads);
-    Result<IndexedMesh> made = IndexedMesh::build(std::move(mesh), threads);
-    if (!made) return with_hint(made.error());
-    mesh_.emplace(std::move(made).value());
-    record_.longest_side = mesh_->longest_side();
-    index_seconds_ = stopwatch.lap();
-    if (reports_index()) record_.host_times.push_back({"index", index_seconds_});
-    return {};
-  }
-
-  /// In other runs only the certificate reads the index, and its time counts as part of the extraction.
-  bool reports_index() const {
-    return options_.backend == Backend::kVulkan && options_.extraction.mode == Mode::kCertified;
-  }
-
-  /// While a device computes, a signal requests a stop; afterwards it may end the program at once.
-  Status analyse_mesh() {
-    std::optional<EndAtOnce> on_host;
-    std::stop_source stop;
-    const StageProgress on_progress = [&](const char* stage, double done) {
-      const bool searches = std::string_view(stage) == "extract" || std::string_view(stage) == "certify";
-      if (!searches && !on_host) on_host.emplace();
-      progress_.update(stage, done);
-      if (interrupted()) stop.request_stop();
-    };
-    const Extractor extractor = options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*context_);
-    Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
-    progress_.clear();
-    if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
-    analysis_ = std::move(made).value();
-    describe();
-    return {};
-  }
-
-  void describe() {
-    record_.grid = analysis_.grid;
-    record_.counters = std::move(analysis_.measurements.counters);
-    record_.undecided = std::move(analysis_.undecided);
-    record_.device_times = std::move(analysis_.measurements.device_times);
-    record_.certify = analysis_.certificate;
-    record_.simplified = analysis_.simplified;
-    record_.points = analysis_.spheres.size();
-    record_.radii = range_of_radii(analysis_.spheres);
-    record_.object_angles = range_of_object_angles(analysis_.spheres);
-    record_.sheet_options = options_.sheets;
-    record_.sheets = std::move(analysis_.sheets);
-    if (analysis_.significance) {
-      const Significance& measured = *analysis_.significance;
-      record_.ball_union = UnionRecord{measured.volume, measured.area, measured.topology};
-    }
-    record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
-    record_.by_significance = std::move(analysis_.by_significance);
-    record_.keeping_topology = std::move(analysis_.keeping_topology);
-    record_.removal = std::move(analysis_.removal);
-    record_.keep_volume = options_.keep_volume;
-    record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
-    for (StageTime& time : analysis_.measurements.host_times) {
-      if (time.stage == "extract" && !reports_index()) time.seconds += index_seconds_;
-      (time.stage == "medial mesh" ? medial_mesh_times_ : record_.host_times).push_back(std::move(time));
-    }
-  }
-
-  /// Files are made in memory: until they are written a signal may end the program. These steps do not test for one.
-  Status make_files() {
-    const EndAtOnce guard;
-    if (interrupted()) return stopped();
-    encode_volumes();
-    if (Status status = encode(); !status) return status;
-    if (Status status = check(); !status) return status;
-    if (Status status = draw(); !status) return status;
-    make_page();
-    encode_mesh();
-    encode_report();
-    return {};
-  }
-
-  void encode_volumes() {
-    if (!options_.sheet_curve.empty()) {
-      const VolumeCurves curves = {*record_.by_significance, *record_.keeping_topology};
-      const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
-      files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
-    }
-    if (!options_.ball_volumes.empty()) {
-      files_.push_back({options_.ball_volumes, encode_ball_volumes(*analysis_.significance, analysis_.spheres)});
-    }
-  }
-
-  /// The mesh comes last in the report, and is not part of the page.
-  void encode_mesh() {
-    if (!analysis_.medial_mesh) return;
-    record_.medial_mesh = analysis_.medial_mesh->topology;
-    record_.euler_characteristic = analysis_.euler_characteristic;
-    files_.push_back(
-        {options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, analysis_.spheres, record_.sheets,
-                                                  *analysis_.medial_mesh, options_.ascii)});
-    std::ranges::move(medial_mesh_times_, std::back_inserter(record_.host_times));
-  }
-
-  Status encode() {
-    header_ = make_header(record_.grid, options_.extraction, record_.longest_side);
-    Result<std::string> bytes = encode_points(
-        {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
-        header_, analysis_.spheres, record_.sheets.marks);
-    if (!bytes) return bytes.error();
-    points_file_ = files_.size();
-    files_.push_back({options_.output, std::move(bytes).value()});
-    return {};
-  }
-
-  /// The check reads the numbers as written, back from the bytes of the file. The other formats are made from the same
-  /// numbers as a PLY, so their points are checked as that PLY.
-  Status check() {
-    if (!options_.check) return {};
-    progress_.update("check", 0);
-    Stopwatch stopwatch;
-    const bool is_ply = options_.format == MedialFormat::kPly && !options_.mesh_spheres;
-    const std::string ply = is_ply ? std::string() : encode_ply(header_, analysis_.spheres, false);
-    const Result<MedialFile> written = decode_ply(is_ply ? files_[points_file_].bytes : ply, options_.output);
-    if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
-    const MedialHeader& header = written.value().header;
-    const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-    record_.check = check_medial_spheres(mesh_->prepared(), grid, written.value().spheres, header.epsilon,
-                                         header.object_angle, header.radius_threshold);
-    for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
-      record_.check->lines.push_back(std::move(line));
-    }
-    record_.host_times.push_back({"check", stopwatch.lap()});
-    progress_.clear();
-    return {};
-  }
-
-  Status draw() {
-    if (options_.picture.empty()) return {};
-    progress_.update("picture", 0);
-    Stopwatch stopwatch;
-    PictureOptions look = options_.look;
-    look.least_angle = options_.extraction.object_angle;
-    DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
-                                      record_.device ? &*record_.device : nullptr);
-    Result<std::string> png = encode_png(drawn.picture);
-    if (!png) return png.error();
-    record_.picture_drawn_by = std::move(drawn.drawn_by);
-    files_.push_back({options_.picture, std::move(png).value()});
-    record_.host_times.push_back({"picture", stopwatch.lap()});
-    return {};
-  }
-
-  void make_page() {
-    if (options_.html.empty()) return;
-    progress_.update("page", 0);
-    Stopwatch stopwatch;
-    files_.push_back(
-        {options_.html, encode_page(mesh_->prepared().mesh, analysis_.spheres, record_, options_.look.view.up)});
-    record_.host_times.push_back({"page", stopwatch.lap()});
-  }
-
-  void encode_report() {
-    if (!options_.report.empty()) files_.push_back({options_.report, report_json(record_)});
-  }
-
-  bool standard_output_taken() const {
-    return std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
+  /// All files of all parts, or none.
+  Status write_all() const {
+    std::vector<OutputFile> files;
+    for (const auto& run : runs_) files.insert(files.end(), run->files().begin(), run->files().end());
+    return write_files(files);
   }
 
   /// All work is done, and the process ends: the operating system releases the device sooner than its driver would.
   void leave_device() {
-    if (!context_ || kIsSanitized) return;
-    context_->close_programs();
+    if (!shared_.context || kIsSanitized) return;
+    shared_.context->close_programs();
     alignas(Context) static std::byte left[sizeof(Context)];  // is never destroyed
-    new (left) Context(std::move(*context_));
-    context_.reset();
+    new (left) Context(std::move(*shared_.context));
+    shared_.context.reset();
   }
 
-  Status conclude() {
-    if (!options_.quiet) print_message(summary(record_, files_));
-    if (options_.verbose) print_message(details(record_));
-    if (!record_.check) return {};
-    const std::string table = check_table(*record_.check);
-    if (standard_output_taken()) {
-      print_message(table);
-    } else if (Status status = print_result(table); !status) {
-      return status;
+  Status conclude() const {
+    Status failed;
+    for (const auto& run : runs_) {
+      const RunRecord& record = run->record();
+      if (!options_.quiet) {
+        if (runs_.size() > 1) print_message(fmt::format("{}:\n", record.part));
+        print_message(summary(record, run->files()));
+      }
+      if (options_.verbose) print_message(details(record));
+      if (!record.check) continue;
+      if (Status status = print_table(*run); !status) return status;
+      if (Status status = verdict(*record.check); !status && failed) failed = status;
     }
-    return verdict(*record_.check);
+    return failed;
+  }
+
+  /// The table of --check, to standard output unless a file is written there.
+  Status print_table(const MeshRun& run) const {
+    std::string table = check_table(*run.record().check);
+    if (runs_.size() > 1) table = run.record().part + ":\n" + table;
+    const bool is_taken = std::ranges::any_of(run.files(), [](const OutputFile& file) { return file.path == "-"; });
+    if (!is_taken) return print_result(table);
+    print_message(table);
+    return {};
   }
 
   const Options& options_;
-  Progress progress_;
-  std::optional<IndexedMesh> mesh_;
-  DeviceOpening opening_;
-  std::optional<Context> context_;
-  Analysis analysis_;
-  MedialHeader header_;
-  std::vector<OutputFile> files_;
-  double index_seconds_ = 0;
-  std::vector<StageTime> medial_mesh_times_;  // reported last
-  std::size_t points_file_ = 0;               // its index among them
-  RunRecord record_;
+  SharedOfRun shared_;
+  std::vector<ScenePart> parts_;
+  std::vector<std::unique_ptr<MeshRun>> runs_;  // by part
 };
 
 }  // namespace

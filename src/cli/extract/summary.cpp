@@ -100,8 +100,9 @@ std::string range_text(const std::optional<Range>& range) {
 }  // namespace
 
 std::string opening(const RunRecord& record) {
+  const std::string part = record.part.empty() ? "" : record.part + ": ";
   std::string text =
-      fmt::format("{}: {} {:.5g}\n", mesh_name(record.input), describe_mesh(record.mesh), record.longest_side);
+      fmt::format("{}: {}{} {:.5g}\n", mesh_name(record.input), part, describe_mesh(record.mesh), record.longest_side);
   for (const std::string& assumption : record.mesh.assumptions) text += line("note", assumption);
   text += line("device", where(record));
   if (record.backend == Backend::kVulkan) {

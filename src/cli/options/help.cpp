@@ -11,7 +11,8 @@ std::string help_text() {
 that touch its surface in two places, at most one per voxel.
 
 Usage:
-  medial-vk [options] MESH     MESH is OBJ, PLY, STL or OFF; "-": standard input
+  medial-vk [options] MESH     OBJ, PLY, STL, OFF, glTF, GLB, 3MF, FBX, COLLADA
+                               and more; "-": standard input
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
   medial-vk doctor [options]   whether it works on this machine, and what is
@@ -30,6 +31,9 @@ Output:
                         balls as .glb (glTF: a node for each); "-": PLY on
                         standard output (default: MESH's name with .medial.ply,
                         here)
+      --each            a result for each mesh of a scene (glTF, 3MF, FBX ...)
+                        instead of one for all: every output is a file with
+                        the mesh's name before its extension
       --ascii           PLY as text instead of binary
       --mesh-spheres    balls as one triangle mesh, .ply or .glb (default:
                         MESH's name with .spheres.ply)

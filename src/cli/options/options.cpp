@@ -21,6 +21,7 @@ void declare(CLI::App& app, Options& options) {
   ExtractionOptions& extraction = options.extraction;
   Declarations add(app);
   add.text("MESH", "file", options.mesh);
+  add.flag("--each", options.each);
   add.text("-o,--output", "file", options.output);
   add.flag("--ascii", options.ascii);
   add.flag("--mesh-spheres", options.mesh_spheres);
@@ -73,17 +74,6 @@ void declare(CLI::App& app, Options& options) {
   add.action("--list-devices", Action::kListDevices, options.action);
   add.action("--version", Action::kVersion, options.action);
   add.action("-h,--help", Action::kHelp, options.action);
-}
-
-Status check_files_differ(const Options& options) {
-  const NamedOutput outputs[] = {{"--output", &options.output},
-                                 {"--report", &options.report},
-                                 {"--picture", &options.picture},
-                                 {"--html", &options.html},
-                                 {"--medial-mesh", &options.medial_mesh},
-                                 {"--sheet-curve", &options.sheet_curve},
-                                 {"--ball-volumes", &options.ball_volumes}};
-  return check_outputs_differ(outputs, options.mesh);
 }
 
 /// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
@@ -156,7 +146,10 @@ Status complete_files(Options& options) {
   if (!may_end_in(options.medial_mesh, ".ply") && !may_end_in(options.medial_mesh, ".ma")) {
     return usage_error(fmt::format("--medial-mesh: '{}' ends in neither .ply nor .ma", options.medial_mesh));
   }
-  return check_files_differ(options);
+  if (options.each) {
+    if (Status status = check_no_stream(outputs_of(options)); !status) return status;
+  }
+  return check_outputs_differ(outputs_of(options), options.mesh);
 }
 
 Status check_combinations(const Options& options) {
@@ -191,6 +184,25 @@ Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();
   return options;
+}
+
+std::vector<NamedOutput> outputs_of(const Options& options) {
+  return {{"--output", &options.output},
+          {"--report", &options.report},
+          {"--picture", &options.picture},
+          {"--html", &options.html},
+          {"--medial-mesh", &options.medial_mesh},
+          {"--sheet-curve", &options.sheet_curve},
+          {"--ball-volumes", &options.ball_volumes}};
+}
+
+Options options_of_part(const Options& options, const std::string& name) {
+  Options of_part = options;
+  for (std::string* file : {&of_part.output, &of_part.report, &of_part.picture, &of_part.html, &of_part.medial_mesh,
+                            &of_part.sheet_curve, &of_part.ball_volumes}) {
+    if (!file->empty()) *file = with_part(*file, name);
+  }
+  return of_part;
 }
 
 Result<Options> parse_options(const std::vector<std::string>& arguments) { return OptionParser().parse(arguments); }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/options/output_names.h"
 #include "cli/options/parse_picture.h"
 #include "common/backend.h"
 #include "medial_vk/medial_spheres.h"
@@ -22,6 +23,7 @@ enum class Action { kExtract, kListDevices, kHelp, kVersion };
 struct Options {
   Action action = Action::kExtract;
   std::string mesh;    ///< "-": standard input.
+  bool each = false;   ///< Results for each mesh of the input.
   std::string output;  ///< Never empty after parsing; "-": standard output.
   MedialFormat format = MedialFormat::kPly;
   bool ascii = false;
@@ -74,6 +76,12 @@ class OptionParser {
   struct Declared;  // keeps CLI11 out of this header
   std::unique_ptr<Declared> declared_;
 };
+
+/// The files that a run writes, with the names of their options.
+std::vector<NamedOutput> outputs_of(const Options& options);
+
+/// The options for one mesh of several: the same, with `name` in the name of every file.
+Options options_of_part(const Options& options, const std::string& name);
 
 /// The output of --help.
 std::string help_text();

@@ -40,4 +40,23 @@ Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::str
   return {};
 }
 
+Status check_no_stream(std::span<const NamedOutput> outputs) {
+  for (const NamedOutput& output : outputs) {
+    if (*output.file != "-") continue;
+    return Error{ErrorCode::kUsage, fmt::format("--each writes a file for each mesh: {} cannot be -", output.option)};
+  }
+  return {};
+}
+
+std::string with_part(const std::string& path, const std::string& part) {
+  const fs::path name(path);
+  fs::path stem = name.stem();
+  std::string extension = name.extension().string();
+  while (stem.extension() == ".medial" || stem.extension() == ".spheres" || stem.extension() == ".foam") {
+    extension = stem.extension().string() + extension;
+    stem = stem.stem();
+  }
+  return (name.parent_path() / (stem.string() + "." + part + extension)).string();
+}
+
 }  // namespace medial_vk::cli

@@ -21,4 +21,11 @@ struct NamedOutput {
 /// Error: kUsage, naming the options.
 Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::string& input);
 
+/// With --each there are several files of each kind, which standard output cannot hold. Error: kUsage.
+Status check_no_stream(std::span<const NamedOutput> outputs);
+
+/// The name of a file for one mesh of several: `part` comes before the extension, and before .medial, .spheres and
+/// .foam in front of it: a.medial.ply becomes a.PART.medial.ply.
+std::string with_part(const std::string& path, const std::string& part);
+
 }  // namespace medial_vk::cli

@@ -11,8 +11,8 @@ std::string spheres_help_text() {
 robot: for collision checks, distances, shadows. Tight, and with a promise.
 
 Usage:
-  medial-vk spheres [options] MESH          OBJ, PLY, STL or OFF; "-": standard
-                                            input
+  medial-vk spheres [options] MESH          OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
+                                            FBX, COLLADA ...; "-": standard input
   medial-vk spheres [options] ROBOT.urdf    with the meshes that it names
 
 Examples:
@@ -60,6 +60,9 @@ Output:
                         collision), .yml (cuRobo) or .xrdf; "-": standard output
                         (default: the input's name with .spheres.csv, of a robot
                         .spheres.urdf, with --levels .spheres.json, here)
+      --each            a set for each mesh of a scene (glTF, 3MF, FBX ...)
+                        instead of one for all: every output is a file with
+                        the mesh's name before its extension
       --format NAME     csv, json, foam, curobo, xrdf or urdf, whatever the file
                         is called
       --picture FILE    a .png of the spheres; of a robot, all joints at zero

@@ -31,6 +31,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   SphereOptions& fit = options.spheres;
   Declarations add(app);
   add.text("INPUT", "file", options.input);
+  add.flag("--each", options.each);
   add.text("-o,--output", "file", options.output);
   add.choice<std::optional<SphereFormat>>("--format",
                                           {{"csv", SphereFormat::kCsv},
@@ -78,6 +79,10 @@ Status check_input(SpheresOptions& options, const Given& given) {
         fmt::format("'{}' is a macro for URDF: expand it first, xacro {} > robot.urdf", options.input, options.input));
   }
   options.is_robot = extension == ".urdf";
+  if (options.is_robot && options.each) {
+    return usage_error(
+        "--each is about the meshes of a scene; the links of a robot have spheres of their own without it");
+  }
   if (options.is_robot && !options.histogram.empty()) {
     return usage_error("--histogram is about the surface of one mesh; of a robot, give the meshes one by one");
   }
@@ -152,6 +157,9 @@ Status complete_files(SpheresOptions& options, const Given& given) {
   if (!may_end_in(options.histogram, ".svg") && !may_end_in(options.histogram, ".csv")) {
     return usage_error(fmt::format("--histogram: '{}' ends in neither .svg nor .csv", options.histogram));
   }
+  if (options.each) {
+    if (Status status = check_no_stream(outputs_of(options)); !status) return status;
+  }
   return check_outputs_differ(outputs_of(options), options.input);
 }
 
@@ -177,6 +185,14 @@ std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
           {"--report", &options.report},
           {"--picture", &options.picture},
           {"--histogram", &options.histogram}};
+}
+
+SpheresOptions options_of_part(const SpheresOptions& options, const std::string& name) {
+  SpheresOptions of_part = options;
+  for (std::string* file : {&of_part.output, &of_part.report, &of_part.picture, &of_part.histogram}) {
+    if (!file->empty()) *file = with_part(*file, name);
+  }
+  return of_part;
 }
 
 /// The application writes to the other members, so all stay together and do not move.

@@ -21,6 +21,7 @@ struct SpheresOptions {
   bool help = false;
   std::string input;      ///< "-": a mesh on standard input.
   bool is_robot = false;  ///< The input is a URDF.
+  bool each = false;      ///< Results for each mesh of the input.
   std::string output;     ///< Never empty after parsing; "-": standard output.
   SphereFormat format = SphereFormat::kCsv;
 
@@ -65,6 +66,9 @@ class SpheresOptionParser {
 
 /// Every file to be written, with its option.
 std::vector<NamedOutput> outputs_of(const SpheresOptions& options);
+
+/// The options for one mesh of several: the same, with `name` in the name of every file.
+SpheresOptions options_of_part(const SpheresOptions& options, const std::string& name);
 
 /// The output of `medial-vk spheres --help`.
 std::string spheres_help_text();

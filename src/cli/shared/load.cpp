@@ -8,27 +8,43 @@
 #include "base/stopwatch.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
-#include "input/read_mesh.h"
 #include "medial_vk/prepare.h"
+#include "scene_files/read_mesh_file.h"
 
 namespace medial_vk::cli {
-Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& opening, unsigned threads,
-                               std::vector<StageTime>& times) {
+Result<std::vector<ScenePart>> read_meshes(const std::string& path, bool each, std::vector<StageTime>& times) {
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
-  Result<Mesh> mesh = read_mesh(path);
-  if (!mesh) return mesh.error();
+  std::vector<ScenePart> parts(1);
+  if (each) {
+    Result<std::vector<ScenePart>> read = read_mesh_parts(path);
+    if (!read) return read.error();
+    parts = std::move(read).value();
+  } else {
+    Result<Mesh> mesh = read_mesh_file(path);
+    if (!mesh) return mesh.error();
+    parts.front().mesh = std::move(mesh).value();
+  }
   times.push_back({"read", stopwatch.lap()});
-  threads = opening.threads_beside(mesh.value().triangles.size(), threads);
-  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh).value(), threads);
+  return parts;
+}
+
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const DeviceOpening& opening, unsigned threads,
+                                    std::vector<StageTime>& times) {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  Stopwatch stopwatch;
+  threads = opening.threads_beside(mesh.triangles.size(), threads);
+  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads);
   if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", path, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
   return prepared;
 }
 
-Result<PreparedMesh> load_mesh(const Options& options, const DeviceOpening& opening, std::vector<StageTime>& times) {
-  Result<PreparedMesh> prepared = load_mesh(options.mesh, opening, options.threads, times);
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const Options& options, const DeviceOpening& opening,
+                                    std::vector<StageTime>& times) {
+  Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options.mesh, opening, options.threads, times);
   if (!prepared || options.perturb == 0) return prepared;
   const EndAtOnce guard;
   if (interrupted()) return stopped();

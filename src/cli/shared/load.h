@@ -7,16 +7,20 @@
 #include "cli/options/options.h"
 #include "cli/shared/device_opening.h"
 #include "medial_vk/mesh.h"
+#include "scene_files/scene_parts.h"
 
 namespace medial_vk::cli {
 
-/// Reads and cleans the mesh; appends the seconds of "read" and "prepare" to `times`. Errors: kInvalidMesh,
-/// kInterrupted.
-Result<PreparedMesh> load_mesh(const std::string& path, const DeviceOpening& opening, unsigned threads,
-                               std::vector<StageTime>& times);
+/// Reads the meshes of a file: with `each` one by one, else all as one. Appends the seconds of "read" to `times`.
+/// Errors: kInvalidMesh, kInterrupted.
+Result<std::vector<ScenePart>> read_meshes(const std::string& path, bool each, std::vector<StageTime>& times);
 
-/// Also perturbs the mesh if the options require it. Appends the seconds of "read", "prepare" and, if requested,
-/// "perturb" to `times`. Errors: kInvalidMesh, kInterrupted.
-Result<PreparedMesh> load_mesh(const Options& options, const DeviceOpening& opening, std::vector<StageTime>& times);
+/// Cleans a mesh of the file; appends the seconds of "prepare" to `times`. Errors: kInvalidMesh, kInterrupted.
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const DeviceOpening& opening, unsigned threads,
+                                    std::vector<StageTime>& times);
+
+/// Also perturbs the mesh if the options require it, and appends the seconds of "perturb".
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const Options& options, const DeviceOpening& opening,
+                                    std::vector<StageTime>& times);
 
 }  // namespace medial_vk::cli

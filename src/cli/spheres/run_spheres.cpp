@@ -4,18 +4,18 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <utility>
 
 #include "base/stopwatch.h"
 #include "cli/options/spheres_options.h"
-#include "cli/shared/device_opening.h"
 #include "cli/shared/load.h"
+#include "cli/shared/shared_of_run.h"
 #include "cli/spheres/spheres_summary.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
-#include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
 #include "common/file_extension.h"
 #include "medial_vk/version.h"
@@ -29,68 +29,37 @@
 #include "reference_bridge/reference_extractor.h"
 #include "robots/model/read_urdf.h"
 #include "robots/parts.h"
+#include "scene_files/part_names.h"
 
 namespace medial_vk::cli {
 namespace {
 
-/// One run: the sequence of steps from the mesh or robot to the files, and their shared data.
+/// The sequence of steps from a mesh or robot to its files, and their shared data.
 class SpheresRun {
  public:
-  explicit SpheresRun(const SpheresOptions& options) : options_(options), progress_(!options.quiet) {
-    record_.input = options.input;
-    record_.output = options.output;
-    record_.output_format = name_of(options.format);
-    record_.is_robot = options.is_robot;
-    record_.spheres = options.spheres;
-    record_.count_per_link = options.count_per_link;
-    record_.total = options.total;
-    record_.backend = options.backend;
+  /// `options` name the files of this mesh. `part` is its name among several; empty: there is one mesh or robot.
+  SpheresRun(SpheresOptions options, std::string part, SharedOfRun& shared)
+      : options_(std::move(options)), shared_(shared) {
+    record_.input = options_.input;
+    record_.part = std::move(part);
+    record_.output = options_.output;
+    record_.output_format = name_of(options_.format);
+    record_.is_robot = options_.is_robot;
+    record_.spheres = options_.spheres;
+    record_.count_per_link = options_.count_per_link;
+    record_.total = options_.total;
+    record_.backend = options_.backend;
   }
 
-  Status run() {
-    if (Status status = check_outputs(); !status) return status;
-    if (options_.backend != Backend::kCpu)
-      opening_.start(options_.device, options_.spheres.threads, progress_);  // while the input is read
-    if (Status status = load(); !status) return status;
-    if (Status status = opening_.take(context_, record_.device, record_.times); !status) return status;
-    if (!options_.quiet) print_message(spheres_opening(options_, record_));
-    if (Status status = fit(); !status) return status;
-    if (Status status = check(); !status) return status;
-    record_.times.push_back({"spheres", fit_and_check_.lap()});
-    if (Status status = make_files(); !status) return status;
-    progress_.clear();
-    if (interrupted()) return stopped();
-    if (Status status = write_files(files_); !status) return status;
-    if (!options_.quiet) print_message(spheres_summary(options_, record_, files_));
-    if (options_.verbose) print_message(spheres_details(options_, record_));
-    return conclude();
-  }
-
- private:
-  /// An early test, which saves hours of work.
-  Status check_outputs() const {
-    for (const std::string* path : {&options_.output, &options_.report, &options_.picture, &options_.histogram}) {
-      if (path->empty()) continue;
-      if (Status status = check_writable(*path); !status) return status;
-    }
-    return {};
-  }
-
-  Status load() {
-    progress_.update("read", 0);
-    Stopwatch stopwatch;
-    Status status = options_.is_robot ? load_robot() : load_one_mesh();
-    progress_.clear();
-    if (options_.is_robot) record_.times.push_back({"read", stopwatch.lap()});
-    return status;
-  }
-
-  Status load_one_mesh() {
-    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.spheres.threads, record_.times);
-    if (!mesh) return mesh.error();
-    record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+  Status load_mesh(Mesh mesh) {
+    record_.times = shared_.times;
     const unsigned threads = options_.spheres.threads;
-    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(mesh).value(), threads);
+    Result<PreparedMesh> prepared =
+        prepare_loaded(std::move(mesh), options_.input, shared_.opening, threads, record_.times);
+    if (!prepared) return prepared.error();
+    record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    if (!record_.part.empty()) record_.name = record_.part;
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), threads);
     if (!indexed) return with_hint(indexed.error());
     FittedSolid solid;
     solid.link = solid.name = record_.name;
@@ -102,6 +71,7 @@ class SpheresRun {
   Status load_robot() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
+    Stopwatch stopwatch;
     Result<std::string> bytes = read_urdf_bytes(options_.input);
     if (!bytes) return bytes.error();
     urdf_ = std::move(bytes).value();
@@ -123,19 +93,43 @@ class SpheresRun {
       if (origin.file.empty()) continue;
       if (Status status = check_outputs_differ(outputs_of(options_), origin.file); !status) return status;
     }
+    record_.times.push_back({"read", stopwatch.lap()});
     return {};
   }
 
+  /// All steps between the input and the bytes of the files.
+  Status compute() {
+    Status opened = shared_.opening.take(shared_.context, shared_.device, record_.times);
+    record_.device = shared_.device;
+    if (!opened) return opened;
+    if (!options_.quiet) print_message(spheres_opening(options_, record_));
+    if (Status status = fit(); !status) return status;
+    if (Status status = check(); !status) return status;
+    record_.times.push_back({"spheres", fit_and_check_.lap()});
+    return make_files();
+  }
+
+  const std::vector<OutputFile>& files() const { return files_; }
+  const std::string& part() const { return record_.part; }
+
+  /// After the files have been written. An error of --check is kCheckFailed.
+  Status conclude() const {
+    if (!options_.quiet) print_message(spheres_summary(options_, record_, files_));
+    if (options_.verbose) print_message(spheres_details(options_, record_));
+    return report_check();
+  }
+
+ private:
   Status fit() {
     fit_and_check_.lap();
     std::stop_source stop;
     const StageProgress on_progress = [&](const char*, double done) {
-      progress_.update("spheres", done);
+      shared_.progress.update("spheres", done);
       if (interrupted()) stop.request_stop();
     };
     Status status =
         options_.is_robot ? fit_robot(on_progress, stop.get_token()) : fit_one_mesh(on_progress, stop.get_token());
-    progress_.clear();
+    shared_.progress.clear();
     if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : in_words(status.error());
     return {};
   }
@@ -151,8 +145,8 @@ class SpheresRun {
   Status fit_robot(const StageProgress& on_progress, const std::stop_token& stop) {
     const PartFitOptions fit_options = {options_.spheres, options_.count_per_link, options_.total,
                                         options_.spheres.threads};
-    Result<std::vector<PartFit>> fits = context_
-                                            ? fit_parts(parts_, fit_options, *context_, on_progress, stop)
+    Result<std::vector<PartFit>> fits = shared_.context
+                                            ? fit_parts(parts_, fit_options, *shared_.context, on_progress, stop)
                                             : fit_parts(parts_, fit_options, reference_extractor(), on_progress, stop);
     if (!fits) return fits.error();
     for (std::size_t i = 0; i < parts_.size(); ++i) take_fit(std::move(fits.value()[i]), record_.solids[i]);
@@ -163,8 +157,9 @@ class SpheresRun {
     Stopwatch stopwatch;
     FittedSolid& solid = record_.solids.front();
     const SphereOptions& fit_options = options_.spheres;
-    Result<SphereFit> fit = context_ ? fit_spheres(*solid.mesh, fit_options, *context_, on_progress, stop)
-                                     : fit_spheres(*solid.mesh, fit_options, reference_extractor(), on_progress, stop);
+    Result<SphereFit> fit = shared_.context
+                                ? fit_spheres(*solid.mesh, fit_options, *shared_.context, on_progress, stop)
+                                : fit_spheres(*solid.mesh, fit_options, reference_extractor(), on_progress, stop);
     if (!fit) return fit.error();
     take_fit(std::move(fit).value(), fit_options.count, solid);
     solid.seconds = stopwatch.lap();
@@ -179,12 +174,12 @@ class SpheresRun {
     for (std::size_t i = 0; i < record_.solids.size(); ++i) {
       FittedSolid& solid = record_.solids[i];
       if (!solid.mesh) continue;
-      progress_.update("check", static_cast<double>(i) / static_cast<double>(record_.solids.size()));
+      shared_.progress.update("check", static_cast<double>(i) / static_cast<double>(record_.solids.size()));
       const bool covers = options_.spheres.contract == SphereContract::kCover;
       const PreparedMesh& mesh = solid.mesh->prepared();
       solid.check = covers ? check_balls_cover(mesh, solid.proved) : check_balls_inside(mesh, solid.proved);
     }
-    progress_.clear();
+    shared_.progress.clear();
     return {};
   }
 
@@ -221,7 +216,7 @@ class SpheresRun {
 
   Status draw() {
     if (options_.picture.empty()) return {};
-    progress_.update("picture", 0);
+    shared_.progress.update("picture", 0);
     Stopwatch stopwatch;
     const std::vector<Pose> poses = options_.is_robot ? link_poses(robot_, record_.solids) : std::vector<Pose>(1);
     Result<std::string> png =
@@ -241,10 +236,11 @@ class SpheresRun {
   }
 
   /// All parts in one table, a row for each condition.
-  Status conclude() const {
+  Status report_check() const {
     if (!options_.check) return {};
     const CheckReport check = joint_check(record_);
-    const std::string table = check_table(check);
+    std::string table = check_table(check);
+    if (!record_.part.empty()) table = record_.part + ":\n" + table;
     const bool taken = std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; });
     if (taken) {
       print_message(table);
@@ -254,10 +250,8 @@ class SpheresRun {
     return verdict(check);
   }
 
-  const SpheresOptions& options_;
-  Progress progress_;
-  DeviceOpening opening_;
-  std::optional<Context> context_;
+  const SpheresOptions options_;
+  SharedOfRun& shared_;
   std::string urdf_;
   Robot robot_;
   std::vector<Part> parts_;  // of the robot
@@ -266,13 +260,87 @@ class SpheresRun {
   FitsRecord record_;
 };
 
+/// A run over the mesh or robot of the input, or with --each over its meshes, one after the other, whose files are
+/// written together at the end.
+class SpheresRuns {
+ public:
+  explicit SpheresRuns(const SpheresOptions& options) : options_(options), shared_(!options.quiet) {}
+
+  Status run() {
+    if (Status status = check_outputs(options_); !status) return status;
+    if (options_.backend != Backend::kCpu)
+      shared_.opening.start(options_.device, options_.spheres.threads, shared_.progress);  // while the input is read
+    if (Status status = options_.is_robot ? run_robot() : run_meshes(); !status) return status;
+    shared_.progress.clear();
+    if (interrupted()) return stopped();
+    std::vector<OutputFile> files;
+    for (const auto& run : runs_) files.insert(files.end(), run->files().begin(), run->files().end());
+    if (Status status = write_files(files); !status) return status;
+    Status failed;
+    for (const auto& run : runs_) {
+      if (Status status = run->conclude(); !status && failed) failed = status;
+    }
+    return failed;
+  }
+
+ private:
+  /// An early test, which saves hours of work.
+  static Status check_outputs(const SpheresOptions& options) {
+    for (const NamedOutput& output : outputs_of(options)) {
+      if (output.file->empty()) continue;
+      if (Status status = check_writable(*output.file); !status) return status;
+    }
+    return {};
+  }
+
+  Status run_robot() {
+    runs_.push_back(std::make_unique<SpheresRun>(options_, "", shared_));
+    shared_.progress.update("read", 0);
+    Status status = runs_.front()->load_robot();
+    shared_.progress.clear();
+    return status ? runs_.front()->compute() : status;
+  }
+
+  Status run_meshes() {
+    shared_.progress.update("read", 0);
+    Result<std::vector<ScenePart>> read = read_meshes(options_.input, options_.each, shared_.times);
+    shared_.progress.clear();
+    if (!read) return read.error();
+    std::vector<ScenePart> parts = std::move(read).value();
+    if (Status status = prepare_runs(parts); !status) return status;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Status status = runs_[i]->load_mesh(std::exchange(parts[i].mesh, Mesh()));
+      if (status) status = runs_[i]->compute();
+      if (!status) return options_.each ? error_in_part(status.error(), i, parts.size(), runs_[i]->part()) : status;
+    }
+    return {};
+  }
+
+  /// A run for each part, with files of its own.
+  Status prepare_runs(const std::vector<ScenePart>& parts) {
+    std::vector<std::string> names(1);
+    if (options_.each) names = safe_part_names(parts);
+    for (const std::string& name : names) {
+      const SpheresOptions of_part = options_.each ? options_of_part(options_, name) : options_;
+      if (Status status = check_outputs(of_part); !status) return status;
+      if (Status status = check_outputs_differ(outputs_of(of_part), of_part.input); !status) return status;
+      runs_.push_back(std::make_unique<SpheresRun>(of_part, name, shared_));
+    }
+    return {};
+  }
+
+  const SpheresOptions& options_;
+  SharedOfRun shared_;
+  std::vector<std::unique_ptr<SpheresRun>> runs_;
+};
+
 }  // namespace
 
 Status run_spheres(const std::vector<std::string>& arguments) {
   const Result<SpheresOptions> options = parse_spheres_options(arguments);
   if (!options) return options.error();
   if (options.value().help) return print_result(spheres_help_text());
-  return SpheresRun(options.value()).run();
+  return SpheresRuns(options.value()).run();
 }
 
 }  // namespace medial_vk::cli

@@ -138,6 +138,7 @@ std::string spheres_opening(const SpheresOptions& options, const FitsRecord& rec
   std::uint64_t triangles = 0;
   for (const FittedSolid& solid : record.solids) triangles += solid.report().triangles;
   std::string text = options.input == "-" ? "standard input" : options.input;
+  if (!record.part.empty()) text += ": " + record.part;
   if (options.is_robot) {
     text += fmt::format(": {} with {}, {}\n", counted(count_links(record), "link", "links"),
                         counted(record.solids.size(), "geometry", "geometries"),

@@ -114,6 +114,14 @@ Error with_hint(Error error, const std::string& device) {
   return error;
 }
 
+Error error_in_part(Error error, std::size_t i, std::size_t count, const std::string& name) {
+  if (error.code == ErrorCode::kInterrupted) return error;
+  const bool is_said = error.message.ends_with("nothing was written");
+  const char* rest = count > 1 && !is_said ? "; nothing was written" : "";
+  error.message = fmt::format("mesh {} of {}, {}: {}{}", i + 1, count, name, error.message, rest);
+  return error;
+}
+
 Status print_result(const std::string& text) {
   const OutputFile file = {"-", text};
   return write_files({&file, 1});

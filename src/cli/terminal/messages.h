@@ -1,6 +1,7 @@
 // Messages of all commands, and their output.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,9 @@ int exit_code(ErrorCode code);
 
 /// An error kNoDevice with a remedy appended; others unchanged. `device` is the argument of --device, or empty.
 Error with_hint(Error error, const std::string& device = {});
+
+/// With --each: the error of one mesh, number `i` of `count` from 0, with its name and what it means for the others.
+Error error_in_part(Error error, std::size_t i, std::size_t count, const std::string& name);
 
 /// Writes to standard output. Error: kCannotWrite.
 Status print_result(const std::string& text);

@@ -247,7 +247,7 @@ Json undecided_json(const std::vector<UndecidedVoxel>& undecided) {
 }  // namespace
 
 std::string report_json(const RunRecord& record) {
-  const Json json = {
+  Json json = {
       {"format", kReportFormat},
       {"program", "medial-vk"},
       {"version", version()},
@@ -281,6 +281,7 @@ std::string report_json(const RunRecord& record) {
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
       {"device", device_json(record.device)},
       {"certificate", check_json(record.check)}};
+  if (!record.part.empty()) json["part"] = record.part;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

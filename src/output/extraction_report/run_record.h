@@ -36,6 +36,7 @@ struct UnionRecord {
 
 struct RunRecord {
   std::string input;
+  std::string part;  ///< The mesh of `input`, by its name in file names; empty: all of it.
   std::string output;
   ExtractionOptions options;
   Backend backend = Backend::kVulkan;

@@ -44,6 +44,7 @@ struct FittedSolid {
 struct FitsRecord {
   // The request.
   std::string input;
+  std::string part;  ///< The mesh of `input`, by its name in file names; empty: all of it.
   std::string output;
   std::string output_format;
   bool is_robot = false;

@@ -58,24 +58,25 @@ std::string encode_fits_report(const FitsRecord& record) {
   for (const FittedSolid& solid : record.solids) solids.push_back(solid_json(solid, record.spheres.contract));
   Json seconds = Json::object();
   for (const StageTime& time : record.times) seconds[time.stage] = time.seconds;
-  const Json json = {{"format", kSpheresReportFormat},
-                     {"program", "medial-vk spheres"},
-                     {"version", version()},
-                     {"input", record.input},
-                     {"output", record.output},
-                     {"output_format", record.output_format},
-                     {record.is_robot ? "robot" : "mesh", record.name},
-                     {"method", name_of(record.spheres.method)},
-                     {"contract", name_of(record.spheres.contract)},
-                     {"object_angle", record.spheres.method == SphereMethod::kSource ? Json(record.spheres.object_angle)
-                                                                                     : Json(nullptr)},
-                     {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
-                     {"device", record.device ? Json(record.device->name) : Json(nullptr)},
-                     {"goals", goals_json(record)},
-                     {"num_spheres", count_spheres(record)},
-                     {"volume_error", or_null(uncovered_share(record))},
-                     {"parts", solids},
-                     {"seconds", seconds}};
+  Json json = {{"format", kSpheresReportFormat},
+               {"program", "medial-vk spheres"},
+               {"version", version()},
+               {"input", record.input},
+               {"output", record.output},
+               {"output_format", record.output_format},
+               {record.is_robot ? "robot" : "mesh", record.name},
+               {"method", name_of(record.spheres.method)},
+               {"contract", name_of(record.spheres.contract)},
+               {"object_angle",
+                record.spheres.method == SphereMethod::kSource ? Json(record.spheres.object_angle) : Json(nullptr)},
+               {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},
+               {"device", record.device ? Json(record.device->name) : Json(nullptr)},
+               {"goals", goals_json(record)},
+               {"num_spheres", count_spheres(record)},
+               {"volume_error", or_null(uncovered_share(record))},
+               {"parts", solids},
+               {"seconds", seconds}};
+  if (!record.part.empty()) json["part"] = record.part;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -153,7 +153,8 @@ std::string escape_text(std::string_view text) {
 }
 
 std::string title_of(const RunRecord& record) {
-  const std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
+  std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
+  if (!record.part.empty()) name += ": " + record.part;
   // Printed as JSON and parsed: text that is not UTF-8 is replaced, as everywhere in the report.
   const Json text = Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
   return escape_text(text.get<std::string>());

@@ -344,10 +344,10 @@ TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
 TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
   const std::string help = help_text();
   for (const char* name :
-       {"MESH",           "--output",       "--ascii",   "--report",  "--picture",      "--html",     "--resolution",
-        "--object-angle", "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify", "--perturb",
-        "--seed",         "--list-devices", "--device",  "--backend", "--memory",       "--threads",  "--check",
-        "--kernel-times", "--quiet",        "--verbose", "--version", "--help",         "130"}) {
+       {"MESH",         "--each",         "--output",       "--ascii",   "--report",  "--picture",      "--html",
+        "--resolution", "--object-angle", "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify",
+        "--perturb",    "--seed",         "--list-devices", "--device",  "--backend", "--memory",       "--threads",
+        "--check",      "--kernel-times", "--quiet",        "--verbose", "--version", "--help",         "130"}) {
     EXPECT_THAT(help, HasSubstr(name));
   }
   std::size_t begin = 0;

@@ -280,7 +280,7 @@ TEST(ReadPly, Messages) {
               HasSubstr("a.ply:13: a list of 3 values is longer than the rest"));
   EXPECT_EQ(message_of(all + "0 0 0\n1 0 0\n0 111111111111\n", "a.ply"), "a.ply:13: file ends too early");
   EXPECT_EQ(message_of(start + vertices + end + "0 0 0\n1 0 0\n0 1 0\n", "a.ply"),
-            "a.ply: no faces: header declares no element \"face\"");
+            "a.ply: no faces: header declares no element \"face\" and no element \"tristrips\"");
   EXPECT_THAT(message_of(start + faces + end + "3 0 1 2\n", "a.ply"), HasSubstr("no element \"vertex\""));
   EXPECT_THAT(message_of(start + vertices + faces, "a.ply"), HasSubstr("a.ply:9: file ends inside the header"));
   EXPECT_THAT(message_of("ply\nformat weird 1.0\nend_header\n", "a.ply"), HasSubstr("a.ply:2: format \"weird\""));

@@ -1,0 +1,242 @@
+#include "cli/extract/mesh_run.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "check_reports/check_sheets.h"
+#include "cli/extract/summary.h"
+#include "cli/shared/load.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/messages.h"
+#include "common/file_extension.h"
+#include "output/charts_and_tables/ball_volumes.h"
+#include "output/charts_and_tables/volume_curve.h"
+#include "output/extraction_report/report_json.h"
+#include "output/medial_formats/encode_medial_mesh.h"
+#include "output/medial_formats/encode_points.h"
+#include "output/page/page.h"
+#include "output/picture/picture.h"
+#include "reference_bridge/check_balls.h"
+#include "reference_bridge/reference_extractor.h"
+
+namespace medial_vk::cli {
+namespace {
+
+AnalysisOptions analysis_options(const Options& options) {
+  AnalysisOptions out;
+  out.extraction = options.extraction;
+  out.sheets = options.sheets;
+  out.sheets->areas = false;  // unless volumes are measured
+  out.simplify = options.simplify;
+  out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
+  out.keep_volume = options.keep_volume;
+  out.keep_topology = options.keep_topology;
+  out.removal_orders = !options.sheet_curve.empty();
+  out.medial_mesh = !options.medial_mesh.empty();
+  out.threads = options.threads;
+  return out;
+}
+
+}  // namespace
+
+MeshRun::MeshRun(Options options, std::string part, SharedOfRun& shared)
+    : options_(std::move(options)), shared_(shared) {
+  record_.input = options_.mesh;
+  record_.part = std::move(part);
+  record_.output = options_.output;
+  record_.options = options_.extraction;
+  record_.backend = options_.backend;
+  record_.seed = options_.seed;
+  record_.perturb = options_.perturb;
+  record_.simplify = options_.simplify;
+}
+
+Status MeshRun::load(Mesh mesh) {
+  shared_.progress.update("prepare", 0);
+  record_.host_times = shared_.times;
+  Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options_, shared_.opening, record_.host_times);
+  shared_.progress.clear();
+  if (!prepared) return prepared.error();
+  record_.mesh = prepared.value().report;
+  return index(std::move(prepared).value());
+}
+
+Status MeshRun::index(PreparedMesh mesh) {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  Stopwatch stopwatch;
+  const unsigned threads = shared_.opening.threads_beside(mesh.mesh.triangles.size(), options_.threads);
+  Result<IndexedMesh> made = IndexedMesh::build(std::move(mesh), threads);
+  if (!made) return with_hint(made.error());
+  mesh_.emplace(std::move(made).value());
+  record_.longest_side = mesh_->longest_side();
+  index_seconds_ = stopwatch.lap();
+  if (reports_index()) record_.host_times.push_back({"index", index_seconds_});
+  return {};
+}
+
+/// In other runs only the certificate reads the index, and its time counts as part of the extraction.
+bool MeshRun::reports_index() const {
+  return options_.backend == Backend::kVulkan && options_.extraction.mode == Mode::kCertified;
+}
+
+Status MeshRun::take_device() {
+  Status status = shared_.opening.take(shared_.context, shared_.device, record_.host_times);
+  record_.device = shared_.device;
+  return status;
+}
+
+std::string MeshRun::opening_line() const { return opening(record_); }
+
+/// While a device computes, a signal requests a stop; afterwards it may end the program at once.
+Status MeshRun::analyse_mesh() {
+  std::optional<EndAtOnce> on_host;
+  std::stop_source stop;
+  const StageProgress on_progress = [&](const char* stage, double done) {
+    const bool searches = std::string_view(stage) == "extract" || std::string_view(stage) == "certify";
+    if (!searches && !on_host) on_host.emplace();
+    shared_.progress.update(stage, done);
+    if (interrupted()) stop.request_stop();
+  };
+  const Extractor extractor =
+      options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*shared_.context);
+  Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
+  shared_.progress.clear();
+  if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
+  analysis_ = std::move(made).value();
+  describe();
+  return {};
+}
+
+void MeshRun::describe() {
+  record_.grid = analysis_.grid;
+  record_.counters = std::move(analysis_.measurements.counters);
+  record_.undecided = std::move(analysis_.undecided);
+  record_.device_times = std::move(analysis_.measurements.device_times);
+  record_.certify = analysis_.certificate;
+  record_.simplified = analysis_.simplified;
+  record_.points = analysis_.spheres.size();
+  record_.radii = range_of_radii(analysis_.spheres);
+  record_.object_angles = range_of_object_angles(analysis_.spheres);
+  record_.sheet_options = options_.sheets;
+  record_.sheets = std::move(analysis_.sheets);
+  if (analysis_.significance) {
+    const Significance& measured = *analysis_.significance;
+    record_.ball_union = UnionRecord{measured.volume, measured.area, measured.topology};
+  }
+  record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
+  record_.by_significance = std::move(analysis_.by_significance);
+  record_.keeping_topology = std::move(analysis_.keeping_topology);
+  record_.removal = std::move(analysis_.removal);
+  record_.keep_volume = options_.keep_volume;
+  record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
+  for (StageTime& time : analysis_.measurements.host_times) {
+    if (time.stage == "extract" && !reports_index()) time.seconds += index_seconds_;
+    (time.stage == "medial mesh" ? medial_mesh_times_ : record_.host_times).push_back(std::move(time));
+  }
+}
+
+/// Files are made in memory: until they are written a signal may end the program. These steps do not test for one.
+Status MeshRun::make_files() {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  encode_volumes();
+  if (Status status = encode(); !status) return status;
+  if (Status status = check(); !status) return status;
+  if (Status status = draw(); !status) return status;
+  make_page();
+  encode_mesh();
+  encode_report();
+  mesh_.reset();
+  analysis_ = Analysis();
+  return {};
+}
+
+void MeshRun::encode_volumes() {
+  if (!options_.sheet_curve.empty()) {
+    const VolumeCurves curves = {*record_.by_significance, *record_.keeping_topology};
+    const bool is_drawing = file_extension(options_.sheet_curve) == ".svg";  // standard output gets the table
+    files_.push_back({options_.sheet_curve, is_drawing ? encode_curve_svg(curves) : encode_curve_csv(curves)});
+  }
+  if (!options_.ball_volumes.empty()) {
+    files_.push_back({options_.ball_volumes, encode_ball_volumes(*analysis_.significance, analysis_.spheres)});
+  }
+}
+
+/// The mesh comes last in the report, and is not part of the page.
+void MeshRun::encode_mesh() {
+  if (!analysis_.medial_mesh) return;
+  record_.medial_mesh = analysis_.medial_mesh->topology;
+  record_.euler_characteristic = analysis_.euler_characteristic;
+  files_.push_back({options_.medial_mesh, encode_medial_mesh(options_.medial_mesh, header_, analysis_.spheres,
+                                                             record_.sheets, *analysis_.medial_mesh, options_.ascii)});
+  std::ranges::move(medial_mesh_times_, std::back_inserter(record_.host_times));
+}
+
+Status MeshRun::encode() {
+  header_ = make_header(record_.grid, options_.extraction, record_.longest_side);
+  Result<std::string> bytes = encode_points(
+      {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
+      header_, analysis_.spheres, record_.sheets.marks);
+  if (!bytes) return bytes.error();
+  points_file_ = files_.size();
+  files_.push_back({options_.output, std::move(bytes).value()});
+  return {};
+}
+
+/// The check reads the numbers as written, back from the bytes of the file. The other formats are made from the same
+/// numbers as a PLY, so their points are checked as that PLY.
+Status MeshRun::check() {
+  if (!options_.check) return {};
+  shared_.progress.update("check", 0);
+  Stopwatch stopwatch;
+  const bool is_ply = options_.format == MedialFormat::kPly && !options_.mesh_spheres;
+  const std::string ply = is_ply ? std::string() : encode_ply(header_, analysis_.spheres, false);
+  const Result<MedialFile> written = decode_ply(is_ply ? files_[points_file_].bytes : ply, options_.output);
+  if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
+  const MedialHeader& header = written.value().header;
+  const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
+  record_.check = check_medial_spheres(mesh_->prepared(), grid, written.value().spheres, header.epsilon,
+                                       header.object_angle, header.radius_threshold);
+  for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
+    record_.check->lines.push_back(std::move(line));
+  }
+  record_.host_times.push_back({"check", stopwatch.lap()});
+  shared_.progress.clear();
+  return {};
+}
+
+Status MeshRun::draw() {
+  if (options_.picture.empty()) return {};
+  shared_.progress.update("picture", 0);
+  Stopwatch stopwatch;
+  PictureOptions look = options_.look;
+  look.least_angle = options_.extraction.object_angle;
+  DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
+                                    record_.device ? &*record_.device : nullptr);
+  Result<std::string> png = encode_png(drawn.picture);
+  if (!png) return png.error();
+  record_.picture_drawn_by = std::move(drawn.drawn_by);
+  files_.push_back({options_.picture, std::move(png).value()});
+  record_.host_times.push_back({"picture", stopwatch.lap()});
+  return {};
+}
+
+void MeshRun::make_page() {
+  if (options_.html.empty()) return;
+  shared_.progress.update("page", 0);
+  Stopwatch stopwatch;
+  files_.push_back(
+      {options_.html, encode_page(mesh_->prepared().mesh, analysis_.spheres, record_, options_.look.view.up)});
+  record_.host_times.push_back({"page", stopwatch.lap()});
+}
+
+void MeshRun::encode_report() {
+  if (!options_.report.empty()) files_.push_back({options_.report, report_json(record_)});
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,24 @@
+// Of a run over one mesh or several.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cli/shared/device_opening.h"
+#include "cli/terminal/progress.h"
+#include "medial_vk/context.h"
+
+namespace medial_vk::cli {
+
+/// What all meshes of a run share.
+struct SharedOfRun {
+  explicit SharedOfRun(bool shows_progress) : progress(shows_progress) {}
+
+  Progress progress;
+  DeviceOpening opening;
+  std::optional<Context> context;
+  std::optional<DeviceDescription> device;
+  std::vector<StageTime> times;  ///< Of the steps that all meshes share.
+};
+
+}  // namespace medial_vk::cli
