@@ -179,7 +179,8 @@ Status ExtractionJob::record(VkCommandBuffer commands) {
   Impl& job = *impl_;
   Impl::Frame& frame = job.frames[job.next];
   return catch_out_of_memory("recording a job", [&]() -> Status {
-    if (!job.mesh.intact) return Error{ErrorCode::kInvalidMesh, "the last move left the mesh without extent; move its vertices again"};
+    if (!job.mesh.intact)
+      return Error{ErrorCode::kInvalidMesh, "the last move left the mesh without extent; move its vertices again"};
     frame.recorder = std::make_unique<Recorder>(job.context, commands);
     frame.recorder->measure_nothing();
     if (Status status = job.append(*frame.recorder, frame); !status.ok()) return status;
