@@ -14,7 +14,7 @@
 
 #include "bumpy_torus.h"
 #include "device_mesh/device_tree.h"
-#include "device_mesh/mesh_links.h"
+#include "indexed_mesh/mesh_links.h"
 #include "input/read_mesh.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/prepare.h"

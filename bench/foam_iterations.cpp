@@ -196,7 +196,7 @@ bool iterate(const Solid& solid, const Settings& settings) {
       const auto foam = Foam::build(run.samples.samples, run.samples.sphere, kQueryError);
       if (!foam.ok()) return false;
       measure(run, foam.value(), side, row);
-      if (iteration < settings.iterations && !refine_samples(run.samples, foam.value(), kQueryError, nearest).ok())
+      if (iteration < settings.iterations && !refine_samples(foam.value(), kQueryError, nearest, run.samples).ok())
         return false;
       row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }

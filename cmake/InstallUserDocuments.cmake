@@ -1,6 +1,6 @@
 # Run by `cmake --install`: installs the documents that are for users. Those for contributors, and examples, are in the
-# source tree only: links to them become their text; sections on the code, the glossary's section of words that are not
-# used and its rows of words for contributors are left out.
+# source tree only: links to them become their text; sections on the code, the glossary's sections from that of words that
+# are not used on, and paragraphs that begin with `Command:` or `Commands:`, which need the source tree, are left out.
 # Needs: SOURCE_DIR, WORK_DIR (for the altered copies), DESTINATION (relative to the prefix)
 set(contributors architecture decisions performance testing)
 string(JOIN "|" names ${contributors})
@@ -12,7 +12,8 @@ function(user_document file)
          "${text}")
   string(REGEX REPLACE "\n## Words that are not used\n.*" "" text "${text}")
   string(REGEX REPLACE " Words that are not used are[ \n]\\[at the end\\]\\([^)]*\\)\\." "" text "${text}")
-  string(REGEX REPLACE "\n[|] (door|room) [|][^\n]*" "" text "${text}")
+  string(REGEX REPLACE "\nCommands?: [^\n]+(\n[^\n]+)*" "" text "${text}")
+  string(REGEX REPLACE "\n\n\n+" "\n\n" text "${text}")
   string(REGEX REPLACE "\n[|] \\[(${names})\\.md\\][^\n]*" "" text "${text}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\((docs/)?(${names})\\.md[^)]*\\)" "\\1" text "${text}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\((\\.\\./)?examples/[^)]*\\)" "\\1" text "${text}")

@@ -1,6 +1,7 @@
 # Written by tests/measure_times.py, read by ctest: the seconds of the slowest tests. Those that cost most start first.
 set(times
   "second_driver.analytic" 150
+  "regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles" 130
   "second_driver.gpu_vs_cpu" 130
   "second_driver.commands" 75
   "package.shown_commands" 60

@@ -31,7 +31,8 @@ set(full
   property.Foam.BoundsWidthAndDepth
   # Hundreds of thousands of triangles, in LoopBudget, remain.
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
-  regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles)
+  regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles
+  regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles)
 # Left out of the tests under ASan that scripts/test --asan-host runs; tests/CMakeLists.txt has those of unit.
 set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
   LABELS "faults;sanitized_full")
@@ -41,3 +42,6 @@ foreach(tier slow full)
     set_tests_properties("${name}" PROPERTIES LABELS "${folder};${tier}")
   endforeach()
 endforeach()
+# Left out of every build under a sanitizer or with counters, where this test would take an hour and more.
+set_tests_properties(regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles PROPERTIES
+  LABELS "regression;full;release_only")

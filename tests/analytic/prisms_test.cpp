@@ -24,7 +24,7 @@ using test::ExtrudedPolygon;
 
 constexpr double kObjectAngle = 0.6;  // below pi/4, the object angle of the bisectors of right angles
 // A medial surface that crosses a voxel by less than this share of its side need not be found: the target of a line
-// shrinks with it, and the contract does not promise it.
+// shrinks with it, and the certified mode does not guarantee it.
 constexpr double kCrossing = 0.05;
 // The same holds for thinner objects: sheets whose object angle barely passes.
 constexpr double kClearAngle = kObjectAngle + 0.05;

@@ -1,6 +1,6 @@
 // The same smooth solids cut into triangles in many ways: the result must be the medial surface of the smooth solid,
-// not of its facets. In both directions, within 1.5 voxels; tests/support/solids/mesh_promises.h derives the promises
-// of a mesh.
+// not of its facets. In both directions, within 1.5 voxels; tests/support/solids/mesh_guarantees.h derives what
+// a mesh guarantees.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@
 #include "support/device/device.h"
 #include "support/device/device_test.h"
 #include "support/extraction.h"
-#include "support/solids/mesh_promises.h"
+#include "support/solids/mesh_guarantees.h"
 #include "support/solids/smooth_solids.h"
 #include "support/solids/solids.h"
 
@@ -116,7 +116,7 @@ struct Verdict {
 struct Expectation {
   const SmoothSolid& solid;
   double deviation;
-  std::vector<test::Promise> promises;
+  std::vector<test::Guarantee> guarantees;
 };
 
 Verdict judge_outputs(const Expectation& expected, const Extraction& extraction) {
@@ -130,13 +130,13 @@ Verdict judge_outputs(const Expectation& expected, const Extraction& extraction)
   return verdict;
 }
 
-Verdict judge_promises(const Expectation& expected, const Extraction& extraction, double object_angle) {
+Verdict judge_guarantees(const Expectation& expected, const Extraction& extraction, double object_angle) {
   const double voxel = extraction.grid.voxel_size;
   const std::vector<Vector3d> found = centres_in_body(extraction);
   Verdict verdict;
-  for (const test::Promise& p : expected.promises) {
-    if (p.object_angle < object_angle + kClearAngle) continue;
-    verdict.judge(distance_to_nearest(found, p.point) / voxel, kNearby);
+  for (const test::Guarantee& g : expected.guarantees) {
+    if (g.object_angle < object_angle + kClearAngle) continue;
+    verdict.judge(distance_to_nearest(found, g.point) / voxel, kNearby);
   }
   return verdict;
 }
@@ -147,11 +147,12 @@ void expect_agreement(const Expectation& expected, const Extraction& extraction,
   EXPECT_EQ(outputs.failed, 0u) << "of " << outputs.judged
                                 << " points are far from the smooth medial surface, the worst " << outputs.worst
                                 << " voxels";
-  const Verdict promises = judge_promises(expected, extraction, object_angle);
+  const Verdict guarantees = judge_guarantees(expected, extraction, object_angle);
   // Facets and noise turn normals by less than the difference between the threshold and the widest angles.
-  EXPECT_GT(promises.judged, 0u);
-  EXPECT_EQ(promises.failed, 0u) << "of " << promises.judged << " smooth medial points have no point near, the worst "
-                                 << "none in " << promises.worst << " voxels";
+  EXPECT_GT(guarantees.judged, 0u);
+  EXPECT_EQ(guarantees.failed, 0u) << "of " << guarantees.judged
+                                   << " smooth medial points have no point near, the worst none in " << guarantees.worst
+                                   << " voxels";
 }
 
 /// Regular and irregular, with and without noise.
@@ -168,7 +169,7 @@ TEST_P(Tessellation, MedialSurfaceIsThatOfTheSmoothSolid) {
     ASSERT_TRUE(prepared.report.closed);
     ASSERT_EQ(prepared.report.trusted_triangles, mesh.triangles.size());
     const double voxel = prepared.report.longest_side() / kResolution, deviation = test::deviation(*solid, mesh);
-    const Expectation expected = {*solid, deviation, test::promises_of(*solid, mesh, deviation, voxel / 2)};
+    const Expectation expected = {*solid, deviation, test::guarantees_of(*solid, mesh, deviation, voxel / 2)};
     for (const double object_angle : {0.4, 0.6, 0.9, 1.2}) {
       const CertifiedExtraction result = extract(prepared, object_angle);
       SCOPED_TRACE("object angle " + std::to_string(object_angle) + ": " + test::describe(result));
@@ -275,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(Smooth, ThinCurve, testing::ValuesIn(round_tubes()),
                          [](const auto& smooth) { return smooth.param.name; });
 
 // The curve of the mesh may miss a voxel that the smooth one barely touches: crossings deeper than the reach of a
-// promise (mesh_promises.h, alpha = pi/2) and epsilon are found without exception, and nearly all of any depth.
+// guarantee (mesh_guarantees.h, alpha = pi/2) and epsilon are found without exception, and nearly all of any depth.
 TEST_F(OnDevice, FindsNearlyEveryVoxelThatTheCircleOfATorusCrosses) {
   const std::unique_ptr<SmoothSolid> solid = torus();
   const Mesh mesh = solid->mesh(16 * kCoarse);

@@ -21,7 +21,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr double kAgrees = 1e-12;  // relative; the project promises 1e-9
+constexpr double kAgrees = 1e-12;  // relative; the project guarantees 1e-9
 
 BallUnion measure(const std::vector<Ball>& balls) {
   auto result = measure_ball_union(balls, {.threads = 2, .complex = true});

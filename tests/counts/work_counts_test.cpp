@@ -1,5 +1,5 @@
-// How often the costly steps run: trees over triangles, uploads of a mesh, threads of the host. The linker sends calls
-// of these functions through the counters below (tests/CMakeLists.txt, --wrap).
+// How often the costly steps run: indices (Bvh::build()), uploads of a mesh, threads of the host. The linker sends
+// calls of these functions through the counters below (tests/CMakeLists.txt, --wrap).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -162,7 +162,7 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   PartFitOptions of_parts;
   of_parts.spheres.resolution = 16;
   of_parts.total = 20;
-  of_parts.spheres.threads = 1;
+  of_parts.threads = 1;
   ASSERT_TRUE(fit_parts(two_boxes(1), of_parts, *context_).ok());
   EXPECT_EQ(threads, 0);
 }

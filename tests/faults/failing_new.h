@@ -20,7 +20,7 @@ struct CountNew {
   ~CountNew();
 };
 
-/// Calls the runtime, whose allocations may fail; those of the test itself may not.
+/// Calls the library, whose allocations may fail; those of the test itself may not.
 template <class Call>
 auto in_runtime(const Call& call) {
   const CountNew counted;

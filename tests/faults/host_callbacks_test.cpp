@@ -186,7 +186,7 @@ TEST_F(HostCallbacks, RunOut) {
       std::cout << name << ": " << errors << " errors\n";
     }
   }
-  // lavapipe (Mesa 22.3) leaks a partly created command buffer, which the runtime has never received.
+  // lavapipe (Mesa 22.3) leaks a partly created command buffer, which the library has never received.
   EXPECT_LE(allocator.alive(), lost);
 }
 

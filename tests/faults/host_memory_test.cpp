@@ -1,4 +1,4 @@
-// Host memory that runs out: every allocation of the runtime fails once.
+// Host memory that runs out: every allocation of the library fails once.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST_F(HostMemory, RunsOutInAFoam) {
     if (!samples.ok()) return samples.error();
     const auto coarse = in_runtime([&] { return Foam::build(samples.value().samples, sphere); });
     if (!coarse.ok()) return coarse.error();
-    const Status refined = in_runtime([&] { return refine_samples(samples.value(), coarse.value(), 0, nearest); });
+    const Status refined = in_runtime([&] { return refine_samples(coarse.value(), 0, nearest, samples.value()); });
     if (!refined.ok()) return refined.error();
     const auto foam = in_runtime([&] { return Foam::build(samples.value().samples, sphere); });
     if (!foam.ok()) return foam.error();

@@ -63,7 +63,7 @@ inline void check_call(vkCreateShaderModuleTag, VkDevice, const VkShaderModuleCr
   self.use([&](Usage& u) { u.shared_bytes = std::max(u.shared_bytes, bytes); });
 }
 
-// The runtime's convention: the workgroup's size along x is specialization constant 0, and it is one high and deep.
+// The library's convention: the workgroup's size along x is specialization constant 0, and it is one high and deep.
 inline void check_call(vkCreateComputePipelinesTag, VkDevice, VkPipelineCache, std::uint32_t,
                        const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*, VkPipeline*) {
   std::uint32_t size = 0;

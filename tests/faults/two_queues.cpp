@@ -19,9 +19,9 @@ VkResult TwoQueues::submit(VkQueue queue, const VkSubmitInfo& info, VkFence fenc
                   info.waitSemaphoreCount != 0 ? info.pWaitSemaphores[0] : VK_NULL_HANDLE,
                   info.signalSemaphoreCount != 0 ? info.pSignalSemaphores[0] : VK_NULL_HANDLE, fence};
   // The semaphores that a submission waits for have been submitted before it.
-  if (work.waits != VK_NULL_HANDLE && promised_.erase(work.waits) == 0)
+  if (work.waits != VK_NULL_HANDLE && to_be_signalled_.erase(work.waits) == 0)
     report("a submission waits for a semaphore that no submission signals");
-  if (work.signals != VK_NULL_HANDLE && !promised_.insert(work.signals).second)
+  if (work.signals != VK_NULL_HANDLE && !to_be_signalled_.insert(work.signals).second)
     report("a semaphore is signalled twice");
   const bool copies = queue == copying_queue();
   if (copies == (late == LateQueue::kCopies)) {

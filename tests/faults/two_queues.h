@@ -32,7 +32,7 @@ class TwoQueues {
   /// Forgets a destroyed semaphore, since another one may receive its handle.
   void forget(VkSemaphore semaphore) {
     signalled_.erase(semaphore);
-    promised_.erase(semaphore);
+    to_be_signalled_.erase(semaphore);
   }
   bool is_idle() const { return kept_.empty(); }
 
@@ -46,8 +46,8 @@ class TwoQueues {
   void run_until_signalled(VkSemaphore semaphore);
 
   std::vector<Kept> kept_;
-  std::set<VkSemaphore> signalled_;  // by submissions that have run
-  std::set<VkSemaphore> promised_;   // by submissions, and not consumed by a submitted wait
+  std::set<VkSemaphore> signalled_;        // by submissions that have run
+  std::set<VkSemaphore> to_be_signalled_;  // by submissions, and not consumed by a submitted wait
   Submit real_;
   Report report_;
 };

@@ -14,7 +14,7 @@ constexpr unsigned kHost = 1, kDevice = 2, kLost = 4, kAllocates = 8;
 inline thread_local int driver_depth = 0;
 inline thread_local const char* current_call = nullptr;
 
-/// Held by hooks: neither allocations of the driver nor their own belong to the runtime.
+/// Held by hooks: neither allocations of the driver nor their own belong to the library.
 struct InDriver {
   InDriver() { ++driver_depth; }
   InDriver(const InDriver&) = delete;

@@ -1,5 +1,5 @@
-// Stands between the runtime and Vulkan: makes the k-th call fail, counts created and not destroyed objects, and makes
-// a device appear poorer than it is. It is installed through volk's entry point, so the runtime needs no hook for it.
+// Stands between the library and Vulkan: makes the k-th call fail, counts created and not destroyed objects, and makes
+// a device appear poorer than it is. It is installed through volk's entry point, so the library needs no hook for it.
 #pragma once
 
 #include <volk.h>

@@ -36,7 +36,7 @@ inline void lower_to_minimum(VkPhysicalDeviceLimits& l) {
   l.timestampComputeAndGraphics = VK_FALSE;
 }
 
-/// The minimum of everything; with `usable`, plus the requirements of the runtime.
+/// The minimum of everything; with `usable`, plus the requirements of the library.
 inline DeviceProfile minimum_profile(bool usable) {
   DeviceProfile profile;
   profile.limits = [usable](VkPhysicalDeviceLimits& limits) {

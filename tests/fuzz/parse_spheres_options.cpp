@@ -22,8 +22,8 @@ void require_in_range(const SphereOptions& fit) {
 void require_goal(const cli::SpheresOptions& options) {
   const SphereOptions& fit = options.spheres;
   const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
-  require(fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 ||
-              fit.max_gap > 0 || by_resolution,
+  require(fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 || fit.max_gap > 0 ||
+              by_resolution,
           "there is a goal");
   require(options.count_per_link <= 1'000'000 && options.total <= 1'000'000, "counts keep their range");
   require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
@@ -42,7 +42,7 @@ void require_usable(const cli::SpheresOptions& options) {
   require(!options.spheres.levels || has_levels(options.format), "the format has levels, if they are requested");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(!options.check || options.spheres.contract != SphereContract::kBalanced,
-          "only a promised contract is checked");
+          "only a contract that can be proved is checked");
   require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
   require(!options.is_robot || options.histogram.empty(), "a histogram is of one mesh");
   require(std::ranges::any_of(options.view.towards, [](double x) { return x != 0; }), "--view is a direction");

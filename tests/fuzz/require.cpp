@@ -7,9 +7,9 @@
 
 namespace medial_vk::fuzz {
 
-void require(bool holds, const char* promise) {
+void require(bool holds, const char* property) {
   if (holds) return;
-  std::fprintf(stderr, "Broken promise: %s\n", promise);
+  std::fprintf(stderr, "Violated property: %s\n", property);
   std::abort();
 }
 

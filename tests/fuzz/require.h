@@ -1,5 +1,5 @@
-// Shared definitions of the fuzz targets: a broken promise ends the process, and the fuzzer keeps the input that broke
-// it.
+// Shared definitions of the fuzz targets: a property that does not hold ends the process, and the fuzzer keeps the
+// input.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace medial_vk::fuzz {
 /// The name of the input in messages, for every target.
 inline const std::string kName = "input";
 
-/// Aborts, naming the promise, unless it holds.
-void require(bool holds, const char* promise);
+/// Aborts, naming the property, unless it holds.
+void require(bool holds, const char* property);
 
 /// One line of printable characters and readable length, for any input.
 void require_clear(const Error& error, ErrorCode code);

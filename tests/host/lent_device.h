@@ -1,4 +1,4 @@
-// The device of the renderer example, as a host lends it to the runtime.
+// The device of the renderer example, as a host lends it to the library.
 #pragma once
 
 #include <medial_vk/host_device.h>

@@ -1,4 +1,4 @@
-// The promises of the page, each as a test: run.mjs runs one of them.
+// The properties of the page, each as a test: run.mjs runs one of them.
 import assert from 'node:assert/strict';
 
 import {box, lShape, tetrahedron} from './fixtures.mjs';

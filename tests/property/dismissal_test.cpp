@@ -1,4 +1,4 @@
-// The promise of the theorem of docs/theory.md: no voxel that holds a salient medial point is dismissed. Independent
+// The guarantee of the theorem of docs/theory.md: no voxel that holds a salient medial point is dismissed. Independent
 // samples of many solids, each of whose voxels must be found or undecided.
 #include <gtest/gtest.h>
 

@@ -241,7 +241,7 @@ TEST(Foam, HoldsTheContactsAfterARefinement) {
     if (c.samples.samples.size() > 16) continue;
     SphereSamples samples = c.samples;
     const Foam first = Foam::build(samples.samples, samples.sphere, kQueryError).value();
-    ASSERT_TRUE(refine_samples(samples, first, kQueryError, c.boundary.queries()).ok());
+    ASSERT_TRUE(refine_samples(first, kQueryError, c.boundary.queries(), samples).ok());
     ASSERT_GE(samples.samples.size(), c.samples.samples.size());
     if (samples.holds_medial_point && !c.samples.holds_medial_point) {
       ++found_by_refining;

@@ -68,13 +68,13 @@ TEST(LargeMesh, DistancesToATorusOfFiveMillionTriangles) {
     // Facets of 0.004 by 0.001 sag by 2e-6 of a circle of 0.9; floats in the unit box are 2e-6 of 1.8 off.
     EXPECT_NEAR(nearest.value()[i].distance, std::fabs(depth), 1e-5);
     if (std::fabs(depth) > 1e-3) {
-      EXPECT_NEAR(winding.value()[i], depth > 0 ? 1 : 0, 0.05);  // as promised
+      EXPECT_NEAR(winding.value()[i], depth > 0 ? 1 : 0, 0.05);  // as documented
     }
   }
 }
 
-// More than a minute: scripts/soak runs it. (At a low resolution the lists of triangles are long: slower, not faster.)
-TEST(LargeMesh, DISABLED_TheCircleInATorusOfFiveMillionTriangles) {
+// Minutes, so it has the label `full`. (At a low resolution the lists of triangles are long: slower, not faster.)
+TEST(LargeMesh, TheCircleInATorusOfFiveMillionTriangles) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   ExtractionOptions options;
   options.resolution = 80;

@@ -11,6 +11,7 @@
 #include "input/read_mesh.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 #include "sheets/significance.h"
 #include "sheets/voxel_graph.h"
 #include "support/device/device.h"

@@ -146,6 +146,82 @@ class CheckRooms(unittest.TestCase):
         self.check([("runtime/src/attic/old.cpp:1:", "in no room"), ("src/cli/run.cpp:1:", 'there is no "judge/gone.h"')],
                    files={"runtime/src/attic/old.cpp": "", "src/cli/run.cpp": '#include "judge/gone.h"\n'})
 
+    def test_umbrella_in_the_library(self):
+        umbrella = {"runtime/include/medial_vk/medial_vk.h": '#include "medial_vk/mesh.h"\n',
+                    "src/judge/judge.h": '#include "cpu_reference/check.h"\n#include "medial_vk/medial_vk.h"\n'}
+        self.check(None, files=umbrella)
+        for file in ("runtime/src/base/clock.h", "runtime/include/medial_vk/mesh.h"):
+            self.check([(f"{file}:1:", "includes headers of all rooms")],
+                       files={**umbrella, file: '#include "medial_vk/medial_vk.h"\n'})
+
+    def test_public_header_in_a_subfolder(self):
+        new = {"runtime/include/medial_vk/small/new.h": ""}
+        self.check([("runtime/include/medial_vk/small/new.h:1:", "no room of runtime/src declares")], files=new)
+        self.check(None, files={**new, "cmake/rooms.txt": ROOMS.replace("declares mesh.h", "declares mesh.h small/new.h")})
+
+    def test_file_in_no_room(self):
+        support = {"tests/support/solids.h": ""}
+        for file, kept in (("runtime/src/base/blocks.h", ""), ("src/judge/judge.h", '#include "cpu_reference/check.h"\n'),
+                           ("cpu_reference/include/cpu_reference/check.h", "")):
+            up = "../" * file.count("/")
+            self.check([(f"{file}:{kept.count(chr(10)) + 1}:", "tests/support/solids.h, which is in no room")],
+                       files={**support, file: f'{kept}#include "{up}tests/support/solids.h"\n'})
+        self.check([("examples/embed.cpp:1:", "no public header")],
+                   files={**support, "examples/embed.cpp": '#include "../tests/support/solids.h"\n'})
+
+    def test_comments_around_an_include(self):
+        for text in ('/**/ #include "device/device.h"\n', '/* a */ # /* b */ include /**/ "device/device.h" // c\n',
+                     '#include /*\n*/ "device/device.h"\n', '/* "\n*/ #include <device/device.h>\n',
+                     '#inc\\\nlude "device/device.h"\n', '// a \\\n b\n%:include "device/device.h"\n',
+                     'const char* a = "/*";\n#include "device/device.h"\n', '#import "device/device.h"\n',
+                     'char a = \'"\'; // "\n#include "device/device.h"\n'):
+            number = text.count("\n")
+            self.check([(f"runtime/src/base/clock.h:{number}:", "a room below it")],
+                       files={"runtime/src/base/clock.h": text})
+        self.check([("runtime/src/base/clock.h:2:", "a macro names")],
+                   files={"runtime/src/base/clock.h": '#define A "device/device.h"\n#include A\n'})
+
+    def test_includes_that_are_no_directives(self):
+        for text in ('// #include "device/device.h"\n', '/*\n#include "device/device.h"\n*/\n',
+                     'auto a = R"(\n#include "device/device.h"\n)";\n', '// a \\\n#include "device/device.h"\n'):
+            self.check(None, files={"runtime/src/base/clock.h": text})
+
+    def test_unknown_suffixes(self):
+        device = FILES["runtime/src/device/device.h"]
+        self.check([("runtime/src/device/device.h:3:", "whose suffix is none of")],
+                   files={"runtime/src/base/x.tbl": "", "runtime/src/device/device.h": device + "#include <base/x.tbl>\n"})
+        self.check([("src/cli/run.cpp:1:", "whose suffix is none of")],
+                   files={"docs/table.txt": "", "src/cli/run.cpp": '#include "../../docs/table.txt"\n'})
+        for suffix in (".inc", ".inl", ".ipp", ".hpp", ".cc", ".cxx", ".hxx", ".H"):
+            file = f"src/cli/x{suffix}"
+            self.check([(f"{file}:1:", f"{suffix} is no suffix")], files={file: ""})
+        self.check(None, files={"tests/any_test.hpp": ""})
+
+    def test_trees_that_include_only_others(self):
+        text = ROOMS.replace("tree cpu_reference/include\n", "tree cpu_reference/include\n  only cpu_reference/include\n")
+        check = "cpu_reference/include/cpu_reference/check.h"
+        self.check(None, files={"cmake/rooms.txt": text})
+        for name in ('"../../../runtime/include/medial_vk/mesh.h"', "<medial_vk/mesh.h>"):
+            self.check([(f"{check}:1:", "only includes files of cpu_reference/include")],
+                       files={"cmake/rooms.txt": text, check: f"#include {name}\n"})
+
+    def test_the_reference_includes_only_its_own_rooms(self):
+        lines = (Path(SCRIPT).parent.parent / "cmake/rooms.txt").read_text(encoding="utf-8").splitlines()
+        only = {line.split()[1]: set(below.split()[1:]) for line, below in zip(lines, lines[1:])
+                if line.startswith("tree ") and below.startswith("  only ")}
+        own = {"cpu_reference/include", "cpu_reference/src"}
+        for tree in own:
+            self.assertLessEqual(only.get(tree, {"all"}), own)
+
+    def test_cpp_beside_the_page(self):
+        self.check([("src/page/a.cpp:1:", "in no room")], files={"src/page/a.cpp": '#include "a.h"\n', "src/page/a.glsl": ""})
+
+    def test_subfolders_of_a_room_that_are_no_rooms(self):
+        both = {"runtime/src/base/a/x.h": '#include "base/b/y.h"\n', "runtime/src/base/b/y.h": '#include "base/a/x.h"\n'}
+        self.check([("runtime/src/base/a/x.h:1:", "is no room"), ("runtime/src/base/b/y.h:1:", "is no room")], files=both)
+        self.check([("src/cli/a/x.cpp:1:", "is no room")], files={"src/cli/a/x.cpp": ""})
+        self.check(None, files={"shaders/kernels/a/x.comp": "", "src/cli/shaders/x.vert": ""})
+
     def test_sizes(self):
         many = {f"tests/many/a{i}.h": "" for i in range(26)}
         self.check([("tests/many:1:", "26 sources")], files=many)

@@ -15,6 +15,7 @@
 #include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 
 namespace medial_vk {
 

@@ -3,8 +3,8 @@
 // The power diagram cuts a union of balls into convex parts, one in each ball (S. Stolpner, "Medial Spheres for Shape
 // Representation", 2011, Section 1.2.2; docs/theory.md, "Unions of balls"). The measures of each part have a closed
 // form, evaluated in double precision. The adjacency of balls is decided exactly, and ties are broken consistently, so
-// duplicated, nested, cospherical and coplanar balls are no special cases. The computation runs on the host, on all
-// cores.
+// duplicated, nested, cospherical and coplanar balls are no special cases. The first call runs on the host, the second
+// on a device.
 #pragma once
 
 #include <array>

@@ -42,11 +42,6 @@ class Bvh {
   /// index out of range, coordinate not finite), kOutOfMemory.
   static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
 
-  /// The same tree with its leaves split further, for scattered queries on the host; smaller leaves are not changed. If
-  /// no triangle has moved and no leaf is at kMaxDepth, it equals the tree that build() makes of the same triangles for
-  /// `leaf_size`, but takes less time. Errors: kOutOfMemory.
-  Result<Bvh> refined(std::uint32_t leaf_size) const;
-
   /// Follows triangles that have moved: takes the corners of triangle t from triangle t of `mesh`, and makes every box
   /// the least one around the triangles below it. The triangles of each node and the order of the leaves stay the same.
   /// All answers are as exact as those of a new tree, and nearly as fast while triangles that were neighbours stay
@@ -66,6 +61,8 @@ class Bvh {
   bool any_within(const Point& centre, double radius) const;
 
  private:
+  friend struct Internals;
+  Result<Bvh> refined(std::uint32_t leaf_size) const;  // refined_tree.h
   void take_corners(const MeshView& mesh, unsigned threads);
 
   std::vector<BvhNode> nodes_;

@@ -14,6 +14,7 @@ namespace medial_vk {
 
 class Context;
 
+/// The numbers of spheres by the outcome of their certificate.
 struct CertificateReport {
   std::uint64_t passed = 0;
   std::uint64_t rejected = 0;  ///< Dropped, since neither the ball nor a point beside it on its sheet passed.

@@ -120,7 +120,7 @@ Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSamplingOpti
 /// One step of iterated foam sampling (3.5, problem 2): adds the centres of the full foam's balls of types 2 to 4. Such
 /// a centre lies inside the sphere; its opposite, the point where the ray away from its nearest boundary point leaves
 /// the sphere, is added too. Errors: those of sample_sphere().
-Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
-                      const NearestPointsFunction& nearest);
+Status refine_samples(const Foam& foam, double query_error, const NearestPointsFunction& nearest,
+                      SphereSamples& samples);
 
 }  // namespace medial_vk

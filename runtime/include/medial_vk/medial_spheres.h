@@ -31,8 +31,8 @@ struct ExtractionOptions {
   double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
   double radius = 0.0;             ///< Radius threshold as a fraction of the longest side, in [0, 1); 0: off.
   /// Mode certified, with a radius threshold: the least object angle of a point whose radius reaches the threshold, in
-  /// radians, in (0, pi/2); at most object_angle is required. Spokes turn by less at the creases between the facets of
-  /// a smooth solid, and by more across medial sheets.
+  /// radians, in (0, pi/2). A value above object_angle has the effect of object_angle. Spokes turn by less at the
+  /// creases between the facets of a smooth solid, and by more across medial sheets.
   double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Largest distance from a medial point, in voxel sides: [1e-3, 0.5].
   std::uint32_t extra_levels = 6;  ///< Mode certified: levels of subdivision below the finest voxel, 0 to 10.

@@ -39,10 +39,13 @@ struct Part {
 
 /// All given goals must be met, as in SphereOptions.
 struct PartFitOptions {
-  /// Of each part, and the threads of all. `count` is not read if one of the next two numbers is given.
+  /// Of each part. `count` is not read if one of the next two numbers is given.
   SphereOptions spheres;
   std::size_t count_per_link = 0;  ///< Greatest number of balls of each link, for its parts together; 0: no such goal.
   std::size_t total = 0;           ///< Greatest number of balls of all parts together; 0: no such goal.
+  /// Of the host, 0: one per core. No result depends on it. `threads` of `spheres` is 0, or the same number; another
+  /// one is the error kUsage.
+  unsigned threads = 0;
 
   bool operator==(const PartFitOptions&) const = default;
 };
@@ -82,8 +85,9 @@ Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFi
                                        const Extractor& extractor, const StageProgress& progress = {},
                                        const std::stop_token& stop = {});
 
-/// The same on the device of `context`. Every part is uploaded once: the meshes of parts among which balls are
-/// distributed stay on the device until each is fitted, or until its memory does not suffice for that.
+/// The same on the device of `context`. The meshes of parts among which balls are distributed stay on the device until
+/// each part is fitted, so that every mesh is uploaded once. If the memory of the device does not suffice for all of
+/// them, all meshes but the current one leave the device, and are uploaded again.
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options, Context& context,
                                        const StageProgress& progress = {}, const std::stop_token& stop = {});
 

@@ -1,23 +1,10 @@
-// The access from a public handle to its Impl, for the library and its tests only.
+// The name of the data behind a Context, for rooms that only pass it on.
 #pragma once
 
+#include "base/internals.h"
 #include "medial_vk/context.h"
 
 namespace medial_vk {
-
-/// A friend of every public handle; callers include the header that defines the handle's Impl.
-struct Internals {
-  template <class Handle>
-  static auto& of(Handle& handle) {
-    return *handle.impl_;
-  }
-
-  /// The type of the Impl, whose name is private.
-  template <class Handle>
-  struct ImplOf {
-    using Type = typename Handle::Impl;
-  };
-};
 
 using ContextImpl = Internals::ImplOf<Context>::Type;
 

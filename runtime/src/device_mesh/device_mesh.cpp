@@ -9,8 +9,8 @@
 #include "device/context_impl.h"
 #include "device_mesh/clusters.h"
 #include "device_mesh/device_tree.h"
-#include "device_mesh/indexed_mesh_impl.h"
 #include "device_mesh/open_edges.h"
+#include "indexed_mesh/indexed_mesh_impl.h"
 
 namespace medial_vk {
 namespace {

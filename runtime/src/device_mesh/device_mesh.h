@@ -14,8 +14,8 @@
 #include "device/internals.h"
 #include "device_commands/memory.h"
 #include "device_commands/uploads.h"
-#include "device_mesh/mesh_links.h"
 #include "device_mesh/unit_transform.h"
+#include "indexed_mesh/mesh_links.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh_view.h"
@@ -34,7 +34,6 @@ struct DeviceMesh {
   DeviceMesh(DeviceMesh&&) noexcept = default;
   DeviceMesh& operator=(DeviceMesh&&) = delete;  // it would have to wait for pending uploads
   /// Triangles in a leaf of the device's tree, at most.
-  static constexpr std::uint32_t kLeafSize = gpu::kMostLeafTriangles;
   /// Two limits allow this number: leaf positions are stored as floats in the tree's texels, exact up to 2^24; and one
   /// lane of 256 tests its share of all triangles (resolve_closest_points.comp) in 31,250 of lavapipe's 65,535
   /// iterations.

@@ -114,8 +114,8 @@ Result<SphereSamples> sample_sphere(const Ball& sphere, const SphereSamplingOpti
   return out_of_memory("sampling a sphere");
 }
 
-Status refine_samples(SphereSamples& samples, const Foam& foam, double query_error,
-                      const NearestPointsFunction& nearest) try {
+Status refine_samples(const Foam& foam, double query_error, const NearestPointsFunction& nearest,
+                      SphereSamples& samples) try {
   std::vector<Point> queries;
   for (const FoamBall& f : foam.full_balls()) {
     if (f.kind != FoamBallKind::kHullVertex) queries.push_back(f.ball.centre);

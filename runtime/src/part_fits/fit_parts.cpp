@@ -65,6 +65,10 @@ class Fitting {
     if (options_.total > 0 && options_.count_per_link > 0) {
       return Error{ErrorCode::kUsage, "`count_per_link` and `total` cannot be used together"};
     }
+    if (options_.spheres.threads != 0 && options_.spheres.threads != options_.threads) {
+      return Error{ErrorCode::kUsage, "`threads` of the spheres is neither 0 nor that of the parts"};
+    }
+    options_.spheres.threads = options_.threads;
     for (const Part& part : parts_) {
       if (Status status = check(part); !status) return named(part, status.error());
     }
@@ -293,7 +297,7 @@ class Fitting {
   }
 
   std::span<const Part> parts_;
-  const PartFitOptions& options_;
+  PartFitOptions options_;
   const MakeExtractor& make_extractor_;
   const StageProgress& progress_;
   const std::stop_token& stop_;

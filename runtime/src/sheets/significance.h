@@ -10,6 +10,7 @@
 #include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 #include "medial_vk/shrinking_union.h"
+#include "medial_vk/significance.h"
 #include "sheets/voxel_graph.h"
 
 namespace medial_vk {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/point_ops.h"
+#include "bvh/refined_tree.h"
 
 namespace medial_vk {
 
@@ -31,7 +32,7 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
-  Result<Bvh> bvh = mesh.bvh().refined(kLeafSize);
+  Result<Bvh> bvh = refined_tree(mesh.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
   return Solid(mesh, std::move(bvh).value());
 }

@@ -8,8 +8,8 @@
 #include "base/host_memory.h"
 #include "base/stopwatch.h"
 #include "mesh/inspect_mesh.h"
-#include "whole_analysis/measure_sheets.h"
 #include "simplification/simplify_spheres.h"
+#include "whole_analysis/measure_sheets.h"
 
 namespace medial_vk {
 namespace {

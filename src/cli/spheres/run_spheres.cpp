@@ -149,7 +149,8 @@ class SpheresRun {
   }
 
   Status fit_robot(const StageProgress& on_progress, const std::stop_token& stop) {
-    const PartFitOptions fit_options = {options_.spheres, options_.count_per_link, options_.total};
+    const PartFitOptions fit_options = {options_.spheres, options_.count_per_link, options_.total,
+                                        options_.spheres.threads};
     Result<std::vector<PartFit>> fits = context_
                                             ? fit_parts(parts_, fit_options, *context_, on_progress, stop)
                                             : fit_parts(parts_, fit_options, reference_extractor(), on_progress, stop);

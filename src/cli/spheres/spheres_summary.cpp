@@ -34,7 +34,7 @@ std::string where(const SpheresOptions& options, const FitsRecord& record) {
   return fmt::format("{} ({}), {}", record.device->name, record.device->type, record.device->driver);
 }
 
-std::string promise(SphereContract contract) {
+std::string description_of(SphereContract contract) {
   switch (contract) {
     case SphereContract::kInside:
       return "inside: no sphere sticks out";
@@ -161,7 +161,7 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
   std::string spheres = grouped(count_spheres(record));
   if (options.spheres.levels) spheres += fmt::format(", in {} levels", record.solids.front().levels.size());
   std::string text = line("spheres", spheres);
-  text += line("contract", promise(fit.contract));
+  text += line("contract", description_of(fit.contract));
   text += line("certified", certificate_text(fit.contract, record));
   if (const std::optional<double> error = uncovered_share(record)) {
     text += line("error", fmt::format("{} of the volume is left uncovered", percent(error)));

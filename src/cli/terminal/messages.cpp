@@ -51,6 +51,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("samples"),
     library_only("sheets"),
     library_only("sphere"),
+    same("threads", "--threads"),
     library_only("tolerance"),
     {"total", {}, {}, "--total"},
     library_only("validation"),

@@ -6,6 +6,7 @@
 
 #include "medial_vk/medial_spheres.h"
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 
 namespace medial_vk {
 

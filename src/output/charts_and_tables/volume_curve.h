@@ -4,6 +4,7 @@
 #include <string>
 
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 
 namespace medial_vk {
 

@@ -13,6 +13,7 @@
 #include "medial_vk/context.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 
 namespace medial_vk {
 

@@ -1,4 +1,4 @@
-// The promises that hold for any mesh (docs/reliability.md, "Messy meshes").
+// The properties that hold for any mesh (docs/reliability.md, "Messy meshes").
 #pragma once
 
 #include <cstdint>

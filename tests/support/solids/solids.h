@@ -32,7 +32,7 @@ Mesh make_plate_with_two_holes(double a, double thickness);
 /// A torus of radii 1 and 0.4 in a generic position.
 Mesh make_turned_torus(std::uint32_t around = 60, std::uint32_t along = 30);
 
-/// The mesh in the form that the runtime takes, without a trusted normal.
+/// The mesh in the form that the library takes, without a trusted normal.
 MeshView view_of(const Mesh& mesh, bool closed = true);
 
 /// Bent about x, stretched and moved away: another box, another unit, and every part in another position.

@@ -19,7 +19,7 @@ namespace medial_vk {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kExact = 1e-12;  // relative, as the project promises for closed forms
+constexpr double kExact = 1e-12;  // relative, as the project guarantees for closed forms
 
 double ball_volume(double radius) { return 4 * kPi / 3 * radius * radius * radius; }
 

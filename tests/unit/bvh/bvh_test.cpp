@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "bvh/refined_tree.h"
 #include "medial_vk/bvh.h"
 #include "support/solids/solids.h"
 
@@ -124,7 +125,7 @@ TEST(Bvh, StaysShallowWhenTrianglesShrinkGeometrically) {
   ASSERT_TRUE(bvh.ok());
   expect_sound(bvh.value(), mesh.triangles.size());
   // The coarse tree has used up its depth before its leaves are split.
-  expect_sound(Bvh::build(test::view_of(mesh), 64).value().refined(1).value(), mesh.triangles.size());
+  expect_sound(refined_tree(Bvh::build(test::view_of(mesh), 64).value(), 1).value(), mesh.triangles.size());
 }
 
 TEST(Bvh, HandlesManyTrianglesInOnePlace) {
@@ -143,7 +144,8 @@ TEST(Bvh, RefinedIsTheTreeOfSmallerLeaves) {
   for (const Mesh& mesh : {test::make_torus(1.0, 0.4, 40, 30, 0.5), test::make_box({1, 2, 3})}) {
     const Bvh coarse = Bvh::build(test::view_of(mesh), 8).value();
     for (const std::uint32_t leaf_size : {1u, 2u, 4u, 8u}) {
-      const Bvh fine = coarse.refined(leaf_size).value(), built = Bvh::build(test::view_of(mesh), leaf_size).value();
+      const Bvh fine = refined_tree(coarse, leaf_size).value(),
+                built = Bvh::build(test::view_of(mesh), leaf_size).value();
       EXPECT_EQ(fine.order(), built.order());
       EXPECT_TRUE(fine.corners() == built.corners());
       ASSERT_EQ(fine.nodes().size(), built.nodes().size());

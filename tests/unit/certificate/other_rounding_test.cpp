@@ -27,7 +27,7 @@ namespace {
 
 using Rewrite = std::function<std::vector<std::uint32_t>(std::span<const std::uint32_t>)>;
 
-// All kernels of the runtime, rewritten.
+// All kernels of the library, rewritten.
 class OtherKernels {
  public:
   explicit OtherKernels(const Rewrite& rewrite) {

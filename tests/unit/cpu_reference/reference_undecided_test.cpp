@@ -1,4 +1,4 @@
-// The promises of undecided voxels: hidden medial points are of their kind, with feet no farther apart than stated.
+// The properties of undecided voxels: hidden medial points are of their kind, with feet no farther apart than stated.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -36,8 +36,8 @@ void expect_ordered(const Result& result) {
   }
 }
 
-/// Compares every independent sample whose voxel has no point with the promise of its voxel; counts them.
-int expect_promises_kept(const reference::Mesh& mesh, const Result& result, double angle) {
+/// Compares every independent sample whose voxel has no point with the stated properties of its voxel; counts them.
+int expect_stated_properties(const reference::Mesh& mesh, const Result& result, double angle) {
   const reference::Tree tree(mesh);
   std::map<Key, const Undecided*> undecided;
   for (const Undecided& u : result.undecided_voxels) undecided[key_of(u.voxel)] = &u;
@@ -82,7 +82,7 @@ TEST(ReferenceUndecided, HiddenPointsAreAsTheirVoxelSays) {
       options.extra_levels = levels;
       const Result result = reference::extract(mesh, options);
       expect_ordered(result);
-      hidden += expect_promises_kept(mesh, result, angle);
+      hidden += expect_stated_properties(mesh, result, angle);
     }
   }
   EXPECT_GT(hidden, 30);
@@ -101,7 +101,7 @@ TEST(ReferenceUndecided, UntrustedBoundaryIsDecided) {
   for (const Undecided& u : result.undecided_voxels) ++kinds[static_cast<std::size_t>(u.kind)];
   EXPECT_LT(kinds[static_cast<std::size_t>(UndecidedKind::kBoundary)], 30);
   EXPECT_EQ(kinds[static_cast<std::size_t>(UndecidedKind::kOther)], 0);
-  expect_promises_kept(mesh, result, options.object_angle);
+  expect_stated_properties(mesh, result, options.object_angle);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "base/point_ops.h"
 #include "medial_vk/sheets.h"
+#include "medial_vk/significance.h"
 #include "output/charts_and_tables/volume_curve.h"
 #include "sheets/sheets_around.h"
 

@@ -37,7 +37,7 @@ Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop) {
 }
 
 /// Spheres that violate the contract are not returned.
-Status check_promise(SphereContract contract, const SphereMeasures& measures) {
+Status check_contract(SphereContract contract, const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
   if (contract == SphereContract::kInside && !inside.proved()) {
     return Error{ErrorCode::kInternal, fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}",
@@ -77,7 +77,7 @@ Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Ex
   Result<SphereMeasures> measured =
       measure_spheres(solid, sets.value().back().balls, {.threads = {options.threads, goes_on}});
   if (!measured) return measured.error();
-  if (Status status = check_promise(options.contract, measured.value()); !status) return status.error();
+  if (Status status = check_contract(options.contract, measured.value()); !status) return status.error();
   SphereFit out;
   out.measures = std::move(measured).value();
   if (solid.has_volume()) out.solid_volume = solid.volume();

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/host_memory.h"
-#include "device_mesh/device_mesh.h"
-#include "device_mesh/indexed_mesh_impl.h"
+#include "indexed_mesh/indexed_mesh_impl.h"
+#include "tree_types.h"
 
 namespace medial_vk {
 namespace {
@@ -48,7 +48,7 @@ IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(imp
 Result<IndexedMesh> IndexedMesh::build(PreparedMesh mesh, unsigned threads) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
     if (Status status = check_flags(mesh.flags.size(), mesh.mesh.triangles.size()); !status.ok()) return status.error();
-    Result<Bvh> bvh = Bvh::build(mesh.view(), DeviceMesh::kLeafSize, threads);
+    Result<Bvh> bvh = Bvh::build(mesh.view(), gpu::kMostLeafTriangles, threads);
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), mesh.report);  // a caller may have filled in the mesh
     MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), threads);
@@ -64,7 +64,7 @@ Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, unsigned threads) {
     copy.flags.assign(mesh.flags.begin(), mesh.flags.end());
     copy.report = report_of(mesh);
     if (Status status = check_flags(mesh.flags.size(), mesh.triangles.size()); !status.ok()) return status.error();
-    Result<Bvh> bvh = Bvh::build(copy.view(), DeviceMesh::kLeafSize, threads);
+    Result<Bvh> bvh = Bvh::build(copy.view(), gpu::kMostLeafTriangles, threads);
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), copy.report);
     MeshLinks links = make_mesh_links(copy.view(), bvh.value().order(), threads);

@@ -11,7 +11,7 @@
 
 #include "device/context_impl.h"
 #include "device_mesh/device_mesh.h"
-#include "device_mesh/mesh_links.h"
+#include "indexed_mesh/mesh_links.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/scene.h"
 #include "support/device/device_test.h"

@@ -1,4 +1,4 @@
-#include "support/solids/mesh_promises.h"
+#include "support/solids/mesh_guarantees.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -93,9 +93,9 @@ double section_angle(const reference::Tree& tree, const SmoothMedialPoint& m, co
 
 }  // namespace
 
-std::vector<Promise> promises_of(const SmoothSolid& solid, const Mesh& mesh, double deviation, double spacing) {
+std::vector<Guarantee> guarantees_of(const SmoothSolid& solid, const Mesh& mesh, double deviation, double spacing) {
   const reference::Tree tree(to_reference(mesh));
-  std::vector<Promise> promises;
+  std::vector<Guarantee> guarantees;
   for (const SmoothMedialPoint& m : solid.medial_points(spacing)) {
     const Neighbourhood near = around(tree, m, deviation);
     if (near.reach > m.radius * std::sin(m.object_angle()) / 2) continue;
@@ -105,9 +105,9 @@ std::vector<Promise> promises_of(const SmoothSolid& solid, const Mesh& mesh, dou
     } else {
       angle = sheet_angle(tree, m, near.contacts);
     }
-    promises.push_back({m.point, near.reach, angle});
+    guarantees.push_back({m.point, near.reach, angle});
   }
-  return promises;
+  return guarantees;
 }
 
 double farthest_off(const MedialSphere& s, double deviation, double epsilon) {

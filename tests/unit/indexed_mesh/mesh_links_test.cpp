@@ -1,5 +1,5 @@
 // The turn of spokes from the normals of the triangles that they end on (docs/theory.md, Lemma L).
-#include "device_mesh/mesh_links.h"
+#include "indexed_mesh/mesh_links.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Promises of a mesh that stays within d of a smooth boundary about the smooth solid's medial surface. Let m be a
+// Guarantees about the medial surface of a smooth solid, by a mesh that stays within d of its boundary. Let m be a
 // smooth medial point of radius r whose spokes make an angle alpha with the tangent of its sheet or curve.
 //
 // Position. Across the sheet or curve the smooth distance at h from m is at most r - h sin(alpha) + h^2 / (2 r), the
@@ -34,13 +34,13 @@
 namespace medial_vk::test {
 
 /// A smooth medial point, and an object angle that the mesh is known to have within `reach` of it.
-struct Promise {
+struct Guarantee {
   Eigen::Vector3d point;
   double reach, object_angle;
 };
 
 /// For the solid's medial points, `spacing` apart. `deviation`: d above.
-std::vector<Promise> promises_of(const SmoothSolid& solid, const Mesh& mesh, double deviation, double spacing);
+std::vector<Guarantee> guarantees_of(const SmoothSolid& solid, const Mesh& mesh, double deviation, double spacing);
 
 /// Bound of the distance from the smooth medial surface of a point of the mesh like `s`; infinite if nothing is known.
 double farthest_off(const MedialSphere& s, double deviation, double epsilon);

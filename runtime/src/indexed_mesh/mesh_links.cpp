@@ -1,4 +1,4 @@
-#include "device_mesh/mesh_links.h"
+#include "indexed_mesh/mesh_links.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // The data of an IndexedMesh.
 #pragma once
 
-#include "device/internals.h"
-#include "device_mesh/mesh_links.h"
+#include "base/internals.h"
+#include "indexed_mesh/mesh_links.h"
 #include "medial_vk/indexed_mesh.h"
 
 namespace medial_vk {
