@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <new>
 #include <optional>
 
@@ -146,7 +145,7 @@ void join_maps(const PreparedMesh& before, const OuterBoundary& boundary, Prepar
   for (std::uint32_t& t : prepared.input_of_triangle) t = before.input_of_triangle[boundary.source[t]];
 }
 
-Result<PreparedMesh> prepare(Mesh mesh, bool keep_inner_faces, unsigned threads);
+Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options);
 
 /// Prepares the boundary of a prepared mesh, if it has inner triangles. No value: it has none.
 std::optional<Result<PreparedMesh>> prepare_boundary(const PreparedMesh& whole, const SurfaceParts& parts,
@@ -154,14 +153,15 @@ std::optional<Result<PreparedMesh>> prepare_boundary(const PreparedMesh& whole, 
                                                      unsigned threads) {
   OuterBoundary boundary = find_outer_boundary(whole.mesh, parts.component_of, tree, intersections, threads);
   if (boundary.inner_triangles == 0 || boundary.mesh.triangles.empty()) return std::nullopt;
-  Result<PreparedMesh> prepared = prepare(std::move(boundary.mesh), true, threads);
+  Result<PreparedMesh> prepared = prepare(std::move(boundary.mesh), {true, threads});
   if (!prepared) return std::nullopt;
   carry_over(whole.report, boundary, prepared.value().report);
   join_maps(whole, boundary, prepared.value());
   return prepared;
 }
 
-Result<PreparedMesh> prepare(Mesh mesh, bool keep_inner_faces, unsigned threads) {
+Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options) {
+  const unsigned threads = options.threads;
   if (const Status status = check_input(mesh); !status) return status.error();
   PreparedMesh prepared;
   const std::size_t given = mesh.triangles.size();
@@ -205,7 +205,7 @@ Result<PreparedMesh> prepare(Mesh mesh, bool keep_inner_faces, unsigned threads)
   set_flags(prepared, regular, intersections, sides);
   write_assumptions(report);
   const bool may_overlap = intersections.known && (intersections.count > 0 || report.faces_within > 0);
-  if (may_overlap && !keep_inner_faces) {
+  if (may_overlap && !options.keep_inner_faces) {
     if (auto boundary = prepare_boundary(prepared, parts, tree, intersections, threads)) return std::move(*boundary);
   }
   return prepared;
@@ -213,9 +213,9 @@ Result<PreparedMesh> prepare(Mesh mesh, bool keep_inner_faces, unsigned threads)
 
 }  // namespace
 
-Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads) {
+Result<PreparedMesh> prepare_mesh(Mesh mesh, const PrepareOptions& options) {
   try {
-    return prepare(std::move(mesh), std::getenv("MVK_KEEP") != nullptr, threads);
+    return prepare(std::move(mesh), options);
   } catch (const std::bad_alloc&) {
     return out_of_memory("preparing the mesh");
   }

@@ -110,6 +110,7 @@ class ExtractionRun {
     record_.seed = options_.seed;
     record_.perturb = options_.perturb;
     record_.simplify = options_.simplify;
+    record_.keep_inner_faces = options_.keep_inner_faces;
     record_.mesh = mesh.value().report;
     return index(std::move(mesh).value());
   }

@@ -86,7 +86,7 @@ class SpheresRun {
   }
 
   Status load_one_mesh() {
-    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, options_.spheres.threads, record_.times);
+    Result<PreparedMesh> mesh = load_mesh(options_.input, opening_, prepare_options(), record_.times);
     if (!mesh) return mesh.error();
     record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
     const unsigned threads = options_.spheres.threads;
@@ -98,6 +98,8 @@ class SpheresRun {
     record_.solids.push_back(std::move(solid));
     return {};
   }
+
+  PrepareOptions prepare_options() const { return {options_.keep_inner_faces, options_.spheres.threads}; }
 
   Status load_robot() {
     const EndAtOnce guard;
@@ -114,7 +116,7 @@ class SpheresRun {
     const bool cover = options_.spheres.contract == SphereContract::kCover;
     Result<RobotParts> loaded =
         load_parts(robot_, options_.visual, cover ? FacetSide::kCircumscribed : FacetSide::kInscribed, places.value(),
-                   options_.input, options_.spheres.threads);
+                   options_.input, prepare_options());
     if (!loaded) return loaded.error();
     parts_ = std::move(loaded.value().parts);
     for (std::size_t i = 0; i < parts_.size(); ++i) {

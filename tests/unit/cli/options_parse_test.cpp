@@ -195,6 +195,7 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "--extra-levels",
                                   "2",
                                   "--simplify",
+                                  "--keep-inner-faces",
                                   "--perturb",
                                   "1e-4",
                                   "--seed",
@@ -210,7 +211,7 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "-v"});
   EXPECT_EQ(options.output, "b.csv");
   EXPECT_EQ(options.format, MedialFormat::kCsv);
-  EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
+  EXPECT_TRUE(options.ascii && options.simplify && options.keep_inner_faces && options.check && options.verbose);
   EXPECT_TRUE(options.extraction.measurements.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
@@ -343,11 +344,20 @@ TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
 
 TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
   const std::string help = help_text();
-  for (const char* name :
-       {"MESH",           "--output",       "--ascii",   "--report",  "--picture",      "--html",     "--resolution",
-        "--object-angle", "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify", "--perturb",
-        "--seed",         "--list-devices", "--device",  "--backend", "--memory",       "--threads",  "--check",
-        "--kernel-times", "--quiet",        "--verbose", "--version", "--help",         "130"}) {
+  for (const char* name : {"MESH",           "--output",
+                           "--ascii",        "--report",
+                           "--picture",      "--html",
+                           "--resolution",   "--object-angle",
+                           "--radius",       "--epsilon",
+                           "--mode",         "--extra-levels",
+                           "--simplify",     "--perturb",
+                           "--seed",         "--list-devices",
+                           "--device",       "--backend",
+                           "--memory",       "--threads",
+                           "--check",        "--keep-inner-faces",
+                           "--kernel-times", "--quiet",
+                           "--verbose",      "--version",
+                           "--help",         "130"}) {
     EXPECT_THAT(help, HasSubstr(name));
   }
   std::size_t begin = 0;
