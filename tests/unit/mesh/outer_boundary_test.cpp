@@ -176,7 +176,8 @@ TEST(OuterBoundary, MapsLeadToTheInput) {
       const Point p = prepared.mesh.vertices[v];
       for (std::size_t k = 0; k < 3; ++k) {
         // The grid of 2^-50 has the scale 2 here, for vertices and for new points.
-        if (corners[0][k] == corners[1][k] && corners[0][k] == corners[2][k]) EXPECT_NEAR(p[k], corners[0][k], 4 * 0x1p-49);
+        if (corners[0][k] != corners[1][k] || corners[0][k] != corners[2][k]) continue;
+        EXPECT_NEAR(p[k], corners[0][k], 4 * 0x1p-49);
       }
     }
   }
