@@ -37,8 +37,8 @@ bool is_finite(const Mesh& mesh) {
 
 class PartLoader {
  public:
-  PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name, unsigned threads)
-      : side_(side), places_(places), name_(name), threads_(threads) {}
+  PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name, const PrepareOptions& options)
+      : side_(side), places_(places), name_(name), options_(options) {}
 
   Status add(const Link& link, const std::vector<Geometry>& geometries) {
     for (std::size_t i = 0; i < geometries.size(); ++i) {
@@ -94,11 +94,11 @@ class PartLoader {
   }
 
   Status index(Mesh mesh, Part& part) const {
-    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads_);
+    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options_);
     if (!prepared) {
       return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
     }
-    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), threads_);
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), options_.threads);
     if (!indexed) return indexed.error();
     part.mesh = std::move(indexed).value();
     return {};
@@ -119,7 +119,7 @@ class PartLoader {
   FacetSide side_;
   const MeshPlaces& places_;
   const std::string& name_;
-  unsigned threads_;
+  const PrepareOptions& options_;
   std::map<std::string, Mesh> files_;
   std::map<std::pair<std::string, Point>, IndexedMesh> indexed_;  // by file and scale
 };
@@ -127,8 +127,8 @@ class PartLoader {
 }  // namespace
 
 Result<RobotParts> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
-                              const std::string& name, unsigned threads) {
-  PartLoader loader(side, places, name, threads);
+                              const std::string& name, const PrepareOptions& options) {
+  PartLoader loader(side, places, name, options);
   for (const Link& link : robot.links) {
     if (Status status = loader.add(link, visual ? link.visual : link.collision); !status) return status.error();
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial_vk/part_fits.h"
+#include "medial_vk/prepare.h"
 #include "robots/find_mesh.h"
 #include "robots/model/robot.h"
 #include "robots/primitive_mesh.h"
@@ -23,9 +24,9 @@ struct RobotParts {
 };
 
 /// `side` applies to the facets of curved primitives. A mesh used several times is read once, and indexed once for each
-/// scale. `threads`: as in prepare_mesh(). Errors: kInvalidMesh, naming the file, link and mesh; also if no link has
+/// scale. `options`: as in prepare_mesh(). Errors: kInvalidMesh, naming the file, link and mesh; also if no link has
 /// such geometry.
 Result<RobotParts> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
-                              const std::string& name, unsigned threads = 0);
+                              const std::string& name, const PrepareOptions& options = {});
 
 }  // namespace medial_vk

@@ -58,9 +58,9 @@ Mesh large_mesh() { return test::make_torus(1.0, 0.4, 260, 140, 0.5); }
 std::vector<Part> two_boxes(unsigned threads) {
   std::vector<Part> parts(2);
   parts[0].link = parts[0].name = "upper";
-  parts[0].mesh = test::indexed(prepare_mesh(test::make_box({1, 0.7, 0.45}), threads).value(), threads);
+  parts[0].mesh = test::indexed(prepare_mesh(test::make_box({1, 0.7, 0.45}), {.threads = threads}).value(), threads);
   parts[1].link = parts[1].name = "lower";
-  parts[1].mesh = test::indexed(prepare_mesh(test::make_box({0.6, 0.5, 0.3}), threads).value(), threads);
+  parts[1].mesh = test::indexed(prepare_mesh(test::make_box({0.6, 0.5, 0.3}), {.threads = threads}).value(), threads);
   parts[1].pose = make_pose({0, 0, -1}, {0.1, 0, 0});
   return parts;
 }
@@ -144,7 +144,7 @@ TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
 }
 
 TEST_F(WorkCounts, OneThreadIsOneThread) {
-  const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh(), 1).value(), 1).value();
+  const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh(), {.threads = 1}).value(), 1).value();
   AnalysisOptions options;
   options.extraction.resolution = 60;
   options.volumes = options.removal_orders = options.medial_mesh = true;
@@ -169,7 +169,7 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
 
 // Without this, the test above could not fail.
 TEST_F(WorkCounts, MoreThreadsAreStarted) {
-  ASSERT_TRUE(prepare_mesh(large_mesh(), 4).ok());
+  ASSERT_TRUE(prepare_mesh(large_mesh(), {.threads = 4}).ok());
   EXPECT_GT(threads, 0);
 }
 

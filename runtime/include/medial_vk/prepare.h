@@ -8,15 +8,27 @@
 
 namespace medial_vk {
 
+struct PrepareOptions {
+  /// Keep the faces that do not bound the solid as a part of its boundary, and do not cut faces along their crossings.
+  /// The prepared mesh then has no other vertices than the given one.
+  bool keep_inner_faces = false;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+
+  bool operator==(const PrepareOptions&) const = default;
+};
+
 /// Merges equal vertices, drops degenerate and duplicate faces and unused vertices, makes the orientation of each
 /// component consistent (and outward, if the whole mesh is inside out), and determines which normals can be trusted.
-/// `threads`: of the host, 0: one per core; the result does not depend on it. Does not throw. Errors: kInvalidMesh (an
-/// index out of range, a coordinate that is not finite; nothing is left, or nothing is enclosed), kOutOfMemory.
-Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads = 0);
+/// Faces that cross are cut along their crossings, and faces inside the solid are left out: the winding number is at
+/// least 1/2 on both sides of them, or that of the other components is (docs/theory.md, "The boundary of overlapping
+/// parts"). The vertices on crossings follow the others. Does not throw. Errors: kInvalidMesh (an index out of range, a
+/// coordinate that is not finite; nothing is left, or nothing is enclosed), kOutOfMemory.
+Result<PreparedMesh> prepare_mesh(Mesh mesh, const PrepareOptions& options = {});
 
 /// Moves every vertex by a seeded random vector of length up to `amplitude` times the longest side (2.4.4), and
 /// prepares the mesh again, as moved faces may cross. Corners that coincide move together. The report covers both
 /// preparations. Errors: those of prepare_mesh().
-Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads = 0);
+Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed,
+                                  const PrepareOptions& options = {});
 
 }  // namespace medial_vk

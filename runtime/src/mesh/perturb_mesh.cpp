@@ -40,6 +40,8 @@ void carry_over(const MeshReport& before, MeshReport& after) {
   after.reoriented_faces += before.reoriented_faces;
   after.minority_faces += before.minority_faces;
   after.reoriented_components += before.reoriented_components;
+  after.cut_faces += before.cut_faces;
+  after.inner_faces += before.inner_faces;
   after.inside_out = after.inside_out || before.inside_out;
   std::vector<std::string> assumptions = before.assumptions;
   for (std::string& assumption : after.assumptions) {
@@ -71,10 +73,11 @@ void perturb_vertices(Mesh& mesh, double amplitude, std::uint64_t seed) {
 
 }  // namespace
 
-Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed, unsigned threads) try {
+Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint64_t seed,
+                                  const PrepareOptions& options) try {
   const MeshReport before = std::move(mesh.report);
   perturb_vertices(mesh.mesh, amplitude, seed);
-  Result<PreparedMesh> perturbed = prepare_mesh(std::move(mesh.mesh), threads);
+  Result<PreparedMesh> perturbed = prepare_mesh(std::move(mesh.mesh), options);
   if (!perturbed) return perturbed;
   MeshReport& report = perturbed.value().report;
   carry_over(before, report);

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
 #include "mesh/clean_mesh.h"
+#include "mesh/crossings/self_intersections.h"
 #include "mesh/inspect_mesh.h"
-#include "mesh/self_intersections.h"
+#include "mesh/outer_boundary.h"
 #include "mesh/sidedness.h"
 
 namespace medial_vk {
@@ -114,7 +116,52 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
       report.open_edges, report.triangles));
 }
 
-Result<PreparedMesh> prepare(Mesh mesh, unsigned threads) {
+/// The report of a mesh and of its boundary: counts of the file are those of the mesh, all others of the boundary.
+void carry_over(const MeshReport& before, const OuterBoundary& boundary, MeshReport& report) {
+  report.cut_faces = boundary.cut_triangles;
+  report.inner_faces = boundary.inner_triangles;
+  report.merged_vertices = before.merged_vertices;
+  report.unused_vertices = before.unused_vertices;
+  report.fallback_polygons = before.fallback_polygons;
+  report.degenerates_dropped = before.degenerates_dropped;
+  report.caps_repaired = before.caps_repaired;
+  report.duplicates_dropped = before.duplicates_dropped;
+  report.inner_walls_dropped = before.inner_walls_dropped;
+  report.reoriented_faces += before.reoriented_faces;
+  report.minority_faces += before.minority_faces;
+  report.reoriented_components += before.reoriented_components;
+  report.inside_out = report.inside_out || before.inside_out;
+  report.assumptions.clear();
+  write_assumptions(report);
+}
+
+/// Maps of input indices through the boundary.
+void join_maps(const PreparedMesh& before, const OuterBoundary& boundary, PreparedMesh& prepared) {
+  std::vector<std::uint32_t> vertex_of_input = before.vertex_of_input;
+  for (std::uint32_t& v : vertex_of_input) {
+    if (v != PreparedMesh::kDropped) v = prepared.vertex_of_input[v];
+  }
+  prepared.vertex_of_input = std::move(vertex_of_input);
+  for (std::uint32_t& t : prepared.input_of_triangle) t = before.input_of_triangle[boundary.source[t]];
+}
+
+Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options);
+
+/// Prepares the boundary of a prepared mesh, if it has inner triangles. No value: it has none.
+std::optional<Result<PreparedMesh>> prepare_boundary(const PreparedMesh& whole, const SurfaceParts& parts,
+                                                     const TriangleTree& tree, const SelfIntersections& intersections,
+                                                     unsigned threads) {
+  OuterBoundary boundary = find_outer_boundary(whole.mesh, parts.component_of, tree, intersections, threads);
+  if (boundary.inner_triangles == 0 || boundary.mesh.triangles.empty()) return std::nullopt;
+  Result<PreparedMesh> prepared = prepare(std::move(boundary.mesh), {true, threads});
+  if (!prepared) return std::nullopt;
+  carry_over(whole.report, boundary, prepared.value().report);
+  join_maps(whole, boundary, prepared.value());
+  return prepared;
+}
+
+Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options) {
+  const unsigned threads = options.threads;
   if (const Status status = check_input(mesh); !status) return status.error();
   PreparedMesh prepared;
   const std::size_t given = mesh.triangles.size();
@@ -157,14 +204,18 @@ Result<PreparedMesh> prepare(Mesh mesh, unsigned threads) {
   if (const Status status = check_enclosure(report, volumes, sides); !status) return status.error();
   set_flags(prepared, regular, intersections, sides);
   write_assumptions(report);
+  const bool may_overlap = intersections.known && (intersections.count > 0 || report.faces_within > 0);
+  if (may_overlap && !options.keep_inner_faces) {
+    if (auto boundary = prepare_boundary(prepared, parts, tree, intersections, threads)) return std::move(*boundary);
+  }
   return prepared;
 }
 
 }  // namespace
 
-Result<PreparedMesh> prepare_mesh(Mesh mesh, unsigned threads) {
+Result<PreparedMesh> prepare_mesh(Mesh mesh, const PrepareOptions& options) {
   try {
-    return prepare(std::move(mesh), threads);
+    return prepare(std::move(mesh), options);
   } catch (const std::bad_alloc&) {
     return out_of_memory("preparing the mesh");
   }

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "medial_vk/mesh.h"
+#include "mesh/crossings/self_intersections.h"
+#include "mesh/crossings/triangle_tree.h"
 #include "mesh/mesh_topology.h"
-#include "mesh/self_intersections.h"
 #include "mesh/surface_parts.h"
-#include "mesh/triangle_tree.h"
 
 namespace medial_vk {
 

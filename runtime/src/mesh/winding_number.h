@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "medial_vk/mesh.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/crossings/triangle_tree.h"
 
 namespace medial_vk {
 

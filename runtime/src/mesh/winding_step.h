@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "mesh/triangle_tree.h"
+#include "mesh/crossings/triangle_tree.h"
 
 namespace medial_vk {
 

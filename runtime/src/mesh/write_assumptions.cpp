@@ -73,6 +73,13 @@ void write_assumptions(MeshReport& r) {
   if (r.components > 1) {
     add(fmt::format("{} components: a point is inside if their winding numbers add up to at least 1/2.", r.components));
   }
+  if (r.cut_faces > 0) {
+    add(fmt::format("{} that cross others: cut along the crossings.", faces(r.cut_faces)));
+  }
+  if (r.inner_faces > 0) {
+    add(fmt::format("{} with the inside on both sides: left out, as they do not bound the solid.",
+                    faces(r.inner_faces)));
+  }
   if (r.intersecting_faces > 0) {
     add(fmt::format("{} that cross or touch others: normals there are not relied on.", faces(r.intersecting_faces)));
   }

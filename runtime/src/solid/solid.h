@@ -6,7 +6,7 @@
 #include "medial_vk/bvh.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/crossings/triangle_tree.h"
 #include "mesh/winding_number.h"
 
 namespace medial_vk {

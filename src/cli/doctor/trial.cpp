@@ -148,7 +148,7 @@ bool has_files(const std::string& folder) {
 }  // namespace
 
 Result<TrialTask> make_trial_task() {
-  Result<PreparedMesh> prepared = prepare_mesh(make_solid(), 1);
+  Result<PreparedMesh> prepared = prepare_mesh(make_solid(), {.threads = 1});
   if (!prepared) return prepared.error();
   Result<IndexedMesh> mesh = IndexedMesh::build(std::move(prepared).value(), 1);
   if (!mesh) return mesh.error();

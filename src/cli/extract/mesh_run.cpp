@@ -53,6 +53,7 @@ MeshRun::MeshRun(Options options, std::string part, SharedOfRun& shared)
   record_.seed = options_.seed;
   record_.perturb = options_.perturb;
   record_.simplify = options_.simplify;
+  record_.keep_inner_faces = options_.keep_inner_faces;
 }
 
 Status MeshRun::load(Mesh mesh) {

@@ -77,6 +77,9 @@ What is looked for (lengths are fractions, so units do not matter):
       --extra-levels N  how often a difficult voxel is halved before it counts
                         as undecided, 0 to 8 (default 6)
       --simplify        drop points within E of another one in a voxel beside it
+      --keep-inner-faces
+                        take faces inside the solid, such as those of a part
+                        that reaches into another one, for its boundary, too
       --perturb A       move every vertex by up to A times the longest side,
                         0 to 0.1, for degenerate solids (default 0: off)
       --seed N          seed of --perturb (default 1)

@@ -51,6 +51,7 @@ void declare(CLI::App& app, Options& options) {
   add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, extraction.mode);
   add.whole("--extra-levels", 0, 8, " levels", extraction.extra_levels);
   add.flag("--simplify", options.simplify);
+  add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);
   add.whole("--seed", 0, UINT64_MAX, "", options.seed);
 

@@ -31,6 +31,7 @@ struct Options {
   bool gpu_instancing = false;
   std::optional<std::uint32_t> sphere_detail;  ///< None: the default, or less for large files.
 
+  bool keep_inner_faces = false;
   ExtractionOptions extraction;
   double perturb = 0;  ///< Fraction of the longest side; 0: off.
   std::uint64_t seed = 1;

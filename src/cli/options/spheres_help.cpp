@@ -73,6 +73,9 @@ Output:
       --histogram FILE  .svg or .csv: how far surface and spheres are apart, by
                         area (of a mesh)
       --report FILE     everything about the run as JSON; "-": standard output
+      --keep-inner-faces
+                        take faces inside the solid, such as those of a part
+                        that reaches into another one, for its boundary, too
 
       --check           also test the promise by the independent CPU reference;
                         exit code 7 if it is not kept

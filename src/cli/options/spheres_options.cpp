@@ -54,6 +54,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
       fit.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.spheres.levels);
+  add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
   app.add_option("--package", options.packages)->type_name("name=folder")->allow_extra_args(false);

@@ -25,6 +25,7 @@ struct SpheresOptions {
   std::string output;     ///< Never empty after parsing; "-": standard output.
   SphereFormat format = SphereFormat::kCsv;
 
+  bool keep_inner_faces = false;
   SphereOptions spheres;           ///< `threads` is the number for the whole run.
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.

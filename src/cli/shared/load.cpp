@@ -30,13 +30,13 @@ Result<std::vector<ScenePart>> read_meshes(const std::string& path, bool each, s
   return parts;
 }
 
-Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const DeviceOpening& opening, unsigned threads,
-                                    std::vector<StageTime>& times) {
+Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const DeviceOpening& opening,
+                                    const PrepareOptions& options, std::vector<StageTime>& times) {
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
-  threads = opening.threads_beside(mesh.triangles.size(), threads);
-  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), threads);
+  const unsigned threads = opening.threads_beside(mesh.triangles.size(), options.threads);
+  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), {options.keep_inner_faces, threads});
   if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", path, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
   return prepared;
@@ -44,12 +44,13 @@ Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const De
 
 Result<PreparedMesh> prepare_loaded(Mesh mesh, const Options& options, const DeviceOpening& opening,
                                     std::vector<StageTime>& times) {
-  Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options.mesh, opening, options.threads, times);
+  const PrepareOptions prepare = {options.keep_inner_faces, options.threads};
+  Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options.mesh, opening, prepare, times);
   if (!prepared || options.perturb == 0) return prepared;
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
-  prepared = perturb_mesh(std::move(prepared).value(), options.perturb, options.seed, options.threads);
+  prepared = perturb_mesh(std::move(prepared).value(), options.perturb, options.seed, prepare);
   if (prepared) {
     for (std::string& assumption : prepared.value().report.assumptions) {
       assumption = in_words_of_options(std::move(assumption), Command::kExtract);

@@ -55,7 +55,7 @@ class SpheresRun {
     record_.times = shared_.times;
     const unsigned threads = options_.spheres.threads;
     Result<PreparedMesh> prepared =
-        prepare_loaded(std::move(mesh), options_.input, shared_.opening, threads, record_.times);
+        prepare_loaded(std::move(mesh), options_.input, shared_.opening, prepare_options(), record_.times);
     if (!prepared) return prepared.error();
     record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
     if (!record_.part.empty()) record_.name = record_.part;
@@ -67,6 +67,8 @@ class SpheresRun {
     record_.solids.push_back(std::move(solid));
     return {};
   }
+
+  PrepareOptions prepare_options() const { return {options_.keep_inner_faces, options_.spheres.threads}; }
 
   Status load_robot() {
     const EndAtOnce guard;
@@ -84,7 +86,7 @@ class SpheresRun {
     const bool cover = options_.spheres.contract == SphereContract::kCover;
     Result<RobotParts> loaded =
         load_parts(robot_, options_.visual, cover ? FacetSide::kCircumscribed : FacetSide::kInscribed, places.value(),
-                   options_.input, options_.spheres.threads);
+                   options_.input, prepare_options());
     if (!loaded) return loaded.error();
     parts_ = std::move(loaded.value().parts);
     for (std::size_t i = 0; i < parts_.size(); ++i) {

@@ -29,6 +29,7 @@ Json options_json(const RunRecord& record) {
                {"epsilon", options.epsilon},
                {"extra_levels", options.extra_levels},
                {"simplify", record.simplify},
+               {"keep_inner_faces", record.keep_inner_faces},
                {"perturb", record.perturb},
                {"seed", record.seed},
                {"memory_bytes", options.memory_budget}};
@@ -51,6 +52,8 @@ Json mesh_json(const MeshReport& mesh, double longest_side) {
           {"caps_repaired", mesh.caps_repaired},
           {"duplicates_dropped", mesh.duplicates_dropped},
           {"inner_walls_dropped", mesh.inner_walls_dropped},
+          {"cut_faces", mesh.cut_faces},
+          {"inner_faces_left_out", mesh.inner_faces},
           {"open_edges", mesh.open_edges},
           {"non_manifold_edges", mesh.non_manifold_edges},
           {"inconsistent_edges", mesh.inconsistent_edges},

@@ -43,6 +43,7 @@ struct RunRecord {
   std::uint64_t seed = 0;
   double perturb = 0;  ///< Amplitude as a fraction of the longest side; 0: off.
   bool simplify = false;
+  bool keep_inner_faces = false;
 
   MeshReport mesh;
   double longest_side = 0;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "ball_unions/triangulation/double_double.h"
-#include "ball_unions/triangulation/expansion.h"
+#include "base/double_double.h"
+#include "base/expansion.h"
 #include "support/exact_number.h"
 
 namespace medial_vk {

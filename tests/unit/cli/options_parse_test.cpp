@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "cli/options/options.h"
 #include "cli/options/parse_number.h"
@@ -195,6 +196,7 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "--extra-levels",
                                   "2",
                                   "--simplify",
+                                  "--keep-inner-faces",
                                   "--perturb",
                                   "1e-4",
                                   "--seed",
@@ -210,7 +212,7 @@ TEST(Options, EveryOptionIsUnderstood) {
                                   "-v"});
   EXPECT_EQ(options.output, "b.csv");
   EXPECT_EQ(options.format, MedialFormat::kCsv);
-  EXPECT_TRUE(options.ascii && options.simplify && options.check && options.verbose);
+  EXPECT_TRUE(options.ascii && options.simplify && options.keep_inner_faces && options.check && options.verbose);
   EXPECT_TRUE(options.extraction.measurements.kernel_times);
   EXPECT_EQ(options.report, "r.json");
   EXPECT_EQ(options.picture, "p.png");
@@ -343,11 +345,11 @@ TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
 
 TEST(Options, HelpNamesEveryOptionAndFitsATerminal) {
   const std::string help = help_text();
-  for (const char* name :
-       {"MESH",         "--each",         "--output",       "--ascii",   "--report",  "--picture",      "--html",
-        "--resolution", "--object-angle", "--radius",       "--epsilon", "--mode",    "--extra-levels", "--simplify",
-        "--perturb",    "--seed",         "--list-devices", "--device",  "--backend", "--memory",       "--threads",
-        "--check",      "--kernel-times", "--quiet",        "--verbose", "--version", "--help",         "130"}) {
+  std::istringstream names(
+      "MESH --each --output --ascii --report --picture --html --resolution --object-angle --radius --epsilon --mode "
+      "--extra-levels --simplify --keep-inner-faces --perturb --seed --list-devices --device --backend --memory "
+      "--threads --check --kernel-times --quiet --verbose --version --help 130");
+  for (std::string name; names >> name;) {
     EXPECT_THAT(help, HasSubstr(name));
   }
   std::size_t begin = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "mesh/self_intersections.h"
+#include "mesh/crossings/self_intersections.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {

@@ -52,7 +52,8 @@ TEST(Prepare, MessIsNeverTrusted) {
     });
     EXPECT_EQ(corner.flags[i], at_corner ? kUncrossed : kUncrossed | kTrustedNormal);
   }
-  const PreparedMesh cross = prepare(together(make_sphere(1, 500), moved(make_sphere(1, 500), {1.03, 0.02, 0.01})));
+  const Mesh spheres = together(make_sphere(1, 500), moved(make_sphere(1, 500), {1.03, 0.02, 0.01}));
+  const PreparedMesh cross = prepare_mesh(spheres, {.keep_inner_faces = true}).value();
   EXPECT_GT(cross.report.intersecting_faces, 40u);
   EXPECT_GT(cross.report.faces_within, 50u);
   EXPECT_LE(cross.report.trusted_triangles, cross.report.triangles - cross.report.intersecting_faces - 50);

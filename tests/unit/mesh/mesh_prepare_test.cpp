@@ -207,7 +207,7 @@ TEST(Prepare, EverythingTwice) {
 TEST(Prepare, FacesThatOverlapAreNotTrusted) {
   const Mesh box = make_box({1, 1, 1});
   Mesh half = make_box({0.5, 0.5, 0.5});  // within the box, three of its sides on the box's
-  const PreparedMesh prepared = prepare(together(box, half));
+  const PreparedMesh prepared = prepare_mesh(together(box, half), {.keep_inner_faces = true}).value();
   EXPECT_EQ(prepared.report.duplicates_dropped, 0u);
   EXPECT_EQ(prepared.report.triangles, 24u);
   EXPECT_GE(prepared.report.intersecting_faces, 12u);
@@ -281,7 +281,7 @@ TEST(Prepare, AnInsideOutNeighbourIsTurned) {
   Mesh mesh = together(make_sphere(2, 500), moved(over(make_sphere(1, 300)), {4, 0, 0}));
   append(mesh, moved(make_sphere(0.5, 100), {4, 0, 0}));
   append(mesh, moved(make_sphere(0.5, 100), {0, 0, 0}));
-  const PreparedMesh prepared = prepare(mesh);
+  const PreparedMesh prepared = prepare_mesh(mesh, {.keep_inner_faces = true}).value();
   EXPECT_EQ(prepared.report.reoriented_components, 2u);
   EXPECT_EQ(prepared.report.faces_within, make_sphere(0.5, 100).triangles.size());
   EXPECT_EQ(prepared.report.trusted_triangles, mesh.triangles.size() - prepared.report.faces_within);

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "ball_unions/triangulation/double_double.h"
-#include "ball_unions/triangulation/expansion.h"
+#include "base/double_double.h"
+#include "base/expansion.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/mesh_view.h"
 

@@ -1,8 +1,8 @@
-#include "ball_unions/triangulation/expansion.h"
+#include "base/expansion.h"
 
 #include <utility>
 
-#include "ball_unions/triangulation/double_double.h"
+#include "base/double_double.h"
 
 namespace medial_vk {
 namespace {
@@ -88,6 +88,33 @@ Expansion ExpansionMath::product(Expansion e, Expansion f) {
   Expansion sum_so_far = scale(e, f[0]);
   for (std::size_t k = 1; k < f.size(); ++k) sum_so_far = sum(sum_so_far, scale(e, f[k]));
   return sum_so_far;
+}
+
+/// Shewchuk, theorem 23: sums from the largest component down, then from the smallest up.
+Expansion ExpansionMath::compressed(Expansion e) {
+  if (e.size() < 2) return e;
+  const std::size_t size = e.size();
+  double* const out = arena_->take(size);
+  double carried = e.back();
+  std::size_t bottom = size - 1;
+  for (std::size_t i = size - 1; i-- > 0;) {
+    const auto [high, low] = fast_two_sum(carried, e[i]);
+    if (low == 0) {
+      carried = high;
+    } else {
+      out[bottom--] = high;
+      carried = low;
+    }
+  }
+  out[bottom] = carried;
+  std::size_t top = 0;
+  for (std::size_t i = bottom + 1; i < size; ++i) {
+    const auto [high, low] = fast_two_sum(out[i], carried);
+    if (low != 0) out[top++] = low;
+    carried = high;
+  }
+  if (carried != 0) out[top++] = carried;
+  return {out, top};
 }
 
 }  // namespace medial_vk

@@ -1,4 +1,4 @@
-#include "mesh/triangle_tree.h"
+#include "mesh/crossings/triangle_tree.h"
 
 #include <algorithm>
 #include <bit>

@@ -70,6 +70,8 @@ class ExpansionMath {
   Expansion sum(Expansion e, Expansion f) { return combine(e, f, 1); }
   Expansion difference(Expansion e, Expansion f) { return combine(e, f, -1); }
   Expansion product(Expansion e, Expansion f);
+  /// The same number in as few components as its bits require, up to a few.
+  Expansion compressed(Expansion e);
 
  private:
   Expansion pair(double high, double low);

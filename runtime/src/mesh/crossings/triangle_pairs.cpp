@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/point_ops.h"
-#include "mesh/self_intersections.h"
+#include "mesh/crossings/self_intersections.h"
 
 namespace medial_vk {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/self_intersections.h"
+#include "mesh/crossings/self_intersections.h"
 
 #include <atomic>
 #include <utility>
@@ -86,36 +86,9 @@ class Search {
     const std::uint32_t t = tree_.order[i], u = tree_.order[j];
     if (!crossed_.empty() && crossed_[t] && crossed_[u]) return;
     cost_ += kPairCost;
-    if (certainly_apart(i, j)) return;
+    if (certainly_apart(mesh_, tree_, i, j)) return;
     crossed_.resize(mesh_.triangles.size(), false);
     crossed_[t] = crossed_[u] = true;
-  }
-
-  /// True if the two are disjoint except for vertices shared by index.
-  bool certainly_apart(std::uint32_t i, std::uint32_t j) const {
-    const Triangle &t = mesh_.triangles[tree_.order[i]], &u = mesh_.triangles[tree_.order[j]];
-    const std::array<Point, 3>&a = tree_.corners[i], &b = tree_.corners[j];
-    int shared = 0, t_at = 0, u_at = 0, t_sum = 0, u_sum = 0;
-    for (int k = 0; k < 3; ++k) {
-      for (int l = 0; l < 3; ++l) {
-        if (t[k] != u[l]) continue;
-        ++shared;
-        t_at = k;
-        u_at = l;
-        t_sum += k;
-        u_sum += l;
-      }
-    }
-    if (shared == 0) return certainly_disjoint(a, b);
-    if (shared == 1) {
-      return certainly_meet_at_apex(a[t_at], a[(t_at + 1) % 3], a[(t_at + 2) % 3], b[(u_at + 1) % 3],
-                                    b[(u_at + 2) % 3]);
-    }
-    if (shared == 2) {
-      const int t_free = 3 - t_sum, u_free = 3 - u_sum;
-      return certainly_meet_at_side(a[(t_free + 1) % 3], a[(t_free + 2) % 3], a[t_free], b[u_free]);
-    }
-    return false;  // duplicates have been removed
   }
 
   static constexpr std::int64_t kSettle = 4096;
@@ -143,6 +116,31 @@ std::vector<NodePair> first_pairs(const TriangleTree& tree) {
 }
 
 }  // namespace
+
+bool certainly_apart(const Mesh& mesh, const TriangleTree& tree, std::uint32_t i, std::uint32_t j) {
+  const Triangle &t = mesh.triangles[tree.order[i]], &u = mesh.triangles[tree.order[j]];
+  const std::array<Point, 3>&a = tree.corners[i], &b = tree.corners[j];
+  int shared = 0, t_at = 0, u_at = 0, t_sum = 0, u_sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < 3; ++l) {
+      if (t[k] != u[l]) continue;
+      ++shared;
+      t_at = k;
+      u_at = l;
+      t_sum += k;
+      u_sum += l;
+    }
+  }
+  if (shared == 0) return certainly_disjoint(a, b);
+  if (shared == 1) {
+    return certainly_meet_at_apex(a[t_at], a[(t_at + 1) % 3], a[(t_at + 2) % 3], b[(u_at + 1) % 3], b[(u_at + 2) % 3]);
+  }
+  if (shared == 2) {
+    const int t_free = 3 - t_sum, u_free = 3 - u_sum;
+    return certainly_meet_at_side(a[(t_free + 1) % 3], a[(t_free + 2) % 3], a[t_free], b[u_free]);
+  }
+  return false;  // duplicates have been removed
+}
 
 SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree, unsigned threads) {
   SelfIntersections result;

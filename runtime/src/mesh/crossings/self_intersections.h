@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "medial_vk/mesh.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/crossings/triangle_tree.h"
 
 namespace medial_vk {
 
@@ -19,6 +19,9 @@ struct SelfIntersections {
 /// triangle except for the vertices they share by index. Touching counts; so does folding back onto a neighbour.
 /// The work is bounded by a number of pairs, not by a clock, so that the result is always the same.
 SelfIntersections find_self_intersections(const Mesh& mesh, const TriangleTree& tree, unsigned threads = 0);
+
+/// True if the triangles at two positions of the tree are proven to be disjoint except for vertices shared by index.
+bool certainly_apart(const Mesh& mesh, const TriangleTree& tree, std::uint32_t i, std::uint32_t j);
 
 /// The tests for two triangles that share no, one, or two vertices: true only if proven.
 bool certainly_disjoint(const std::array<Point, 3>& a, const std::array<Point, 3>& b);

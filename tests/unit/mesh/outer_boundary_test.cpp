@@ -1,0 +1,195 @@
+// Meshes of overlapping parts become the boundary of their union: volumes are exact, sides stay, walls inside go.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "mesh/winding_number.h"
+#include "unit/mesh/prepared.h"
+
+namespace medial_vk {
+namespace {
+
+using namespace test;
+
+/// A box whose corner is at `at`.
+struct Box {
+  Point at, size;
+};
+
+Mesh mesh_of(const std::vector<Box>& boxes) {
+  Mesh mesh;
+  for (const Box& box : boxes) append(mesh, moved(make_box(box.size), box.at));
+  return mesh;
+}
+
+/// The volume of a union of boxes, by the cells between all their sides.
+double union_volume(const std::vector<Box>& boxes) {
+  std::array<std::vector<double>, 3> cuts;
+  for (const Box& box : boxes) {
+    for (std::size_t k = 0; k < 3; ++k) cuts[k].insert(cuts[k].end(), {box.at[k], box.at[k] + box.size[k]});
+  }
+  for (std::vector<double>& list : cuts) std::ranges::sort(list);
+  double volume = 0;
+  for (std::size_t i = 1; i < cuts[0].size(); ++i) {
+    for (std::size_t j = 1; j < cuts[1].size(); ++j) {
+      for (std::size_t l = 1; l < cuts[2].size(); ++l) {
+        const Point middle = {(cuts[0][i - 1] + cuts[0][i]) / 2, (cuts[1][j - 1] + cuts[1][j]) / 2,
+                              (cuts[2][l - 1] + cuts[2][l]) / 2};
+        const bool is_inside = std::ranges::any_of(boxes, [&](const Box& box) {
+          bool inside = true;
+          for (std::size_t k = 0; k < 3; ++k)
+            inside = inside && middle[k] > box.at[k] && middle[k] < box.at[k] + box.size[k];
+          return inside;
+        });
+        if (is_inside)
+          volume += (cuts[0][i] - cuts[0][i - 1]) * (cuts[1][j] - cuts[1][j - 1]) * (cuts[2][l] - cuts[2][l - 1]);
+      }
+    }
+  }
+  return volume;
+}
+
+/// The volume of new vertices is exact up to their rounding, in general position; where faces coincide, they may be
+/// those of vertices moved by 2^-33 of the extent (cut_crossings.h) times the area.
+void expect_union(const PreparedMesh& prepared, double volume, double tolerance) {
+  const MeshReport& report = prepared.report;
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(report.faces_within, 0u);
+  EXPECT_GT(report.cut_faces, 0u);
+  EXPECT_GT(report.inner_faces, 0u);
+  EXPECT_NEAR(report.signed_volume, volume, tolerance);
+}
+
+TEST(OuterBoundary, OfBoxesInGeneralPosition) {
+  const std::vector<Box> boxes = {
+      {{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}, {{0.23, -0.37, 0.51}, {1, 1, 1}}};
+  for (std::size_t count = 2; count <= boxes.size(); ++count) {
+    const std::vector<Box> some(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count));
+    const PreparedMesh prepared = prepare(mesh_of(some));
+    expect_union(prepared, union_volume(some), 1e-13);
+    EXPECT_EQ(prepared.report.intersecting_faces, 0u);
+    EXPECT_EQ(prepared.report.trusted_triangles, prepared.report.triangles);
+  }
+}
+
+TEST(OuterBoundary, OfRandomBoxes) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(0, 1), size(0.3, 0.9);
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Box> boxes = {{{0.2, 0.2, 0.2}, {1.3, 1.3, 1.3}}};
+    for (int i = 0; i < 7; ++i)
+      boxes.push_back({{at(random), at(random), at(random)}, {size(random), size(random), size(random)}});
+    Mesh mesh = mesh_of(boxes);
+    rotate(mesh, {1, 2, 3}, 0.1 * round);
+    const PreparedMesh prepared = prepare(mesh);
+    EXPECT_TRUE(prepared.report.closed);
+    EXPECT_NEAR(prepared.report.signed_volume, union_volume(boxes), 1e-12);
+  }
+}
+
+TEST(OuterBoundary, OfBoxesWithFacesInOnePlane) {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0, 0}, {1, 1, 1}}};
+  expect_union(prepare(mesh_of(boxes)), 1.4, 6 * 0x1p-33 * 1.4);
+}
+
+TEST(OuterBoundary, JoinsBoxesThatTouch) {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{1, 0.25, 0.25}, {0.5, 0.5, 0.5}}};
+  expect_union(prepare(mesh_of(boxes)), 1.125, 8 * 0x1p-33 * 1.5);
+}
+
+// A tube that is open inside a sphere closes by the sphere.
+TEST(OuterBoundary, OpenEndsInsideGo) {
+  Mesh tube = make_capsule(0.3, 2, 40);
+  std::erase_if(tube.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(t, [&](std::uint32_t v) { return tube.vertices[v][2] < -1; });
+  });
+  const PreparedMesh prepared = prepare(together(moved(tube, {0.01, 0.02, 1.1}), make_sphere(0.8, 3000)));
+  EXPECT_TRUE(prepared.report.closed);
+  EXPECT_EQ(prepared.report.open_edges, 0u);
+  EXPECT_EQ(prepared.report.components, 1u);
+  EXPECT_EQ(prepared.report.intersecting_faces, 0u);
+}
+
+TEST(OuterBoundary, SidesStay) {
+  Mesh mesh = make_sphere(1, 2000);
+  for (int i = 0; i < 6; ++i) {
+    Mesh other = make_sphere(0.7, 500);
+    rotate(other, {1, 2, 3}, i);
+    append(mesh, moved(other, {std::cos(1.1 * i), std::sin(1.1 * i), 0.2 * i - 0.5}));
+  }
+  const PreparedMesh prepared = prepare(mesh);
+  EXPECT_TRUE(prepared.report.closed);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-2, 2);
+  int inside = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Point p = {coordinate(random), coordinate(random), coordinate(random)};
+    const bool is_inside = exact_winding_number(mesh, p) >= 0.5;
+    inside += is_inside;
+    EXPECT_EQ(exact_winding_number(prepared.mesh, p) >= 0.5, is_inside);
+  }
+  EXPECT_GT(inside, 20);
+}
+
+TEST(OuterBoundary, ASolidInsideAnotherGoes) {
+  const PreparedMesh prepared = prepare(together(make_sphere(1, 500), make_sphere(0.3, 200)));
+  EXPECT_EQ(prepared.report.triangles, make_sphere(1, 500).triangles.size());
+  EXPECT_EQ(prepared.report.inner_faces, make_sphere(0.3, 200).triangles.size());
+}
+
+TEST(OuterBoundary, ACavityStays) {
+  const PreparedMesh prepared = prepare(together(make_sphere(1, 500), over(make_sphere(0.3, 200))));
+  EXPECT_EQ(prepared.report.inner_faces, 0u);
+  EXPECT_EQ(prepared.report.components, 2u);
+}
+
+TEST(OuterBoundary, InnerFacesAreKeptOnRequest) {
+  const Mesh mesh = mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}});
+  const PreparedMesh prepared = prepare_mesh(mesh, {.keep_inner_faces = true}).value();
+  EXPECT_EQ(prepared.mesh.vertices, mesh.vertices);
+  EXPECT_EQ(prepared.report.triangles, 24u);
+  EXPECT_EQ(prepared.report.cut_faces + prepared.report.inner_faces, 0u);
+  EXPECT_GT(prepared.report.intersecting_faces, 0u);
+}
+
+TEST(OuterBoundary, MapsLeadToTheInput) {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}};
+  const Mesh mesh = mesh_of(boxes);
+  const PreparedMesh prepared = prepare(mesh);
+  ASSERT_EQ(prepared.vertex_of_input.size(), mesh.vertices.size());
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (prepared.vertex_of_input[v] == PreparedMesh::kDropped) continue;
+    ++kept;
+    EXPECT_EQ(prepared.mesh.vertices[prepared.vertex_of_input[v]], mesh.vertices[v]);
+  }
+  EXPECT_EQ(kept, 14u);  // one corner of each box is inside the other
+  ASSERT_EQ(prepared.input_of_triangle.size(), prepared.mesh.triangles.size());
+  for (std::size_t t = 0; t < prepared.mesh.triangles.size(); ++t) {
+    const Triangle& source = mesh.triangles[prepared.input_of_triangle[t]];
+    for (const std::uint32_t v : prepared.mesh.triangles[t]) {
+      std::array<Point, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.vertices[source[k]];
+      const Point p = prepared.mesh.vertices[v];
+      for (std::size_t k = 0; k < 3; ++k) {
+        // The grid of 2^-50 has the scale 2 here, for vertices and for new points.
+        if (corners[0][k] != corners[1][k] || corners[0][k] != corners[2][k]) continue;
+        EXPECT_NEAR(p[k], corners[0][k], 4 * 0x1p-49);
+      }
+    }
+  }
+}
+
+TEST(OuterBoundary, TheResultDoesNotDependOnThreads) {
+  Mesh mesh = together(make_sphere(1, 4000), moved(make_sphere(0.8, 3000), {0.7, 0.1, 0.2}));
+  const PreparedMesh one = prepare_mesh(mesh, {.threads = 1}).value(),
+                     four = prepare_mesh(mesh, {.threads = 4}).value();
+  EXPECT_EQ(one.mesh.vertices, four.mesh.vertices);
+  EXPECT_EQ(one.mesh.triangles, four.mesh.triangles);
+}
+
+}  // namespace
+}  // namespace medial_vk
