@@ -21,8 +21,10 @@ namespace {
 /// A patch lies inside if the winding number without itself is at least this beside every sample of it: 1/2 behind and
 /// in front, and a margin above the error of WindingTree.
 constexpr double kInside = 1.05;
-/// Or if that of the other components is at least this: 1/2, and a margin for two values.
+/// Or if it and that of the other components are at least this: 1/2, and a margin for two values. It is lower than 1
+/// only where its own component is open; beside the wall of a cavity it is 1/2.
 constexpr double kInsideOthers = 0.6;
+
 /// The largest triangles of a patch are its samples: they are the farthest from others. Where all parts are closed, a
 /// patch has one value; where some are open, values vary slowly.
 constexpr std::size_t kSamples = 64;
@@ -112,7 +114,8 @@ class BoundaryFinder {
       is_inner_[patch] = std::all_of(samples.begin(), end, [&](std::uint32_t position) {
         const std::uint32_t t = tree.order[position];
         const double beside = winding.beside(position);
-        return beside >= kInside || beside - fields_[component(t)]->beside(number_of_[t]) >= kInsideOthers;
+        if (beside >= kInside || beside < kInsideOthers) return beside >= kInside;
+        return beside - fields_[component(t)]->beside(number_of_[t]) >= kInsideOthers;
       });
     });
     fields_.clear();

@@ -146,6 +146,16 @@ TEST(OuterBoundary, ACavityStays) {
   EXPECT_EQ(prepared.report.components, 2u);
 }
 
+TEST(OuterBoundary, ACavityStaysWhereOtherPartsCross) {
+  const Mesh shell = together(make_sphere(1, 500), over(make_sphere(0.3, 200)));
+  const PreparedMesh prepared = prepare(together(shell, moved(make_sphere(0.5, 300), {1.1, 0.05, 0.02})));
+  EXPECT_TRUE(prepared.report.closed);
+  EXPECT_GT(prepared.report.inner_faces, 0u);
+  EXPECT_EQ(prepared.report.components, 2u);
+  EXPECT_LT(exact_winding_number(prepared.mesh, {0, 0, 0}), 0.5);
+  EXPECT_GT(exact_winding_number(prepared.mesh, {0, 0, 0.6}), 0.5);
+}
+
 TEST(OuterBoundary, InnerFacesAreKeptOnRequest) {
   const Mesh mesh = mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}});
   const PreparedMesh prepared = prepare_mesh(mesh, {.keep_inner_faces = true}).value();
