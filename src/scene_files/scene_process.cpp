@@ -14,8 +14,6 @@
 
 #include "input/text_scanner.h"
 
-extern char** environ;
-
 namespace medial_vk {
 namespace {
 
