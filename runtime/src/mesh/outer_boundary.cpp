@@ -10,7 +10,6 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
-#include "mesh/crossings/cut_crossings.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/surface_parts.h"
 #include "mesh/winding_number.h"
@@ -25,12 +24,22 @@ constexpr double kInside = 1.05;
 /// only where its own component is open; beside the wall of a cavity it is 1/2.
 constexpr double kInsideOthers = 0.6;
 
-/// The largest triangles of a patch are its samples: they are the farthest from others. Where all parts are closed, a
-/// patch has one value; where some are open, values vary slowly.
+/// Where all components are closed, a patch has one value, and its largest triangles are evaluated, which are the
+/// farthest from others. Where some are open, all triangles are, near their corners, too, but for those so thin that
+/// rounding decides their value.
 constexpr std::size_t kSamples = 64;
+constexpr double kThin = 0x1p-30;  // of the area of the largest triangle of the patch
 
 double area(const std::array<Point, 3>& corners) {
   return length(cross(corners[1] - corners[0], corners[2] - corners[0])) / 2;
+}
+
+/// The centroid, and a point near each corner.
+std::array<Point, 4> points_of(const std::array<Point, 3>& corners) {
+  const Point centroid = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+  std::array<Point, 4> points = {centroid, centroid, centroid, centroid};
+  for (std::size_t k = 0; k < 3; ++k) points[k + 1] = centroid + 0.9 * (corners[k] - centroid);
+  return points;
 }
 
 /// The winding numbers of one component.
@@ -43,8 +52,8 @@ class ComponentField {
       position_of_[tree_.order[position]] = position;
   }
 
-  /// Beside its triangle with this number, without that triangle.
-  double beside(std::uint32_t number) const { return winding_.beside(position_of_[number]); }
+  /// Beside a point of its triangle with this number, without that triangle.
+  double beside(std::uint32_t number, const Point& p) const { return winding_.beside(position_of_[number], p); }
 
  private:
   static Mesh copy(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
@@ -105,20 +114,47 @@ class BoundaryFinder {
     std::vector<std::vector<std::uint32_t>> positions(parts_.patches);  // in the tree
     for (std::uint32_t position = 0; position < tree.order.size(); ++position)
       positions[parts_.patch_of[tree.order[position]]].push_back(position);
+    const bool is_closed = balance_everywhere();
     is_inner_.assign(parts_.patches, 0);
     parallel_for(parts_.patches, 1, threads_, [&](std::size_t patch) {
       std::vector<std::uint32_t>& samples = positions[patch];
-      const auto end = samples.begin() + static_cast<std::ptrdiff_t>(std::min(samples.size(), kSamples));
-      std::ranges::partial_sort(samples, end, std::greater<>(),
-                                [&](std::uint32_t position) { return area(tree.corners[position]); });
-      is_inner_[patch] = std::all_of(samples.begin(), end, [&](std::uint32_t position) {
-        const std::uint32_t t = tree.order[position];
-        const double beside = winding.beside(position);
-        if (beside >= kInside || beside < kInsideOthers) return beside >= kInside;
-        return beside - fields_[component(t)]->beside(number_of_[t]) >= kInsideOthers;
+      const auto area_at = [&](std::uint32_t position) { return area(tree.corners[position]); };
+      std::ranges::sort(samples, std::greater<>(), area_at);
+      const double least = kThin * area_at(samples.front());
+      if (is_closed && samples.size() > kSamples) samples.resize(kSamples);
+      is_inner_[patch] = std::ranges::all_of(samples, [&](std::uint32_t position) {
+        if (area_at(position) < least) return true;
+        const std::array<Point, 4> points = points_of(tree.corners[position]);
+        return std::all_of(points.begin(), is_closed ? points.begin() + 1 : points.end(), [&](const Point& p) {
+          return lies_inside(tree.order[position], p, winding.beside(position, p));
+        });
       });
     });
     fields_.clear();
+    for (std::size_t t = 0; t < cut_.uncut.size(); ++t) {
+      if (cut_.uncut[t]) is_inner_[parts_.patch_of[t]] = 0;
+    }
+  }
+
+  /// `beside`: the winding number beside a point of the triangle.
+  bool lies_inside(std::uint32_t t, const Point& p, double beside) const {
+    if (beside >= kInside || beside < kInsideOthers) return beside >= kInside;
+    return beside - fields_[component(t)]->beside(number_of_[t], p) >= kInsideOthers;
+  }
+
+  /// True if all triangles cancel at every edge.
+  bool balance_everywhere() const {
+    for (std::uint32_t edge = 0; edge < topology_.edge_count(); ++edge) {
+      int balance = 0;
+      for (const std::uint32_t t : topology_.triangles_of(edge)) balance += step_along(edge, t);
+      if (balance != 0) return false;
+    }
+    return true;
+  }
+
+  /// 1 or -1, by the direction in which the triangle runs along the edge.
+  int step_along(std::uint32_t edge, std::uint32_t t) const {
+    return runs_upwards(mesh_.triangles[t], topology_.ends(edge)) ? 1 : -1;
   }
 
   std::uint32_t component(std::uint32_t t) const { return component_of_[cut_.source[t]]; }
@@ -146,7 +182,7 @@ class BoundaryFinder {
       std::size_t inner = 0;
       const auto beside = topology_.triangles_of(edge);
       for (const std::uint32_t t : beside) {
-        const int step = runs_upwards(mesh_.triangles[t], topology_.ends(edge)) ? 1 : -1;
+        const int step = step_along(edge, t);
         before += step;
         const bool is_inner = were_inner[parts_.patch_of[t]] != 0;
         inner += is_inner;
@@ -170,9 +206,13 @@ class BoundaryFinder {
 
 }  // namespace
 
+OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads) {
+  return BoundaryFinder(std::move(cut), component_of, threads).run();
+}
+
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                   const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads) {
-  return BoundaryFinder(cut_crossings(mesh, tree, intersections, threads), component_of, threads).run();
+  return leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
 }
 
 }  // namespace medial_vk

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial_vk/mesh.h"
+#include "mesh/crossings/cut_crossings.h"
 #include "mesh/crossings/self_intersections.h"
 #include "mesh/crossings/triangle_tree.h"
 
@@ -17,11 +18,14 @@ struct OuterBoundary {
   std::uint64_t inner_triangles = 0;  ///< Left out, after the cut.
 };
 
-/// Cuts triangles along their crossings (cut_crossings()), and leaves out the patches that certainly lie inside: on
-/// both sides of them the winding number is at least 1/2, or that of the other components alone is, so they do not
-/// bound the solid. A patch is left out only if that opens nothing: at every edge, as many triangles remain on one side
-/// as on the other, or no fewer than before. `component_of`: by triangle. Precondition: triangles are oriented as the
-/// sides were decided.
+/// Leaves out the patches of a cut mesh that certainly lie inside: on both sides of them the winding number is at least
+/// 1/2, or that of the other components alone is, so they do not bound the solid. A patch stays if it has a triangle
+/// that crosses others, and at edges with patches that stay if the boundary would be open there without it
+/// (docs/theory.md, "The boundary of overlapping parts"). `component_of`: by triangle of the mesh before the cut.
+/// Precondition: triangles are oriented as the sides were decided.
+OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads);
+
+/// The same for a mesh, which is cut first (cut_crossings()).
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                   const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads);
 

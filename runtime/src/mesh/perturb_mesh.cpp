@@ -7,26 +7,11 @@
 #include <utility>
 
 #include "base/host_memory.h"
+#include "base/split_mix.h"
 #include "medial_vk/prepare.h"
 
 namespace medial_vk {
 namespace {
-
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine, unlike the distributions of <random>.
-class SplitMix {
- public:
-  explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-  /// Uniform in [-1, 1).
-  double symmetric() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15ull;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Adds the counts of repairs made before the vertices were moved, which the moved mesh no longer shows.
 void carry_over(const MeshReport& before, MeshReport& after) {

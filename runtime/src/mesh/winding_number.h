@@ -38,8 +38,13 @@ class WindingTree {
     std::uint64_t cost = 0;
     return beside(position, cost);
   }
-  /// The same; adds the number of triangles evaluated one by one to `cost`: usually hundreds; all of them in a tangle
-  /// of large triangles, where no group is far from any point.
+  /// The same at another point of that triangle.
+  double beside(std::uint32_t position, const Point& p) const {
+    std::uint64_t cost = 0;
+    return sum(p, position, cost);
+  }
+  /// At the centroid; adds the number of triangles evaluated one by one to `cost`: usually hundreds; all of them in a
+  /// tangle of large triangles, where no group is far from any point.
   double beside(std::uint32_t position, std::uint64_t& cost) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/determinant_sign.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {
@@ -12,25 +13,11 @@ namespace {
 constexpr double kRounding = 0x1p-53;
 constexpr std::uint32_t kNoPosition = 0xffffffffu;
 
-/// The sign of det(a, b, c), or 0 if rounding, or a change of it by up to `slack`, could have produced it. The
-/// arguments are differences of doubles and carry u each: see sign_of_determinant() in triangle_pairs.cpp.
-int sign_of_volume(const Point& a, const Point& b, const Point& c, double slack = 0) {
-  double determinant = 0, magnitude = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double left = b[(k + 1) % 3] * c[(k + 2) % 3];
-    const double right = b[(k + 2) % 3] * c[(k + 1) % 3];
-    determinant += a[k] * (left - right);
-    magnitude += std::abs(a[k]) * (std::abs(left) + std::abs(right));
-  }
-  const double bound = 12 * kRounding * magnitude + slack;
-  return determinant > bound ? 1 : determinant < -bound ? -1 : 0;
-}
-
 /// The side of the plane of t on which a point lies: 1 in front, -1 behind, 0 undecided. The point may have an error of
 /// `shift`, which changes the determinant by at most the length of the normal times that.
 int side_of_plane(const std::array<Point, 3>& t, const Point& p, double shift) {
   const double slack = shift * length(cross(t[1] - t[0], t[2] - t[0]));
-  return -sign_of_volume(t[0] - p, t[1] - p, t[2] - p, 2 * slack);
+  return -sign_of_determinant(t[0] - p, t[1] - p, t[2] - p, 2 * slack);
 }
 
 /// A straight leg of a path, and the triangles on which it begins or ends.
@@ -62,7 +49,7 @@ std::optional<int> crossing(const Leg& leg, const std::array<Point, 3>& t, doubl
   const Point d = leg.q - leg.p;
   bool left = false, right = false, doubt = begins == 0 || ends == 0;
   for (int k = 0; k < 3; ++k) {
-    const int turn = sign_of_volume(t[k] - leg.p, t[(k + 1) % 3] - leg.p, d);
+    const int turn = sign_of_determinant(t[k] - leg.p, t[(k + 1) % 3] - leg.p, d);
     left = left || turn > 0;
     right = right || turn < 0;
     doubt = doubt || turn == 0;

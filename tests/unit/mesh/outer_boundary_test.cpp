@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "base/point_ops.h"
+#include "mesh/outer_boundary.h"
 #include "mesh/winding_number.h"
 #include "unit/mesh/prepared.h"
 
@@ -51,8 +53,9 @@ double union_volume(const std::vector<Box>& boxes) {
   return volume;
 }
 
-/// The volume of new vertices is exact up to their rounding, in general position; where faces coincide, they may be
-/// those of vertices moved by 2^-33 of the extent (cut_crossings.h) times the area.
+/// New vertices are exact up to their rounding in general position. Where faces coincide, they are those of vertices
+/// moved by at most 2^-32 of the longest side (cut_crossings.h), which changes the volume by at most that times the
+/// area.
 void expect_union(const PreparedMesh& prepared, double volume, double tolerance) {
   const MeshReport& report = prepared.report;
   EXPECT_TRUE(report.closed);
@@ -92,12 +95,12 @@ TEST(OuterBoundary, OfRandomBoxes) {
 
 TEST(OuterBoundary, OfBoxesWithFacesInOnePlane) {
   const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0, 0}, {1, 1, 1}}};
-  expect_union(prepare(mesh_of(boxes)), 1.4, 6 * 0x1p-33 * 1.4);
+  expect_union(prepare(mesh_of(boxes)), 1.4, 7.6 * 0x1p-32 * 1.4);
 }
 
 TEST(OuterBoundary, JoinsBoxesThatTouch) {
   const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{1, 0.25, 0.25}, {0.5, 0.5, 0.5}}};
-  expect_union(prepare(mesh_of(boxes)), 1.125, 8 * 0x1p-33 * 1.5);
+  expect_union(prepare(mesh_of(boxes)), 1.125, 7 * 0x1p-32 * 1.5);
 }
 
 // A tube that is open inside a sphere closes by the sphere.
@@ -163,6 +166,64 @@ TEST(OuterBoundary, InnerFacesAreKeptOnRequest) {
   EXPECT_EQ(prepared.report.triangles, 24u);
   EXPECT_EQ(prepared.report.cut_faces + prepared.report.inner_faces, 0u);
   EXPECT_GT(prepared.report.intersecting_faces, 0u);
+}
+
+/// Raises a needle from the middle of the first triangle to `tip`.
+void add_needle(Mesh& mesh, const Point& tip) {
+  const Triangle base = mesh.triangles.front();
+  Point middle = {0, 0, 0};
+  for (const std::uint32_t v : base) middle = middle + (1.0 / 3) * mesh.vertices[v];
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const std::uint32_t v : base) mesh.vertices.push_back(middle + 0.02 * (mesh.vertices[v] - middle));
+  mesh.vertices.push_back(tip);
+  mesh.triangles.erase(mesh.triangles.begin());
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t l = (k + 1) % 3;
+    mesh.triangles.push_back({base[k], base[l], first + l});
+    mesh.triangles.push_back({base[k], first + l, first + k});
+    mesh.triangles.push_back({first + k, first + l, first + 3});
+  }
+}
+
+// A patch of which only a needle is outside: its largest triangles are all inside.
+TEST(OuterBoundary, PatchesThatCrossStayIfNoCutIsFound) {
+  const Mesh outer = make_sphere(1, 500);
+  Mesh inner = make_sphere(0.6, 80);
+  const Triangle base = inner.triangles.front();
+  add_needle(inner, 1.0 * (inner.vertices[base[0]] + inner.vertices[base[1]] + inner.vertices[base[2]]));
+  const Mesh mesh = together(outer, inner);
+  CutMesh cut;
+  cut.vertices = cut.decided = mesh.vertices;
+  cut.triangles = mesh.triangles;
+  std::vector<std::uint32_t> component_of;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    cut.source.push_back(t);
+    component_of.push_back(t < outer.triangles.size() ? 0 : 1);
+  }
+  EXPECT_EQ(leave_out_inner_patches(cut, component_of, 1).inner_triangles, inner.triangles.size());
+  cut.uncut = find_self_intersections(mesh, TriangleTree(mesh)).crossed;
+  EXPECT_EQ(leave_out_inner_patches(cut, component_of, 1).inner_triangles, 0u);
+  const PreparedMesh prepared = prepare(mesh);
+  EXPECT_TRUE(prepared.report.closed);
+  EXPECT_EQ(prepared.report.components, 1u);
+  EXPECT_TRUE(std::ranges::any_of(prepared.mesh.vertices, [](const Point& p) { return length(p) > 1.5; }));
+}
+
+// Its needle leaves through a hole, without a crossing.
+TEST(OuterBoundary, PatchesThatLeaveThroughAHoleStay) {
+  Mesh inner = make_sphere(0.6, 80);
+  const Triangle base = inner.triangles.front();
+  const Point tip = inner.vertices[base[0]] + inner.vertices[base[1]] + inner.vertices[base[2]];
+  add_needle(inner, tip);
+  Mesh outer = make_sphere(1, 500);
+  std::erase_if(outer.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return dot(outer.vertices[v], tip) > 0.97 * length(tip); });
+  });
+  const PreparedMesh prepared = prepare(together(outer, inner));
+  EXPECT_EQ(prepared.report.intersecting_faces, 0u);
+  EXPECT_GT(prepared.report.open_edges, 0u);
+  EXPECT_GT(prepared.report.faces_within, 40u);
+  EXPECT_EQ(prepared.report.inner_faces, 0u);
 }
 
 TEST(OuterBoundary, MapsLeadToTheInput) {

@@ -138,12 +138,13 @@ class CrossingFinder {
                  const std::vector<bool>& crossed, unsigned threads)
       : mesh_(mesh), grid_(grid.of_vertex), moved_(grid.moved), tree_(tree), crossed_(crossed), threads_(threads) {
     out_.segments.resize(mesh.triangles.size());
+    out_.inside.resize(mesh.triangles.size());
   }
 
   std::optional<Crossings> run() {
     if (!find_pairs()) return std::nullopt;
     for (const CrossingPair& pair : pairs_) add(pair);
-    if (!divide_segments() || !sort_edges()) return std::nullopt;
+    if (!find_triple_points()) return std::nullopt;
     return std::move(out_);
   }
 
@@ -200,19 +201,15 @@ class CrossingFinder {
     return {grid_[c[0]], grid_[c[1]], grid_[c[2]]};
   }
 
-  /// Where three triangles cross in one point, that point divides their three segments.
-  bool divide_segments() {
-    std::map<Pair, std::vector<std::uint32_t>> inner;  // by pair of triangles: points inside their segment
+  /// A point where three triangles cross lies in each of them, on both of its segments with the others.
+  bool find_triple_points() {
     for (const CrossingPair& pair : pairs_) {
       const auto [t, u] = pair.triangles;
       for (const CrossingSegment& second : out_.segments[t]) {
         const std::uint32_t v = second.other;
-        if (v <= u || !crosses(u, v)) continue;
-        if (!add_triple(t, u, v, inner)) return false;
+        if (v > u && crosses(u, v) && !add_triple_point(t, u, v)) return false;
       }
     }
-    if (inner.empty()) return true;
-    for (std::uint32_t t = 0; t < out_.segments.size(); ++t) divide(t, inner);
     return true;
   }
 
@@ -226,8 +223,8 @@ class CrossingFinder {
     return *std::ranges::lower_bound(out_.segments[t], u, {}, &CrossingSegment::other);
   }
 
-  bool add_triple(std::uint32_t t, std::uint32_t u, std::uint32_t v,
-                  std::map<Pair, std::vector<std::uint32_t>>& inner) {
+  /// The point of these three, if there is one. False in a degenerate position.
+  bool add_triple_point(std::uint32_t t, std::uint32_t u, std::uint32_t v) {
     const CrossingSegment &a = segment(t, u), &b = segment(t, v);
     if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return true;
     const int axis = projection_axis(corners_of(t));
@@ -238,50 +235,8 @@ class CrossingFinder {
     if (r_side * s_side * p_side * q_side == 0) return false;
     ExactPoint point;
     if (!geometry_.on_planes({corners_of(t), corners_of(u), corners_of(v)}, point)) return false;
-    const std::uint32_t at = next_point();
+    for (const std::uint32_t triangle : {t, u, v}) out_.inside[triangle].push_back(next_point());
     out_.points.push_back(std::move(point));
-    for (const Pair& pair : {Pair{t, u}, Pair{t, v}, Pair{u, v}}) inner[pair].push_back(at);
-    return true;
-  }
-
-  void divide(std::uint32_t t, std::map<Pair, std::vector<std::uint32_t>>& inner) {
-    std::vector<CrossingSegment> divided;
-    for (const CrossingSegment& whole : out_.segments[t]) {
-      const auto points = inner.find({std::min(t, whole.other), std::max(t, whole.other)});
-      if (points == inner.end()) {
-        divided.push_back(whole);
-        continue;
-      }
-      std::uint32_t from = whole.from;
-      for (const std::uint32_t at : along(whole.from, whole.to, points->second)) {
-        divided.push_back({from, at, whole.other});
-        from = at;
-      }
-      divided.push_back({from, whole.to, whole.other});
-    }
-    out_.segments[t] = std::move(divided);
-  }
-
-  /// Points between two others, in their order from the first.
-  std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to, std::vector<std::uint32_t> points) {
-    const ExactPoint begin = exact(from), end = exact(to);
-    int axis = 0;
-    for (int k = 1; k < 3; ++k) {
-      const auto extent = [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        return std::abs(end.near[at] - begin.near[at]);
-      };
-      if (extent(k) > extent(axis)) axis = k;
-    }
-    const int forward = geometry_.compare(end, begin, axis);
-    std::ranges::sort(points, [&](std::uint32_t a, std::uint32_t b) {
-      return geometry_.compare(exact(a), exact(b), axis) * forward < 0;
-    });
-    return points;
-  }
-
-  bool sort_edges() {
-    for (auto& [edge, points] : out_.on_edges) points = along(edge[0], edge[1], points);
     return true;
   }
 

@@ -13,7 +13,7 @@
 
 namespace medial_vk {
 
-/// A part of a triangle's crossing with another one: between two points, where a point below the number of vertices of
+/// The crossing of a triangle with another one: between two points, where a point below the number of vertices of
 /// the mesh is a vertex, and all others are new points.
 struct CrossingSegment {
   std::uint32_t from, to;
@@ -23,7 +23,8 @@ struct CrossingSegment {
 struct Crossings {
   std::vector<ExactPoint> points;                      ///< New points, from the number of vertices on.
   std::vector<std::vector<CrossingSegment>> segments;  ///< By triangle.
-  /// The new points on an edge, by its vertices, the smaller first; along the edge from there.
+  std::vector<std::vector<std::uint32_t>> inside;      ///< By triangle: points where its segments cross each other.
+  /// The new points on an edge, by its vertices, the smaller first.
   std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> on_edges;
 };
 
@@ -35,9 +36,8 @@ struct GridPositions {
   double moved = 0;
 };
 
-/// `crossed`: the triangles of the mesh that cross or touch others. Segments do not cross each other inside a triangle:
-/// where three triangles meet, the segments are divided. Without a value if the position is degenerate, as where a
-/// vertex lies on a triangle or two triangles lie in one plane.
+/// `crossed`: the triangles of the mesh that cross or touch others. Without a value if the position is degenerate, as
+/// where a vertex lies on a triangle or two triangles lie in one plane.
 std::optional<Crossings> find_crossings(const Mesh& mesh, const GridPositions& grid, const TriangleTree& tree,
                                         const std::vector<bool>& crossed, unsigned threads);
 

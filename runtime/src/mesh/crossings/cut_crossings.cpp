@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "base/split_mix.h"
 #include "mesh/crossings/crossing_segments.h"
 #include "mesh/crossings/cut_triangle.h"
 
@@ -35,14 +36,6 @@ struct ToGrid {
   Point inverse(const Point& p) const { return centre + scale * p; }
 };
 
-/// SplitMix64 (G. Steele, D. Lea, C. Flood, 2014), as a number in [-1, 1] for each index.
-double noise(std::uint64_t index) {
-  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
-}
-
 class CrossingCutter {
  public:
   CrossingCutter(const Mesh& mesh, const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads)
@@ -64,18 +57,21 @@ class CrossingCutter {
   /// As given first, as most meshes cross in general position. Then every vertex is moved outwards, and by less at
   /// random: faces that touch overlap, and of faces that coincide one covers the other.
   void place_on_grid(std::uint64_t attempt) {
-    const double amplitude = attempt == 0 ? 0 : 0x1p-37 * std::exp2(static_cast<double>(attempt));
-    grid_.of_vertex.resize(mesh_.vertices.size());
-    grid_.moved = 3 * amplitude * to_grid_.scale;
-    for (std::size_t i = 0; i < grid_.of_vertex.size(); ++i) {
-      Point p = to_grid_(mesh_.vertices[i]);
-      if (attempt > 0) {
-        if (outwards_.empty()) find_outward_directions();
-        for (std::size_t k = 0; k < 3; ++k)
-          p[k] += amplitude * (2 * outwards_[i][k] + 0.5 * noise(3 * (attempt * grid_.of_vertex.size() + i) + k));
-      }
-      grid_.of_vertex[i] = snap_to_grid(p);
+    grid_.of_vertex.clear();
+    for (const Point& p : mesh_.vertices) grid_.of_vertex.push_back(to_grid_(p));
+    if (attempt > 0) move_outwards(attempt);
+    for (Point& p : grid_.of_vertex) p = snap_to_grid(p);
+  }
+
+  void move_outwards(std::uint64_t attempt) {
+    if (outwards_.empty()) find_outward_directions();
+    const double distance = 0x1p-36 * std::exp2(static_cast<double>(attempt));
+    SplitMix random(attempt);
+    for (std::size_t i = 0; i < outwards_.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        grid_.of_vertex[i][k] += distance * (outwards_[i][k] + 0.25 * random.symmetric());
     }
+    grid_.moved = 1.5 * distance * to_grid_.scale;
   }
 
   /// The sum of the unit normals of the triangles around each vertex, as a unit vector or 0.
@@ -97,7 +93,7 @@ class CrossingCutter {
   bool triangulate() {
     cut_.clear();
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!crossings_.segments[t].empty() || has_divided_edge(t)) cut_.push_back(t);
+      if (!crossings_.segments[t].empty() || !points_on_edges(t).empty()) cut_.push_back(t);
     }
     parts_.assign(cut_.size(), {});
     std::vector<char> failed(cut_.size(), 0);
@@ -105,13 +101,16 @@ class CrossingCutter {
     return std::ranges::none_of(failed, [](char f) { return f != 0; });
   }
 
-  bool has_divided_edge(std::uint32_t t) const {
+  std::vector<std::uint32_t> points_on_edges(std::uint32_t t) const {
+    std::vector<std::uint32_t> points;
     const Triangle& c = mesh_.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = c[k], b = c[(k + 1) % 3];
-      if (crossings_.on_edges.contains({std::min(a, b), std::max(a, b)})) return true;
+      const auto on_edge = crossings_.on_edges.find({std::min(a, b), std::max(a, b)});
+      if (on_edge != crossings_.on_edges.end())
+        points.insert(points.end(), on_edge->second.begin(), on_edge->second.end());
     }
-    return false;
+    return points;
   }
 
   /// The parts of one triangle, by the numbers of their points in the cut mesh.
@@ -130,13 +129,11 @@ class CrossingCutter {
       points.push_back(point);
       return known->second;
     };
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
-      const auto on_edge = crossings_.on_edges.find({std::min(a, b), std::max(a, b)});
-      if (on_edge == crossings_.on_edges.end()) continue;
-      for (const std::uint32_t point : on_edge->second) {
-        if (!local(point)) return false;
-      }
+    for (const std::uint32_t point : points_on_edges(t)) {
+      if (!local(point)) return false;
+    }
+    for (const std::uint32_t point : crossings_.inside[t]) {
+      if (!local(point)) return false;
     }
     std::vector<std::array<std::uint32_t, 2>> segments;
     for (const CrossingSegment& segment : crossings_.segments[t]) {
@@ -182,6 +179,7 @@ class CrossingCutter {
     out.vertices = out.decided = mesh_.vertices;
     out.triangles = mesh_.triangles;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) out.source.push_back(t);
+    out.uncut = crossed_;
     return out;
   }
 

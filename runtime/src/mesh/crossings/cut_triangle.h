@@ -20,7 +20,7 @@ class CutTriangle {
 
   /// A point in the triangle, on its edges included.
   bool insert(const ExactPoint& point);
-  /// A segment between two points. It crosses no other one, but other points may lie on it.
+  /// A segment between two points. It meets other segments in points that have been inserted only; these divide it.
   bool add_segment(std::uint32_t from, std::uint32_t to);
   /// Flips edges that are no segments where that makes the sum of the angles opposite to them smaller (Lawson's
   /// criterion, in double): fewer needles.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/determinant_sign.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {
@@ -98,27 +99,10 @@ bool ExactGeometry::on_planes(const std::array<GridTriangle, 3>& triangles, Exac
   return true;
 }
 
-/// Differences on the grid are exact in double, so the determinant has an error of at most 9 * 2^-53 times the sum of
-/// the magnitudes of its products.
 int ExactGeometry::side(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Point ab = b - a, ac = c - a, ad = d - a;
-  double determinant = 0, magnitude = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double left = ab[(k + 1) % 3] * ac[(k + 2) % 3], right = ab[(k + 2) % 3] * ac[(k + 1) % 3];
-    determinant += ad[k] * (left - right);
-    magnitude += std::fabs(ad[k]) * (std::fabs(left) + std::fabs(right));
-  }
-  if (std::fabs(determinant) > 12 * 0x1p-53 * magnitude) return sign_of(determinant);
+  if (const int certain = sign_of_determinant(d - a, b - a, c - a); certain != 0) return certain;
   arena_.reset();
   return sign(dot(cross(difference(b, a), difference(c, a)), difference(d, a)));
-}
-
-int ExactGeometry::compare(const ExactPoint& p, const ExactPoint& q, int axis) {
-  const auto k = static_cast<std::size_t>(axis);
-  const double gap = p.near[k] - q.near[k];
-  if (std::fabs(gap) > 4 * kNear) return sign_of(gap);
-  arena_.reset();
-  return sign(difference(product(p.terms[k], q.terms[3]), product(q.terms[k], p.terms[3])));
 }
 
 /// The filter: with an error of 2 kNear and the rounding in each of the four differences, of magnitudes that sum up to

@@ -43,8 +43,6 @@ class ExactGeometry {
 
   /// Positive if d is in front of the triangle (a, b, c), which is counter-clockwise seen from there.
   int side(const Point& a, const Point& b, const Point& c, const Point& d);
-  /// Of p[axis] - q[axis].
-  int compare(const ExactPoint& p, const ExactPoint& q, int axis);
   /// Positive if p, q, r are counter-clockwise in the plane of axes `axis` + 1 and `axis` + 2.
   int orientation(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r, int axis);
   /// Of a component of the normal of the triangle.

@@ -3,27 +3,12 @@
 // no axis is found, the answer is "not proven".
 #include <algorithm>
 
+#include "base/determinant_sign.h"
 #include "base/point_ops.h"
 #include "mesh/crossings/self_intersections.h"
 
 namespace medial_vk {
 namespace {
-
-/// The sign of det(a, b, c), or 0 if rounding could have produced it. The arguments are differences of doubles and
-/// carry u each; with the products and sums of three terms the error stays below 9u times the sum of the magnitudes.
-int sign_of_determinant(const Point& a, const Point& b, const Point& c) {
-  double determinant = 0, magnitude = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double left = b[(k + 1) % 3] * c[(k + 2) % 3];
-    const double right = b[(k + 2) % 3] * c[(k + 1) % 3];
-    determinant += a[k] * (left - right);
-    magnitude += std::abs(a[k]) * (std::abs(left) + std::abs(right));
-  }
-  constexpr double kBound = 12 * 0x1p-53;
-  if (determinant > kBound * magnitude) return 1;
-  if (determinant < -kBound * magnitude) return -1;
-  return 0;
-}
 
 /// The sign of w.x, or 0 if rounding could have produced it: w is taken as exact, x is a difference of doubles, so the
 /// error stays below 4u times the sum of the magnitudes.
