@@ -53,7 +53,7 @@ std::string with_part(const std::string& path, const std::string& part) {
   fs::path stem = name.stem();
   std::string extension = name.extension().string();
   while (stem.extension() == ".medial" || stem.extension() == ".spheres" || stem.extension() == ".foam") {
-    extension = stem.extension().string() + extension;
+    extension.insert(0, stem.extension().string());
     stem = stem.stem();
   }
   return (name.parent_path() / (stem.string() + "." + part + extension)).string();
