@@ -132,7 +132,7 @@ std::vector<Moments> all_moments(const Bvh& bvh, const UnitTransform& to_unit, u
 }
 
 /// The four texels of a child's moments, as shaders/shared/tree/winding.glsl evaluates them.
-std::array<Texel, 4> moment_texels(const Moments& m, double total_area) {
+std::array<Texel, 4> moment_texels(const Moments& m) {
   constexpr double kSphere = 4 * std::numbers::pi;
   std::array<Point, 3> about_centre = m.mixed;
   for (int i = 0; i < 3; ++i) about_centre[i] = about_centre[i] - m.centre[i] * m.normal;
@@ -145,7 +145,7 @@ std::array<Texel, 4> moment_texels(const Moments& m, double total_area) {
   const double spread = std::max(0.0, m.second - m.area * dot(m.centre, m.centre)) + 1e-14 * m.area;
   return {texel(m.centre, round_up(m.reach + 2 * kBoxMargin)),
           texel((1 / kSphere) * m.normal, round_up(3 / kSphere * spread)),
-          texel({entry(0, 0), entry(1, 1), entry(2, 2)}, total_area > 0 ? m.area / total_area * (1 - 1e-6) : 0.0),
+          texel({entry(0, 0), entry(1, 1), entry(2, 2)}, m.area / kSphere * (1 - 1e-6)),
           texel({2 * entry(0, 1), 2 * entry(0, 2), 2 * entry(1, 2)}, 0)};
 }
 
@@ -212,14 +212,13 @@ std::vector<Texel> make_tree_texels(const Bvh& bvh, const UnitTransform& to_unit
     if (nodes[i].count == 0) inner[i] = inner_count++;
   }
   const std::vector<Moments> moments = all_moments(bvh, to_unit, threads);
-  const double total_area = moments[0].area;
   const std::uint32_t count = std::max(1u, inner_count);
   std::vector<Texel> texels(std::size_t{kTexelsPerNode} * count);
   const auto put_child = [&](std::uint32_t parent, std::uint32_t side, std::size_t child) {
     Texel* boxes = &texels[4 * std::size_t{parent} + 2 * side];
     const std::uint32_t first = nodes[child].count == 0 ? inner[child] : nodes[child].first;
     std::tie(boxes[0], boxes[1]) = box_texels(nodes[child], first, to_unit);
-    const std::array<Texel, 4> m = moment_texels(moments[child], total_area);
+    const std::array<Texel, 4> m = moment_texels(moments[child]);
     std::copy(m.begin(), m.end(), texels.begin() + 4 * std::ptrdiff_t{count} + 8 * std::ptrdiff_t{parent} + 4 * side);
   };
   parallel_blocks(nodes.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {

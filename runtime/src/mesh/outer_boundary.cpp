@@ -10,8 +10,10 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "mesh/merge_short_edges.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/surface_parts.h"
+#include "mesh/winding_change.h"
 #include "mesh/winding_number.h"
 
 namespace medial_vk {
@@ -40,6 +42,15 @@ std::array<Point, 4> points_of(const std::array<Point, 3>& corners) {
   std::array<Point, 4> points = {centroid, centroid, centroid, centroid};
   for (std::size_t k = 0; k < 3; ++k) points[k + 1] = centroid + 0.9 * (corners[k] - centroid);
   return points;
+}
+
+double longest_side(const Mesh& mesh) {
+  Point lower = mesh.vertices.front(), upper = lower;
+  for (const Point& p : mesh.vertices) {
+    lower = least(lower, p);
+    upper = greatest(upper, p);
+  }
+  return std::ranges::max(upper - lower);
 }
 
 /// The winding numbers of one component.
@@ -115,7 +126,9 @@ class BoundaryFinder {
     for (std::uint32_t position = 0; position < tree.order.size(); ++position)
       positions[parts_.patch_of[tree.order[position]]].push_back(position);
     const bool is_closed = balance_everywhere();
+    const WindingChange change(mesh_, topology_);
     is_inner_.assign(parts_.patches, 0);
+    is_covered_.assign(mesh_.triangles.size(), 0);
     parallel_for(parts_.patches, 1, threads_, [&](std::size_t patch) {
       std::vector<std::uint32_t>& samples = positions[patch];
       const auto area_at = [&](std::uint32_t position) { return area(tree.corners[position]); };
@@ -123,11 +136,7 @@ class BoundaryFinder {
       const double least = kThin * area_at(samples.front());
       if (is_closed && samples.size() > kSamples) samples.resize(kSamples);
       is_inner_[patch] = std::ranges::all_of(samples, [&](std::uint32_t position) {
-        if (area_at(position) < least) return true;
-        const std::array<Point, 4> points = points_of(tree.corners[position]);
-        return std::all_of(points.begin(), is_closed ? points.begin() + 1 : points.end(), [&](const Point& p) {
-          return lies_inside(tree.order[position], p, winding.beside(position, p));
-        });
+        return area_at(position) < least || lies_inside(position, is_closed, tree, winding, change);
       });
     });
     fields_.clear();
@@ -136,10 +145,33 @@ class BoundaryFinder {
     }
   }
 
-  /// `beside`: the winding number beside a point of the triangle.
-  bool lies_inside(std::uint32_t t, const Point& p, double beside) const {
-    if (beside >= kInside || beside < kInsideOthers) return beside >= kInside;
-    return beside - fields_[component(t)]->beside(number_of_[t], p) >= kInsideOthers;
+  /// Of the triangle at a position of the tree. The triangles around it for which the same follows are covered.
+  bool lies_inside(std::uint32_t position, bool is_closed, const TriangleTree& tree, const WindingTree& winding,
+                   const WindingChange& change) {
+    const std::uint32_t t = tree.order[position];
+    if (is_covered_[t]) return true;
+    const auto margin_at = [&](const Point& p) { return margin(t, p, winding.beside(position, p)); };
+    const std::array<Point, 4> points = points_of(tree.corners[position]);
+    const double at_centroid = margin_at(points[0]);
+    if (at_centroid < 0 || is_closed) return at_centroid >= 0;
+    cover(t, points[0], change.radius(points[0], at_centroid));
+    return is_covered_[t] ||
+           std::all_of(points.begin() + 1, points.end(), [&](const Point& p) { return margin_at(p) >= 0; });
+  }
+
+  /// By how much the winding numbers may change while a point of the triangle lies inside; negative if it does not.
+  /// `beside`: the winding number beside it. That of the other components changes by that of two fields.
+  double margin(std::uint32_t t, const Point& p, double beside) const {
+    if (beside >= kInside || beside < kInsideOthers) return beside - kInside;
+    return (std::min(beside, beside - fields_[component(t)]->beside(number_of_[t], p)) - kInsideOthers) / 2;
+  }
+
+  void cover(std::uint32_t t, const Point& centre, double radius) {
+    const auto is_near = [&](std::uint32_t v) { return length(mesh_.vertices[v] - centre) <= radius; };
+    if (!std::ranges::all_of(mesh_.triangles[t], is_near)) return;
+    is_covered_[t] = 1;
+    visit_neighbours(mesh_, topology_, t, centre, radius,
+                     [&](std::uint32_t other) { return std::exchange(is_covered_[other], 1) == 0; });
   }
 
   /// True if all triangles cancel at every edge.
@@ -199,7 +231,8 @@ class BoundaryFinder {
   MeshTopology topology_;
   SurfaceParts parts_;
   unsigned threads_;
-  std::vector<char> is_inner_;  // by patch
+  std::vector<char> is_inner_;    // by patch
+  std::vector<char> is_covered_;  // by triangle: it lies inside as a neighbour does
   std::vector<std::unique_ptr<ComponentField>> fields_;
   std::vector<std::uint32_t> number_of_;  // by triangle: its number in its component
 };
@@ -212,7 +245,10 @@ OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32
 
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                   const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads) {
-  return leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
+  OuterBoundary boundary =
+      leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
+  merge_short_edges(boundary.mesh, boundary.source, mesh.vertices.size(), kMergedLength * longest_side(mesh));
+  return boundary;
 }
 
 }  // namespace medial_vk

@@ -25,7 +25,8 @@ struct OuterBoundary {
 /// Precondition: triangles are oriented as the sides were decided.
 OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads);
 
-/// The same for a mesh, which is cut first (cut_crossings()).
+/// The same for a mesh, which is cut first (cut_crossings()). At last short edges on crossings are merged
+/// (merge_short_edges()).
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                   const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads);
 

@@ -1,6 +1,7 @@
 #include "mesh/sidedness.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "mesh/winding_change.h"
 #include "mesh/winding_number.h"
 #include "mesh/winding_step.h"
 
@@ -16,6 +18,16 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+/// The values at which something about a triangle changes (turn_components(), set_flags() and check_enclosure() in
+/// prepare_mesh.cpp), ascending.
+constexpr std::array<double, 7> kThresholds = {-0.05, -0.03, 0.01, 0.03, 0.05, 0.97, 1.0};
+
+double distance_to_threshold(double w) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double threshold : kThresholds) least = std::min(least, std::abs(w - threshold));
+  return least;
+}
 
 class SideFinder {
  public:
@@ -107,7 +119,8 @@ class SideFinder {
   /// Beside a closed surface only ..., -1/2, 1/2, 3/2, ... are possible; the tree's error is far below the step.
   static float half_integer(double w) { return static_cast<float>(std::floor(w) + 0.5); }
 
-  /// Where all groups of triangles overlap, one value evaluates every triangle, and all values take the square of their
+  /// A value holds for the neighbours beside which the winding number cannot be on the other side of a threshold. Where
+  /// all groups of triangles overlap, one value evaluates every triangle, and all values take the square of their
   /// number. So each block of the tree has an allowance, which it spends evenly over its triangles; the rest stay
   /// unknown. A block's work does not depend on other blocks, nor the result on the number of threads.
   void evaluate(const std::vector<std::uint32_t>& triangles) {
@@ -123,30 +136,58 @@ class SideFinder {
     // value.
     constexpr std::uint64_t kSmallMesh = 50'000'000, kPerTriangle = 2000;
     const std::uint64_t allowance = kSmallMesh / blocks + kPerTriangle * block;
+    const WindingChange change(mesh_, topology_);
     std::atomic<bool> complete = true;
     parallel_for(blocks, 1, threads_, [&](std::size_t i) {
-      if (!evaluate_block(winding, wanted, i * block, std::min((i + 1) * block, positions), allowance))
-        complete = false;
+      const Block of = {i * block, std::min((i + 1) * block, positions), allowance};
+      if (!evaluate_block(winding, change, wanted, of)) complete = false;
     });
     sides_.known = sides_.known && complete;
   }
 
+  struct Block {
+    std::size_t first, last;  // positions in the tree
+    std::uint64_t allowance;
+  };
+
   /// By position: neighbours in the tree take similar walks. False if the allowance was used up.
-  bool evaluate_block(const WindingTree& winding, const std::vector<bool>& wanted, std::size_t first, std::size_t last,
-                      std::uint64_t allowance) {
+  bool evaluate_block(const WindingTree& winding, const WindingChange& change, const std::vector<bool>& wanted,
+                      const Block& block) {
     std::uint64_t cost = 0;
+    std::vector<char> is_known(block.last - block.first, 0);
     constexpr std::size_t kPasses = 16;
     for (std::size_t pass = 0; pass < kPasses; ++pass) {
-      for (std::size_t position = first + pass; position < last; position += kPasses) {
+      for (std::size_t position = block.first + pass; position < block.last; position += kPasses) {
         const std::uint32_t t = tree_.order[position];
-        if (!wanted[t]) continue;
-        if (cost > allowance) return false;
+        if (!wanted[t] || is_known[position - block.first]) continue;
+        if (cost > block.allowance) return false;
         const double w = winding.beside(static_cast<std::uint32_t>(position), cost);
         // A crossed triangle has no single value.
-        sides_.beside[t] = closed_ && !intersections_.crossed[t] ? half_integer(w) : static_cast<float>(w);
+        const bool is_crossed = intersections_.crossed[t];
+        sides_.beside[t] = closed_ && !is_crossed ? half_integer(w) : static_cast<float>(w);
+        if (!is_crossed && intersections_.known) spread(position, w, change, wanted, block, is_known);
       }
     }
     return true;
+  }
+
+  /// From the triangle at `position` to its neighbours in the block.
+  void spread(std::size_t position, double w, const WindingChange& change, const std::vector<bool>& wanted,
+              const Block& block, std::vector<char>& is_known) {
+    const auto& c = tree_.corners[position];
+    const Point centre = (1.0 / 3) * (c[0] + c[1] + c[2]);
+    const double radius = change.radius(centre, distance_to_threshold(w));
+    if (radius == 0) return;
+    const std::uint32_t start = tree_.order[position];
+    visit_neighbours(mesh_, topology_, start, centre, radius, [&](std::uint32_t t) {
+      const std::size_t at = position_of_[t];
+      if (at < block.first || at >= block.last || !wanted[t] || is_known[at - block.first]) return false;
+      if (intersections_.crossed[t]) return false;
+      is_known[at - block.first] = 1;
+      sides_.beside[t] = sides_.beside[start];
+      return true;
+    });
+    is_known[position - block.first] = 1;
   }
 
   bool turn_components(const std::vector<std::uint32_t>& triangles) {

@@ -6,8 +6,7 @@
 // series around c. K is minus the gradient of 1/|x - p|, a harmonic function whose third derivative, as a symmetric
 // form, is at most 3! / |x - p|^4 (Banach: such forms are largest on the diagonal, there it is 6 |P3| / |x - p|^4). The
 // remainder is thus at most 1/2 * 6 / (4 pi (d - r)^4) times the integral of |x - c|^2: texel 1's w over (d - r)^4. The
-// bounds of all parts that are used add up to less than the tolerance: half of it is distributed by area, the other
-// half is used by the first parts that require at most 1/64 of the tolerance each.
+// bounds of all parts that are used add up to less than the tolerance (docs/theory.md, "Winding numbers by the tree").
 #ifndef MEDIAL_VK_WINDING_GLSL
 #define MEDIAL_VK_WINDING_GLSL
 
@@ -36,8 +35,11 @@ const uint kWindingRounds = kRounds / 3u;
 struct Expansion {
   float value;
   float bound;
-  float share;  // of the mesh's area
+  float angle;  // at least the solid angle of the part over 4 pi
 };
+
+// A part may use this much of the tolerance that is left, by its solid angle, and at most kMostOfRest of it.
+const float kRestPerAngle = 0.5, kMostOfRest = 0.25;
 
 Expansion expand_child(vec3 p, uint texel) {
   vec4 centre = tree_texel(texel), normal = tree_texel(texel + 1u);
@@ -46,20 +48,18 @@ Expansion expand_child(vec3 p, uint texel) {
   float d = length(r);
   vec3 u = r / max(d, 1e-20);
   float gap = max(d - centre.w, 0.0) * (1.0 - 1e-6);
-  float bound = gap > 1e-9 ? normal.w / (gap * gap * gap * gap) : 1e30;
+  float bound = gap > 1e-9 ? normal.w / (gap * gap * gap * gap) : 1e30, angle = diagonal.w / max(gap * gap, 1e-18);
   float second = dot(diagonal.xyz, u * u) + dot(mixed.xyz, vec3(u.x * u.y, u.x * u.z, u.y * u.z));
   float square = 1.0 / max(d * d, 1e-30);
-  return Expansion(square * (dot(u, normal.xyz) + second / max(d, 1e-15)), bound, diagonal.w);
+  return Expansion(square * (dot(u, normal.xyz) + second / max(d, 1e-15)), bound, angle);
 }
 
-// Adds the expansion of a child if its bound fits the tolerance, and returns kSkipped; otherwise the child's position.
-uint use_or_open(vec3 p, uint moments, uint node, uint side, bool inner, float tolerance, inout float free,
-                 inout Winding winding) {
+// Adds the expansion of a child if its bound fits `rest`, the tolerance that is left, and returns kSkipped; otherwise
+// the child's position.
+uint use_or_open(vec3 p, uint moments, uint node, uint side, bool inner, inout float rest, inout Winding winding) {
   Expansion e = expand_child(p, moments + 8u * node + 4u * side);
-  bool by_share = e.bound <= 0.5 * tolerance * e.share;
-  bool by_luck = !by_share && e.bound <= min(free, tolerance / 64.0);
-  bool used = inner && (by_share || by_luck);
-  free -= used && by_luck ? e.bound : 0.0;
+  bool used = inner && e.bound <= rest * min(kRestPerAngle * e.angle, kMostOfRest);
+  rest -= used ? e.bound : 0.0;
   winding.number += used ? e.value : 0.0;
   winding.bound += used ? e.bound : 0.0;
   vec4 lower = tree_texel(4u * node + 2u * side), upper = tree_texel(4u * node + 2u * side + 1u);
@@ -71,14 +71,14 @@ Winding winding_number(vec3 p, float tolerance) {
   uint size = 0u, position = 0u, rounds = 0u;
   uint moments = 4u * tree_node_count();
   Winding winding = Winding(0.0, 0.0, false);
-  float free = 0.5 * tolerance;
+  float rest = tolerance;
   while (position != kFinished) {
     uint descents = 0u;
     while (descents < kDescents) {
       bool inner = position < kLeaf;
       uint node = inner ? position : 0u;
-      uint next_0 = use_or_open(p, moments, node, 0u, inner, tolerance, free, winding);
-      uint next_1 = use_or_open(p, moments, node, 1u, inner, tolerance, free, winding);
+      uint next_0 = use_or_open(p, moments, node, 0u, inner, rest, winding);
+      uint next_1 = use_or_open(p, moments, node, 1u, inner, rest, winding);
       bool both = next_0 != kSkipped && next_1 != kSkipped;
       positions[min(size, kStackSize - 1u)] = next_1;
       size += uint(inner && both);
