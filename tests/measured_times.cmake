@@ -2,6 +2,7 @@
 set(times
   "second_driver.analytic" 150
   "regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles" 130
+  "regression.Assembly.OfHalfAMillionTrianglesExtracts" 28
   "second_driver.gpu_vs_cpu" 130
   "second_driver.commands" 75
   "package.shown_commands" 60

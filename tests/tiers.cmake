@@ -29,6 +29,8 @@ set(full
   property.SphereCover.CoversEverySolidWithAnyNumber
   property.SphereCover.MoreBallsAreNeverWorse
   property.Foam.BoundsWidthAndDepth
+  # Smaller figures remain.
+  regression.Assembly.OfHalfAMillionTrianglesExtracts
   # Hundreds of thousands of triangles, in LoopBudget, remain.
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
   regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles

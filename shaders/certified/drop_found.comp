@@ -36,7 +36,7 @@ void main() {
     if (line.cell == index) store_point(line);
   }
   bool done = found || (flags & kCellEmpty) != 0u;
-  bool last = step.second_task == 0u && (step.last_level != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
+  bool last = step.second_task == 0u && ((step.ends & kEndsAll) != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
   if (!done && last) given_up[voxel] = 1u;
   states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

@@ -129,7 +129,7 @@ void dismiss(uint index, bool exists, Remains whole) {
 
 // `narrower`: of the inner part at a larger angle; `inside`: of the inner part.
 void classify(uint index, Cell cell, float d0, bool has_inner, Remains narrower, Remains inside, Remains whole) {
-  bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
+  bool gives_up = (step.ends & kEndsAll) != 0u || is_hopeless(cell.flags);
   float bound = 2.0 * (d0 + step.circumradius + step.slack);
   float width = whole.decided ? min(bound, whole.width) : bound;
   bool close = d0 + step.circumradius <= kBoundaryRadius * step.voxel_size;
@@ -145,10 +145,10 @@ void main() {
   uint index = step.first_item + workgroup_index();
   bool exists = index < counters[kCells], classifies = step.second_task != 0u;
   Cell cell = cells[exists ? index : 0u];
-  bool gives_up = step.last_level != 0u || is_hopeless(cell.flags);
+  bool gives_up = (step.ends & kEndsAll) != 0u || is_hopeless(cell.flags);
   if (classifies) {
     exists = exists && (cell.flags & kCellEmpty) == 0u && winners[cell.voxel] == kNoWinner &&
-             (gives_up || step.settles != 0u);
+             (gives_up || (step.ends & kEndsSettled) != 0u);
   }
   if (!exists) cell.touching = 0u;
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);

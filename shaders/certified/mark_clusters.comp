@@ -170,7 +170,7 @@ void main() {
   counts[item] = uvec4(tally.contacts, tally.contacts, back.name, packSnorm4x8(vec4(unit_or_zero(tally.axis), 0.0)));
   nearest[item] = uvec2(floatBitsToUint(tally.clearance), front.name);
 
-  bool exists = is_in_grid(coordinates), is_empty = !exists;
+  bool exists = is_searched(coordinates), is_empty = !exists;
   uint flags = parent.flags & kCellInside;
   bool needs_side = must_decide_side(flags, tally.clearance);
   if (needs_side && step.open_edges == 0u) {

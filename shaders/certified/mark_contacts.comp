@@ -261,7 +261,7 @@ void main() {
     store(item, marks, is_last);
     if (!is_last) break;
     if (child == 0u) COUNT_TESTS(8u * (walks * parent.list_count + (seeks ? 2u : 1u) * sampled));
-    if (is_in_grid(coordinates))
+    if (is_searched(coordinates))
       settle(item, centre, parent.flags, marks);
     else
       states[item] = uvec4(0u);

@@ -16,7 +16,7 @@ namespace {
 static_assert(sizeof(MedialSphere) ==
               sizeof(Point) + sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t) + 3 * sizeof(std::uint32_t));
 
-void expect_same_bytes(const Extraction& a, const Extraction& b) {
+void expect_same_spheres(const Extraction& a, const Extraction& b) {
   EXPECT_EQ(a.grid.origin, b.grid.origin);
   EXPECT_EQ(a.grid.voxel_size, b.grid.voxel_size);
   EXPECT_EQ(a.grid.size, b.grid.size);
@@ -27,6 +27,10 @@ void expect_same_bytes(const Extraction& a, const Extraction& b) {
   EXPECT_EQ(a.measurements.counters.found, b.measurements.counters.found);
   EXPECT_EQ(a.measurements.counters.undecided, b.measurements.counters.undecided);
   EXPECT_EQ(a.measurements.counters.proved_empty, b.measurements.counters.proved_empty);
+}
+
+void expect_same_bytes(const Extraction& a, const Extraction& b) {
+  expect_same_spheres(a, b);
   ASSERT_EQ(a.measurements.counters.levels.size(), b.measurements.counters.levels.size());
   for (std::size_t i = 0; i < a.measurements.counters.levels.size(); ++i) {
     const ExtractionCounters::Level &x = a.measurements.counters.levels[i], &y = b.measurements.counters.levels[i];
@@ -97,6 +101,30 @@ TEST(Determinism, SmallChunksGiveTheSame) {
   options.memory_budget = 6ull << 20;
   const CertifiedExtraction tight = test::extract_on_device(context, mesh, options);
   expect_same_bytes(roomy.extraction, tight.extraction);
+}
+
+// A block of voxels counts the cells above it once more.
+TEST(Determinism, ATopCellThatDoesNotFitIsSearchedInBlocks) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Mesh solid = test::make_torus(1.0, 0.4, 40, 80, 0.5);
+  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(std::move(solid));
+  Context context = test::make_context();
+  ExtractionOptions options;
+  options.resolution = 128;
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, options);
+  const auto visited = [](const CertifiedExtraction& e) {
+    return e.extraction.measurements.counters.levels[0].visited;
+  };
+  options.memory_budget = 3ull << 19;
+  CertifiedExtraction tight = roomy;
+  while (visited(tight) == visited(roomy)) {
+    options.memory_budget = options.memory_budget * 3 / 4;
+    ASSERT_GE(options.memory_budget, 1ull << 18) << "every top cell has fitted";
+    tight = test::extract_on_device(context, mesh, options);
+    expect_same_spheres(roomy.extraction, tight.extraction);
+  }
+  EXPECT_GT(visited(tight), visited(roomy));
 }
 
 TEST_P(BothModes, NoValidationMessages) {

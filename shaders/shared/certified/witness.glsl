@@ -81,9 +81,16 @@ bool touches_cube(Prism prism, vec3 v, vec4 normal) {
   return dot(aside, aside) <= reach;
 }
 
-bool is_in_grid(uvec3 coordinates) {
-  return step.depth > 0u ||
-         all(lessThan(coordinates * step.voxels_per_cell, uvec3(step.grid_x, step.grid_y, step.grid_z)));
+// True if voxels of the cell are in the grid and in the block that is searched. Cells and blocks are cubes of 2^k voxels
+// at multiples of their sides, so one contains the other or they are apart.
+bool is_searched(uvec3 coordinates) {
+  uvec3 voxel = coordinates * step.voxels_per_cell;
+  uvec3 block = uvec3(step.block_xy & 0xffffu, step.block_xy >> 16, step.block_z & 0xffffu);
+  uint shift = max(step.block_z >> 16, uint(findMSB(step.voxels_per_cell)));
+  bool is_in_block = all(equal(voxel >> shift, block >> shift));
+  bool is_in_grid = all(lessThan(voxel, uvec3(step.grid_x, step.grid_y, step.grid_z)));
+  bool is_below = step.depth > 0u;
+  return is_below || (is_in_block && is_in_grid);
 }
 
 #endif

@@ -146,9 +146,9 @@ struct StepConstants {
   uint first_item;              // offset of this dispatch's items
   uint level;                   // index into the statistics
   uint open_edges;              // 0: the mesh is closed; above kMostOpenEdges: they are not listed
-  uint last_level;              // 1: cells that are kept now stay undecided
-  uint narrowing_steps;         // of every line
-  uint settles;                 // 1: cells that can hold only points near a face or the angle are given up
+  uint ends;                    // kEnds*: cells that are given up
+  uint block_xy;                // the block of the grid that is searched: x of its lower corner, y shifted left by 16
+  uint block_z;                 // and z; log2 of its side, shifted left by 16. Both in finest voxels
   float half_side;              // of the cells, rounded up
   float touch_half_side;        // the same for contacts that touch: at the finest level, with room for lines
   uint cluster_count;
@@ -157,6 +157,10 @@ struct StepConstants {
   uint lines_per_cell;          // seeds that are proposed for a cell
   uint second_task;             // 1: kernels with two tasks perform the second
 };
+
+// Bits of StepConstants::ends.
+MEDIAL_VK_GPU_CONSTANT kEndsAll = 1u;      // cells that are kept now stay undecided
+MEDIAL_VK_GPU_CONSTANT kEndsSettled = 2u;  // cells that can hide points near a face or the angle only are given up
 
 MEDIAL_VK_GPU_CONSTANT kListsTriangles = 0u;  // never of top cells
 MEDIAL_VK_GPU_CONSTANT kListsClusters = 1u;  // and the same for the lists of the children

@@ -1,5 +1,5 @@
 // The certified extraction, chunk by chunk: ranges of top cells run through the recorded pipeline; a range that needs
-// more memory than available runs again in halves.
+// more memory than available runs again in halves, and a single top cell in blocks of its voxels.
 #include "extraction/certified/certified_extraction.h"
 
 #include <algorithm>
@@ -35,10 +35,11 @@ void add_counters(const std::array<std::uint32_t, gpu::kCounterCount>& c, Extrac
 
 class CertifiedRun {
  public:
-  CertifiedRun(ContextImpl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, StopWatch& watch,
-               Extraction& extraction)
+  CertifiedRun(ContextImpl& context, const DeviceMesh& mesh, CertifiedPipeline& pipeline, std::uint32_t extra_levels,
+               StopWatch& watch, Extraction& extraction)
       : mesh_(mesh),
         pipeline_(pipeline),
+        extra_levels_(extra_levels),
         watch_(watch),
         extraction_(extraction),
         search_(context),
@@ -58,15 +59,15 @@ class CertifiedRun {
       watch_.set_done(double(first) / total);
       if (watch_.stopped()) return StopWatch::error();
       const std::uint32_t count = std::min(size, total - first);
-      Result<Fill> fill = run_chunk(first, count);
+      Result<Fill> fill = run_chunk({first, count, {}, extra_levels_});
       if (!fill.ok()) return fill.error();
-      if (fill.value().overflow) {
-        if (!fill.value().too_few_rounds && count == 1) return too_small();
-        ++extraction_.measurements.counters.retries;
-      } else {
-        first += count;
-      }
       size = next_size(count, fill.value());
+      if (fill.value().overflow) ++extraction_.measurements.counters.retries;
+      if (fill.value().overflow && (count > 1 || fill.value().too_few_rounds)) continue;
+      if (fill.value().overflow) {
+        if (Status divided = run_in_blocks(first); !divided.ok()) return divided;
+      }
+      first += count;
     }
     return take_points();
   }
@@ -91,12 +92,53 @@ class CertifiedRun {
 
   static Error too_small() {
     return {ErrorCode::kOutOfMemory,
-            "the contacts of a single top cell do not fit the device memory; raise `memory_budget` or `resolution`"};
+            "the contacts of a single voxel do not fit the device memory; raise `memory_budget` or `resolution`"};
+  }
+
+  // The top cell that does not fit: block by block of its voxels. A voxel that does not fit by itself is not divided as
+  // often as others.
+  Status run_in_blocks(std::uint32_t top_cell) {
+    const GridBlock whole = pipeline_.block_of(top_cell);
+    std::vector<SearchRange> left;
+    divide({top_cell, 1, whole, extra_levels_}, left);
+    double done = top_cell;
+    while (!left.empty()) {
+      watch_.set_done(done / pipeline_.top_cells());
+      if (watch_.stopped()) return StopWatch::error();
+      SearchRange range = left.back();
+      Result<Fill> fill = run_chunk(range);
+      if (!fill.ok()) return fill.error();
+      if (fill.value().overflow) ++extraction_.measurements.counters.retries;
+      if (fill.value().too_few_rounds) continue;
+      left.pop_back();
+      if (!fill.value().overflow) {
+        done += std::ldexp(1, 3 * (static_cast<int>(range.block.shift) - static_cast<int>(whole.shift)));
+      } else if (range.block.shift > 0) {
+        divide(range, left);
+      } else if (range.extra_levels > 0) {
+        --range.extra_levels;
+        left.push_back(range);
+      } else {
+        return too_small();
+      }
+    }
+    return {};
+  }
+
+  void divide(const SearchRange& range, std::vector<SearchRange>& parts) const {
+    SearchRange part = range;
+    --part.block.shift;
+    for (std::uint32_t octant = 8; octant-- > 0;) {
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        part.block.corner[axis] = range.block.corner[axis] + ((octant >> axis & 1u) << part.block.shift);
+      }
+      if (pipeline_.is_in_grid(part.block)) parts.push_back(part);
+    }
   }
 
   // The host reads the points of the previous chunk while the device is busy.
-  Result<Fill> run_chunk(std::uint32_t first, std::uint32_t count) {
-    if (Status submitted = submit(first, count); !submitted.ok()) return submitted.error();
+  Result<Fill> run_chunk(const SearchRange& range) {
+    if (Status submitted = submit(range); !submitted.ok()) return submitted.error();
     if (Status taken = take_points(); !taken.ok()) return taken.error();
     for (Commands* part : {&search_, &collection_}) {
       if (Status done = part->wait([&] { watch_.stopped(); }); !done.ok()) return done.error();
@@ -121,10 +163,10 @@ class CertifiedRun {
   }
 
   // In two parts: only the second writes to buffers from which points of the previous chunk may still be read.
-  Status submit(std::uint32_t first, std::uint32_t count) {
+  Status submit(const SearchRange& range) {
     for (Commands* part : {&search_, &collection_})
       if (Status begun = part->begin(); !begun.ok()) return begun;
-    Status recorded = pipeline_.record(search_.recorder(), collection_.recorder(), first, count);
+    Status recorded = pipeline_.record(search_.recorder(), collection_.recorder(), range);
     if (!recorded.ok()) return recorded;
     if (Status submitted = search_.submit(nullptr, nullptr); !submitted.ok()) return submitted;
     return collection_.submit(download_.before_next(), nullptr);
@@ -144,6 +186,7 @@ class CertifiedRun {
 
   const DeviceMesh& mesh_;
   CertifiedPipeline& pipeline_;
+  std::uint32_t extra_levels_;
   StopWatch& watch_;
   Extraction& extraction_;
   Commands search_, collection_;
@@ -166,7 +209,7 @@ Result<Extraction> extract_certified(ContextImpl& context, DeviceMesh& mesh, con
   const auto record_one = [&](Recorder& r) { return pipeline.value().record(r, 0, 1); };
   if (Status made = make_programs(context, record_one); !made.ok()) return made.error();
   if (Status there = mesh.finish_uploads(); !there.ok()) return there.error();
-  CertifiedRun run(context, mesh, pipeline.value(), watch, extraction);
+  CertifiedRun run(context, mesh, pipeline.value(), options.extra_levels, watch, extraction);
   if (Status s = run.run(); !s.ok()) return s.error();
   ExtractionCounters& c = extraction.measurements.counters;
   c.narrowing_steps = pipeline.value().narrowing_steps();

@@ -58,7 +58,9 @@ std::uint32_t steps_to_narrow(double from, double to) {
 
 CertifiedPipeline::CertifiedPipeline(ContextImpl& context, const DeviceMesh& mesh, const ExtractionOptions& options,
                                      const StopWord& stop)
-    : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {}
+    : context_(&context), mesh_(&mesh), stop_(&stop), options_(options), arena_(context) {
+  range_.extra_levels = options.extra_levels;
+}
 
 Result<CertifiedPipeline> CertifiedPipeline::create(ContextImpl& context, const DeviceMesh& mesh,
                                                     const ExtractionOptions& options,
@@ -88,6 +90,11 @@ Result<CertifiedPipeline> CertifiedPipeline::create(ContextImpl& context, const 
 void CertifiedPipeline::set_grid(const std::array<std::uint32_t, 3>& grid) {
   grid_ = grid;
   for (int axis = 0; axis < 3; ++axis) top_grid_[axis] = divide_up(grid[axis], 1u << top_shift_);
+}
+
+GridBlock CertifiedPipeline::block_of(std::uint32_t top_cell) const {
+  const std::uint32_t x = top_cell % top_grid_[0], rows = top_cell / top_grid_[0];
+  return {{x << top_shift_, rows % top_grid_[1] << top_shift_, rows / top_grid_[1] << top_shift_}, top_shift_};
 }
 
 double CertifiedPipeline::aim() const {
@@ -213,9 +220,10 @@ gpu::StepConstants CertifiedPipeline::level_constants(std::uint32_t level) const
   step.depth = below ? level - coarse_levels_ : 0u;
   step.level = level;
   step.open_edges = mesh_->open_edge_count;
-  step.narrowing_steps = narrowing_steps_;
-  step.settles = below && size < kSettleSize ? 1u : 0u;
-  step.last_level = level + 1 == level_count() ? 1u : 0u;
+  const bool settles = below && size < kSettleSize, is_last = level + 1 == recorded_levels();
+  step.ends = (is_last ? gpu::kEndsAll : 0u) | (settles ? gpu::kEndsSettled : 0u);
+  step.block_xy = range_.block.corner[0] | range_.block.corner[1] << 16;
+  step.block_z = range_.block.corner[2] | range_.block.shift << 16;
   step.half_side = static_cast<float>(size / 2 + kCentreError);
   // At the finest level lines use only the contacts that touch: those for points up to 2 epsilon beyond the voxel.
   step.touch_half_side =

@@ -25,12 +25,28 @@
 
 namespace medial_vk {
 
-/// The capacity of the pipeline; a chunk of top cells that needs more is run again in two halves.
+/// The capacity of the pipeline; a chunk of top cells that needs more is run again in smaller chunks, and a single top
+/// cell in blocks of its voxels.
 struct PipelineCapacity {
   std::uint32_t cells = 0;         // kept cells of one level
   std::uint32_t lines = 0;         // lines being narrowed at one level
   std::uint32_t list_entries = 0;  // of one level
   std::uint32_t flux_block = 0;    // points whose flux is measured at a time
+};
+
+/// A cube of 2^shift finest voxels along a side, at a multiple of that from the corner of the grid. The default holds
+/// every grid.
+struct GridBlock {
+  std::array<std::uint32_t, 3> corner{};
+  std::uint32_t shift = 31;
+};
+
+/// The part of an extraction that is recorded at once: `count` top cells from `first` on, of which only the voxels in
+/// `block` are searched, down to so many levels below the finest voxel.
+struct SearchRange {
+  std::uint32_t first = 0, count = 0;
+  GridBlock block;
+  std::uint32_t extra_levels = 0;
 };
 
 class CertifiedPipeline {
@@ -44,6 +60,12 @@ class CertifiedPipeline {
   void set_grid(const std::array<std::uint32_t, 3>& grid);
   /// Number of top cells; record() takes ranges of [0, top_cells()).
   std::uint32_t top_cells() const { return top_grid_[0] * top_grid_[1] * top_grid_[2]; }
+  /// The voxels of a top cell.
+  GridBlock block_of(std::uint32_t top_cell) const;
+  /// True if it has voxels in the grid.
+  bool is_in_grid(const GridBlock& block) const {
+    return block.corner[0] < grid_[0] && block.corner[1] < grid_[1] && block.corner[2] < grid_[2];
+  }
   /// The greatest number of top cells of one recorded sequence, whose states fit the buffers.
   std::uint32_t largest_chunk() const { return 8 * capacity_.cells; }
   /// The share of the buffers that a chunk should fill.
@@ -56,10 +78,10 @@ class CertifiedPipeline {
 
   /// Appends the whole extraction of `count` top cells from `first` on.
   Status record(Recorder& recorder, std::uint32_t first, std::uint32_t count) {
-    return record(recorder, recorder, first, count);
+    return record(recorder, recorder, {first, count, {}, options_.extra_levels});
   }
   /// In two parts for one queue: only the collection writes result() and undecided().
-  Status record(Recorder& search, Recorder& collection, std::uint32_t first, std::uint32_t count);
+  Status record(Recorder& search, Recorder& collection, const SearchRange& range);
 
   /// After kTooFewRounds: records twice as many rounds from now on. No list is longer than the mesh.
   void add_rounds() { rounds_ *= 2; }
@@ -89,11 +111,13 @@ class CertifiedPipeline {
   std::uint32_t clusters_per_round() const;
   gpu::StepConstants level_constants(std::uint32_t level) const;
 
-  void record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count);
+  std::uint32_t recorded_levels() const { return coarse_levels_ + 1 + range_.extra_levels; }
+
+  void record_top_cells(Recorder& r);
   // Of the whole run. With kernel_times every dispatch is a stage of its own instead.
   void begin_stage(Recorder& r, const char* stage) const;
   void clear_counters(Recorder& r, std::initializer_list<std::uint32_t> counters);
-  void record_steps(Recorder& r, std::uint32_t first, std::uint32_t count);
+  void record_steps(Recorder& r);
   void record_results(Recorder& r);
   void record_children(Recorder& r, const gpu::StepConstants& step, const LevelBuffers& level, bool finest);
   // The same where lists are of clusters.
@@ -164,6 +188,7 @@ class CertifiedPipeline {
   const DeviceMesh* mesh_;
   const StopWord* stop_;
   ExtractionOptions options_;
+  SearchRange range_;  // that is being recorded
   PipelineCapacity capacity_;
   Arena arena_;
   std::array<std::uint32_t, 3> grid_{};      // finest voxels

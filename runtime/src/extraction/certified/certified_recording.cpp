@@ -7,13 +7,14 @@ namespace medial_vk {
 
 using gpu::uint;
 
-Status CertifiedPipeline::record(Recorder& search, Recorder& collection, std::uint32_t first, std::uint32_t count) {
+Status CertifiedPipeline::record(Recorder& search, Recorder& collection, const SearchRange& range) {
+  range_ = range;
   Recorder nothing(*context_);
   arguments_.begin_plan();
-  record_steps(nothing, first, count);
+  record_steps(nothing);
   record_results(nothing);
   arguments_.begin();
-  record_steps(search, first, count);
+  record_steps(search);
   record_results(collection);
   return search.status().ok() ? collection.status() : search.status();
 }
@@ -24,9 +25,9 @@ void CertifiedPipeline::record_results(Recorder& r) {
   r.barrier_to_host();
 }
 
-void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint32_t count) {
+void CertifiedPipeline::record_steps(Recorder& r) {
   begin_stage(r, "contacts");
-  record_top_cells(r, first, count);
+  record_top_cells(r);
   // Levels alternate between two sets of buffers; the finest voxels have their own, which live to the end.
   uint parents = 0, lists = 0;
   for (uint level = 0; level <= coarse_levels_; ++level) {
@@ -50,7 +51,7 @@ void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint
     parents = lists = target;
   }
   // Below the finest voxel: the remaining cells are packed into cells_[0], children are written to cells_[1].
-  for (uint level = coarse_levels_ + 1; level < level_count(); ++level) {
+  for (uint level = coarse_levels_ + 1; level < recorded_levels(); ++level) {
     const uint target = lists == 0 ? 1 : 0;
     const LevelBuffers buffers{&cells_[0], &lists_[lists], &cells_[1], &lists_[target]};
     const gpu::StepConstants step = level_constants(level);
@@ -62,10 +63,10 @@ void CertifiedPipeline::record_steps(Recorder& r, std::uint32_t first, std::uint
   }
 }
 
-void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::uint32_t count) {
+void CertifiedPipeline::record_top_cells(Recorder& r) {
   r.fill(counters_, 0, gpu::kCounterCount * 4, 0);
   r.barrier();
-  r.fill(counters_, gpu::kParents * 4, 4, count);
+  r.fill(counters_, gpu::kParents * 4, 4, range_.count);
   r.barrier();
   gpu::StepConstants step = level_constants(0);
   // The constants of level 0 describe the children; a top cell is twice as large.
@@ -76,7 +77,7 @@ void CertifiedPipeline::record_top_cells(Recorder& r, std::uint32_t first, std::
   step.touch_half_side *= 2;
   step.list_radius = step.circumradius + margin;
   step.voxels_per_cell *= 2;
-  step.first_item = first;
+  step.first_item = range_.first;
   const Kernel gather{
       "gather_contacts",
       {counters_.range(), states_.range(), offsets_.range(), nearest_.range(), cells_[0].range(), lists_[0].range()},
@@ -276,8 +277,9 @@ void CertifiedPipeline::record_narrowing(Recorder& r, const gpu::StepConstants& 
 // Cells are given up at the last level; next to untrusted triangles of the boundary, some are given up earlier, from
 // kBoundaryDepth on.
 void CertifiedPipeline::record_classification(Recorder& r, gpu::StepConstants step, const LevelBuffers& level) {
-  const bool some_settle = step.settles != 0u || (step.depth >= gpu::kBoundaryDepth && mesh_->has_untrusted);
-  if (step.last_level == 0u && !some_settle) return;
+  const bool some_settle =
+      (step.ends & gpu::kEndsSettled) != 0u || (step.depth >= gpu::kBoundaryDepth && mesh_->has_untrusted);
+  if ((step.ends & gpu::kEndsAll) == 0u && !some_settle) return;
   begin_stage(r, "classification");
   step.second_task = 1;
   // At levels with little subdivision these cells are many, with long lists; a stop waits for one block. At deeper
