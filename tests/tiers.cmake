@@ -8,6 +8,8 @@ set(slow
   faults.TwoQueueFaults.OfManyChunks/KernelsAreLate
   faults.VulkanFaults.OfThesisExtraction
   counts.WorkCounts.AFitOfPartsBuildsOneTreeAndUploadsOncePerPart
+  # Blocks of a top cell remain.
+  property.Determinism.AVoxelThatDoesNotFitIsDividedLess
   # Smaller solids and meshes remain.
   property.Dismissal.AtFinsAndFansLosesNoSalientSample
   unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint

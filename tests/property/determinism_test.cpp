@@ -2,6 +2,7 @@
 // the validation layer. In both modes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -125,6 +126,32 @@ TEST(Determinism, ATopCellThatDoesNotFitIsSearchedInBlocks) {
     expect_same_spheres(roomy.extraction, tight.extraction);
   }
   EXPECT_GT(visited(tight), visited(roomy));
+}
+
+// What then stays undecided was found or proved at a level that is left out; all other voxels are as before.
+TEST(Determinism, AVoxelThatDoesNotFitIsDividedLess) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Mesh solid = test::make_torus(1.0, 0.4, 40, 80, 0.5);
+  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(std::move(solid));
+  Context context = test::make_context();
+  ExtractionOptions options;
+  options.resolution = 100;
+  const CertifiedExtraction roomy = test::extract_on_device(context, mesh, options);
+  CertifiedExtraction tight = roomy;
+  for (options.memory_budget = 9ull << 16; tight.extraction.undecided.size() == roomy.extraction.undecided.size();) {
+    options.memory_budget = options.memory_budget * 3 / 4;
+    ASSERT_GE(options.memory_budget, 1ull << 12) << "every voxel has fitted";
+    tight = test::extract_on_device(context, mesh, options);
+  }
+  EXPECT_GT(tight.extraction.undecided.size(), roomy.extraction.undecided.size());
+  const auto voxel = [](const MedialSphere& s) { return s.voxel; };
+  for (const MedialSphere& s : tight.extraction.spheres) {
+    const auto same = std::ranges::find(roomy.extraction.spheres, s.voxel, voxel);
+    ASSERT_NE(same, roomy.extraction.spheres.end());
+    EXPECT_EQ(std::memcmp(&*same, &s, sizeof s), 0);
+  }
+  EXPECT_TRUE(test::passes_certificate(mesh, tight.extraction, options));
 }
 
 TEST_P(BothModes, NoValidationMessages) {

@@ -57,6 +57,10 @@ Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnio
 /// kOutOfMemory.
 Result<BettiNumbers> betti_numbers(const DualComplex& complex);
 
+/// By vertex of such a complex: its component. Components are numbered in the order of their first vertices. Error:
+/// kOutOfMemory.
+Result<std::vector<std::uint32_t>> component_of_vertices(const DualComplex& complex);
+
 // On the device: each ball's share of the volume and of the area of the envelope in float, with error bounds; faster
 // with a GPU (docs/theory.md, "Unions of balls", "On the device").
 

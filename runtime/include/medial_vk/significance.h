@@ -11,9 +11,12 @@ namespace medial_vk {
 
 /// The share of the volume that each ball and each sheet holds.
 struct Significance {
-  double volume = 0;            ///< Of the union of the balls.
-  double area = 0;              ///< Of its envelope.
-  BettiNumbers topology;        ///< Of the union.
+  double volume = 0;      ///< Of the union of the balls.
+  double area = 0;        ///< Of its envelope.
+  BettiNumbers topology;  ///< Of the union.
+  /// The shares of the components of the union, decreasing. Most of the many small ones are balls at edges of the solid
+  /// that are smaller than a voxel, so that they reach no other ball.
+  std::vector<double> of_component;
   std::vector<double> of_ball;  ///< lambda(b), equation 6.1; sums to 1.
   /// lambda(T), equation 6.2; sums to 1. A ball at a seam belongs to all sheets there: its share is divided among their
   /// points at a distance d below R, the larger of 0.7 times its radius and two voxels, in proportion to the

@@ -145,7 +145,7 @@ std::array<Texel, 4> moment_texels(const Moments& m) {
   const double spread = std::max(0.0, m.second - m.area * dot(m.centre, m.centre)) + 1e-14 * m.area;
   return {texel(m.centre, round_up(m.reach + 2 * kBoxMargin)),
           texel((1 / kSphere) * m.normal, round_up(3 / kSphere * spread)),
-          texel({entry(0, 0), entry(1, 1), entry(2, 2)}, m.area / kSphere * (1 - 1e-6)),
+          texel({entry(0, 0), entry(1, 1), entry(2, 2)}, m.area / kSphere),
           texel({2 * entry(0, 1), 2 * entry(0, 2), 2 * entry(1, 2)}, 0)};
 }
 

@@ -13,6 +13,8 @@
 namespace medial_vk {
 namespace {
 
+constexpr std::uint32_t kRemoved = 0xffffffffu;
+
 struct ShortEdge {
   double length;
   std::uint32_t a, b;
@@ -64,8 +66,12 @@ class EdgeMerger {
     if (a == b) return true;
     const std::uint32_t stays = std::min(a, b), moves = std::max(a, b);
     if (moves < first_new_ || !is_short(a, b)) return true;
+    // Of those that have been merged into it, too.
+    const double way = way_of(moves) + length(mesh_.vertices[stays] - mesh_.vertices[moves]);
+    if (way > length_) return true;
     const std::vector<std::uint32_t> moved = triangles_of(moves);
     if (!touches_only_at_the_edge(stays, moves) || turns_over(moved, stays, moves)) return false;
+    way_[stays] = std::max(way_of(stays), way);
     std::vector<std::uint32_t> joined = triangles_of(stays);
     for (const std::uint32_t t : moved) {
       if (has(t, stays)) {
@@ -81,6 +87,11 @@ class EdgeMerger {
     return true;
   }
 
+  double way_of(std::uint32_t v) const {
+    const auto known = way_.find(v);
+    return known != way_.end() ? known->second : 0;
+  }
+
   bool has(std::uint32_t t, std::uint32_t v) const {
     return std::ranges::find(mesh_.triangles[t], v) != mesh_.triangles[t].end();
   }
@@ -93,8 +104,8 @@ class EdgeMerger {
     return there;
   }
 
-  /// The link condition: every common neighbour of the two is the third corner of a triangle at their edge. There must
-  /// be such a triangle.
+  /// The link condition: every common neighbour of the two is the third corner of a triangle at their edge, of which
+  /// there must be one, and no two triangles become one, as those of a tetrahedron would.
   bool touches_only_at_the_edge(std::uint32_t stays, std::uint32_t moves) const {
     std::vector<std::uint32_t> thirds, near_one, near_other, common;
     for (const auto& [v, neighbours] : {std::pair{stays, &near_one}, std::pair{moves, &near_other}}) {
@@ -112,10 +123,28 @@ class EdgeMerger {
       set->erase(std::ranges::unique(*set).begin(), set->end());
     }
     std::ranges::set_intersection(near_one, near_other, std::back_inserter(common));
-    return !thirds.empty() && common == thirds;
+    return !thirds.empty() && common == thirds && !coincides(stays, moves);
   }
 
-  /// Of triangles with a short edge, which vanish next, the normal says nothing.
+  /// True if a triangle of one has the same two other corners as one of the other.
+  bool coincides(std::uint32_t stays, std::uint32_t moves) const {
+    const auto opposite = [&](std::uint32_t t, std::uint32_t v) {
+      Triangle corners = mesh_.triangles[t];
+      std::ranges::replace(corners, v, kRemoved);
+      std::ranges::sort(corners);
+      return corners;
+    };
+    const std::vector<std::uint32_t> others = triangles_of(stays);
+    for (const std::uint32_t t : triangles_of(moves)) {
+      if (has(t, stays)) continue;
+      const Triangle side = opposite(t, moves);
+      if (std::ranges::any_of(others, [&](std::uint32_t u) { return !has(u, moves) && opposite(u, stays) == side; }))
+        return true;
+    }
+    return false;
+  }
+
+  /// Triangles with a short edge are not examined: slivers have no reliable normal.
   bool turns_over(const std::vector<std::uint32_t>& moved, std::uint32_t stays, std::uint32_t moves) const {
     return std::ranges::any_of(moved, [&](std::uint32_t t) {
       Triangle corners = mesh_.triangles[t];
@@ -139,6 +168,7 @@ class EdgeMerger {
   const VertexTriangles around_;                                          // before any merge
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> joined_;  // of vertices that others were merged into
   std::unordered_map<std::uint32_t, std::uint32_t> merged_into_;
+  std::unordered_map<std::uint32_t, double> way_;  // by survivor: the farthest that a vertex has moved onto it
   std::vector<bool> is_gone_;
 };
 

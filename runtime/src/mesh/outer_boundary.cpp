@@ -5,11 +5,13 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "mesh/holes.h"
 #include "mesh/merge_short_edges.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/surface_parts.h"
@@ -243,10 +245,87 @@ OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32
   return BoundaryFinder(std::move(cut), component_of, threads).run();
 }
 
+namespace {
+
+/// Triangles of the mesh that have several parts.
+std::uint64_t count_cut(const CutMesh& cut, std::size_t triangles) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 1; i < cut.source.size(); ++i) {
+    const bool is_second = cut.source[i] == cut.source[i - 1] && (i == 1 || cut.source[i] != cut.source[i - 2]);
+    count += is_second && cut.source[i] < triangles;
+  }
+  return count;
+}
+
+/// The boundary of the mesh with the fillings of some holes. `filled`: by hole; the mark of those whose filling stays
+/// is removed.
+OuterBoundary find_filled_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of, const Holes& holes,
+                                   std::vector<char>& filled, unsigned threads) {
+  const Holes::Filled whole = holes.fill(mesh, component_of, filled);
+  const TriangleTree tree(whole.mesh);
+  const SelfIntersections intersections = find_self_intersections(whole.mesh, tree, threads);
+  CutMesh cut = cut_crossings(whole.mesh, tree, intersections, threads);
+  const auto of_mesh = [&](std::uint32_t source) { return source < mesh.triangles.size(); };
+  const auto parts = std::ranges::count_if(cut.source, of_mesh);
+  const std::uint64_t cut_triangles = count_cut(cut, mesh.triangles.size());
+  OuterBoundary boundary = leave_out_inner_patches(std::move(cut), whole.component_of, threads);
+  boundary.cut_triangles = cut_triangles;
+  boundary.inner_triangles = static_cast<std::uint64_t>(parts - std::ranges::count_if(boundary.source, of_mesh));
+  for (const std::uint32_t source : boundary.source) {
+    if (!of_mesh(source)) filled[whole.hole_of[source - mesh.triangles.size()]] = 0;
+  }
+  if (!intersections.known) filled.assign(filled.size(), 0);
+  return boundary;
+}
+
+/// By hole: whether the winding number is at least kNearlyInside at the middles of its filling. In the plane of a hole
+/// that lies inside one other part it is 3/2, and 1/2 outside all parts: such holes are not filled in the first place.
+std::vector<char> may_be_hidden(const Mesh& mesh, const Holes& holes, const std::vector<std::uint32_t>& component_of,
+                                const TriangleTree& tree) {
+  constexpr double kNearlyInside = 0.8;
+  std::vector<char> wanted;
+  for (std::uint32_t hole = 0; hole < holes.count(); ++hole) wanted.push_back(holes.can_be_filled(hole) ? 1 : 0);
+  if (std::ranges::count(wanted, 1) == 0) return wanted;
+  const WindingTree winding(tree);
+  const Holes::Filled all = holes.fill(mesh, component_of, wanted);
+  for (std::size_t i = 0; i < all.hole_of.size(); ++i) {
+    Point middle = {0, 0, 0};
+    for (const std::uint32_t v : all.mesh.triangles[mesh.triangles.size() + i])
+      middle = middle + (1.0 / 3) * all.mesh.vertices[v];
+    char& is_wanted = wanted[all.hole_of[i]];
+    if (is_wanted != 0 && winding.at(middle) < kNearlyInside) is_wanted = 0;
+  }
+  return wanted;
+}
+
+/// With the fillings of all holes whose fillings then lie inside. No value: there are none. Where one filling stays,
+/// others may have been inside only because of it.
+std::optional<OuterBoundary> find_boundary_with_fillings(const Mesh& mesh,
+                                                         const std::vector<std::uint32_t>& component_of,
+                                                         const TriangleTree& tree, unsigned threads) {
+  const Holes holes(mesh, component_of);
+  std::vector<char> filled = may_be_hidden(mesh, holes, component_of, tree);
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds && std::ranges::count(filled, 1) > 0; ++round) {
+    const std::vector<char> before = filled;
+    OuterBoundary boundary = find_filled_boundary(mesh, component_of, holes, filled, threads);
+    if (filled != before) continue;
+    for (std::uint32_t hole = 0; hole < holes.count(); ++hole) {
+      if (filled[hole] != 0) boundary.hidden_open_edges += holes.open_edges(hole);
+    }
+    return boundary;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                   const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads) {
+  std::optional<OuterBoundary> filled = find_boundary_with_fillings(mesh, component_of, tree, threads);
   OuterBoundary boundary =
-      leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
+      filled ? std::move(*filled)
+             : leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
   merge_short_edges(boundary.mesh, boundary.source, mesh.vertices.size(), kMergedLength * longest_side(mesh));
   return boundary;
 }

@@ -120,6 +120,7 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
 void carry_over(const MeshReport& before, const OuterBoundary& boundary, MeshReport& report) {
   report.cut_faces = boundary.cut_triangles;
   report.inner_faces = boundary.inner_triangles;
+  report.hidden_open_edges = boundary.hidden_open_edges;
   report.merged_vertices = before.merged_vertices;
   report.unused_vertices = before.unused_vertices;
   report.fallback_polygons = before.fallback_polygons;

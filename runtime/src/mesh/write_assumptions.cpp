@@ -15,6 +15,21 @@ std::string edges(std::uint64_t n, const std::string& kind) {
   return fmt::format("{} {} {}", n, kind, n == 1 ? "edge" : "edges");
 }
 
+/// About parts that overlap.
+void add_changes_of_boundary(MeshReport& r) {
+  const auto add = [&](std::string sentence) { r.assumptions.push_back(std::move(sentence)); };
+  if (r.hidden_open_edges > 0) {
+    add(fmt::format("{} inside other parts: filled there.", edges(r.hidden_open_edges, "open")));
+  }
+  if (r.cut_faces > 0) {
+    add(fmt::format("{} that cross others: cut along the crossings.", faces(r.cut_faces)));
+  }
+  if (r.inner_faces > 0) {
+    add(fmt::format("{} with the inside on both sides: left out, as they do not bound the solid.",
+                    faces(r.inner_faces)));
+  }
+}
+
 }  // namespace
 
 void write_assumptions(MeshReport& r) {
@@ -73,13 +88,7 @@ void write_assumptions(MeshReport& r) {
   if (r.components > 1) {
     add(fmt::format("{} components: a point is inside if their winding numbers add up to at least 1/2.", r.components));
   }
-  if (r.cut_faces > 0) {
-    add(fmt::format("{} that cross others: cut along the crossings.", faces(r.cut_faces)));
-  }
-  if (r.inner_faces > 0) {
-    add(fmt::format("{} with the inside on both sides: left out, as they do not bound the solid.",
-                    faces(r.inner_faces)));
-  }
+  add_changes_of_boundary(r);
   if (r.intersecting_faces > 0) {
     add(fmt::format("{} that cross or touch others: normals there are not relied on.", faces(r.intersecting_faces)));
   }

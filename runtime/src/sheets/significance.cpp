@@ -1,6 +1,7 @@
 #include "sheets/significance.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -176,6 +177,20 @@ std::vector<double> share_among_sheets(const SheetBalls& sheets, const std::vect
   return around.by_sheet(given[0]);
 }
 
+/// Decreasing. Balls of radius 0 and hidden balls are in no component.
+Result<std::vector<double>> share_among_components(const BallUnion& whole) {
+  const Result<std::vector<std::uint32_t>> component_of = component_of_vertices(whole.complex);
+  if (!component_of) return component_of.error();
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < whole.complex.vertices.size(); ++i) {
+    shares.resize(std::max<std::size_t>(shares.size(), component_of.value()[i] + std::size_t{1}));
+    shares[component_of.value()[i]] += whole.volumes[whole.complex.vertices[i]];
+  }
+  std::ranges::sort(shares, std::greater<>());
+  for (double& share : shares) share = whole.volume > 0 ? share / whole.volume : 0;
+  return shares;
+}
+
 }  // namespace
 
 std::vector<double> seam_weights(const Sheets& sheets) {
@@ -201,9 +216,12 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
   BallUnion& whole = measured.value();
   const Result<BettiNumbers> topology = betti_numbers(whole.complex);
   if (!topology) return topology.error();
+  Result<std::vector<double>> of_component = share_among_components(whole);
+  if (!of_component) return of_component.error();
   Significance result{.volume = whole.volume,
                       .area = whole.area,
                       .topology = topology.value(),
+                      .of_component = std::move(of_component).value(),
                       .of_ball = std::move(whole.volumes),
                       .of_sheet = {},
                       .areas = std::move(whole.areas)};

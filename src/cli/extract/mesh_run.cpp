@@ -41,6 +41,12 @@ AnalysisOptions analysis_options(const Options& options) {
   return out;
 }
 
+std::uint64_t leading_components(const std::vector<double>& shares) {
+  std::uint64_t count = 0;
+  for (double held = 0; count < shares.size() && held < kLeadingShare; ++count) held += shares[count];
+  return count;
+}
+
 }  // namespace
 
 MeshRun::MeshRun(Options options, std::string part, SharedOfRun& shared)
@@ -127,7 +133,8 @@ void MeshRun::describe() {
   record_.sheets = std::move(analysis_.sheets);
   if (analysis_.significance) {
     const Significance& measured = *analysis_.significance;
-    record_.ball_union = UnionRecord{measured.volume, measured.area, measured.topology};
+    record_.ball_union =
+        UnionRecord{measured.volume, measured.area, measured.topology, leading_components(measured.of_component)};
   }
   record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
   record_.by_significance = std::move(analysis_.by_significance);

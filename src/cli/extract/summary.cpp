@@ -64,7 +64,13 @@ std::string describe_union(const RunRecord& record) {
   if (record.mesh.closed && record.mesh.signed_volume > 0) {
     text += fmt::format(", {:.2f} % of the solid", 100 * whole.volume / record.mesh.signed_volume);
   }
-  return fmt::format("{}; {}", text, describe(whole.topology));
+  text += "; " + describe(whole.topology);
+  // Small balls at edges of the solid reach no other ball.
+  if (whole.leading_components < whole.topology.components) {
+    text += fmt::format("; {} of the components hold{} {:g} % of the volume", grouped(whole.leading_components),
+                        whole.leading_components == 1 ? "s" : "", 100 * kLeadingShare);
+  }
+  return text;
 }
 
 std::string describe_removal(const SheetRemoval& removal) {

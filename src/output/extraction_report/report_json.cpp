@@ -54,6 +54,7 @@ Json mesh_json(const MeshReport& mesh, double longest_side) {
           {"inner_walls_dropped", mesh.inner_walls_dropped},
           {"cut_faces", mesh.cut_faces},
           {"inner_faces_left_out", mesh.inner_faces},
+          {"hidden_open_edges", mesh.hidden_open_edges},
           {"open_edges", mesh.open_edges},
           {"non_manifold_edges", mesh.non_manifold_edges},
           {"inconsistent_edges", mesh.inconsistent_edges},
@@ -160,11 +161,9 @@ Json sheets_json(const Sheets& sheets) {
 Json union_json(const std::optional<UnionRecord>& ball_union) {
   if (!ball_union) return nullptr;
   const BettiNumbers& topology = ball_union->topology;
-  return {{"volume", ball_union->volume},
-          {"area", ball_union->area},
-          {"components", topology.components},
-          {"tunnels", topology.tunnels},
-          {"cavities", topology.cavities}};
+  return {{"volume", ball_union->volume},      {"area", ball_union->area},
+          {"components", topology.components}, {"leading_components", ball_union->leading_components},
+          {"tunnels", topology.tunnels},       {"cavities", topology.cavities}};
 }
 
 Json removal_json(const RunRecord& record) {

@@ -32,7 +32,10 @@ struct UnionRecord {
   double volume = 0;
   double area = 0;
   BettiNumbers topology;
+  std::uint64_t leading_components = 0;  ///< The fewest that hold kLeadingShare of the volume.
 };
+
+constexpr double kLeadingShare = 0.999;
 
 struct RunRecord {
   std::string input;

@@ -14,9 +14,10 @@ struct AssemblyOptions {
   bool has_sheets = false;
 };
 
-/// 44 parts, 70 of them with sheets. Two sleeves are open at both ends: four rims of `50 * fineness` edges. Spheres are
-/// inside out, the belt is there twice, the jacket crosses the torso along curves and shares its axis and meridians,
-/// the skirt is a thin shell, the eyes lie in the head, and the head touches the torso in one vertex.
+/// 44 parts; 70 with sheets. Two sleeves are open at both ends: four rims of `50 * fineness` edges, those of the right
+/// sleeve inside other parts, those of the left one partly outside. Spheres are inside out, the belt is there twice,
+/// the jacket crosses the torso along curves and shares its axis and meridians, the skirt is a thin shell, the eyes lie
+/// in the head, and the head touches the torso in one vertex.
 Mesh make_assembly(const AssemblyOptions& options);
 
 }  // namespace medial_vk::test

@@ -56,6 +56,14 @@ TEST(BettiNumbersOf, NothingPointsAndLines) {
   EXPECT_EQ(betti_numbers(complete(circle)).value(), (BettiNumbers{2, 1, 0}));
 }
 
+TEST(ComponentOfVertices, IsNumberedInTheOrderOfFirstVertices) {
+  const DualComplex complex =
+      complete({.vertices = {2, 8}, .edges = {{4, 9}, {3, 7}, {7, 9}, {1, 5}}, .triangles = {}, .tetrahedra = {}});
+  ASSERT_EQ(complex.vertices, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 7, 8, 9}));
+  EXPECT_EQ(component_of_vertices(complex).value(), (std::vector<std::uint32_t>{0, 1, 2, 2, 0, 2, 3, 2}));
+  EXPECT_TRUE(component_of_vertices({}).value().empty());
+}
+
 TEST(BettiNumbersOf, Spheres) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   add_sphere(triangles, {0, 1, 2, 3});

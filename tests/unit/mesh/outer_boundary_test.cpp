@@ -159,6 +159,48 @@ TEST(OuterBoundary, ACavityStaysWhereOtherPartsCross) {
   EXPECT_GT(exact_winding_number(prepared.mesh, {0, 0, 0.6}), 0.5);
 }
 
+/// A square tube along x, open at both ends, about the line y = 0.51, z = 0.52.
+Mesh tube(double from, double to, double width) {
+  Mesh mesh = moved(make_box({to - from, width, width}), {from, 0.51 - width / 2, 0.52 - width / 2});
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return mesh.vertices[v][0] == mesh.vertices[t[0]][0]; });
+  });
+  return mesh;
+}
+
+TEST(OuterBoundary, HolesInsideOtherPartsAreFilled) {
+  const Mesh cubes = mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {1, 1, 1}}});
+  const PreparedMesh prepared = prepare(together(cubes, tube(0.5, 2.5, 0.4)));
+  expect_union(prepared, 2 + 0.4 * 0.4, 1e-12);
+  EXPECT_EQ(prepared.report.hidden_open_edges, 8u);
+  // The tube's eight triangles, and two of each cube.
+  EXPECT_EQ(prepared.report.cut_faces, 12u);
+}
+
+TEST(OuterBoundary, HolesOutsideStay) {
+  const Mesh cube = mesh_of({{{0, 0, 0}, {1, 1, 1}}});
+  const PreparedMesh prepared = prepare(together(cube, tube(0.5, 2.5, 0.4)));
+  EXPECT_EQ(prepared.report.hidden_open_edges, 4u);
+  EXPECT_EQ(prepared.report.open_edges, 4u);
+  EXPECT_EQ(prepared.report.faces_within, 0u);
+  EXPECT_GT(prepared.report.inner_faces, 0u);
+}
+
+/// A thin tube along y, about the line x, z = 0.52, open at both ends, of which one is at y = 0.51.
+Mesh tube_aside(double x) {
+  Mesh mesh = over(tube(0.51, 2, 0.1));
+  for (Point& p : mesh.vertices) p = {p[1] + x - 0.51, p[0], p[2]};
+  return mesh;
+}
+
+// A thin tube begins in a wide one, whose end is open: next to that end the winding number is too low for the hole of
+// the thin tube to lie inside.
+TEST(OuterBoundary, HolesNextToOpenEndsStay) {
+  const Mesh part = together(tube(0, 1, 0.4), mesh_of({{{-0.5, 0, 0}, {1, 1, 1}}}));
+  EXPECT_EQ(prepare(together(part, tube_aside(0.7))).report.hidden_open_edges, 8u);
+  EXPECT_EQ(prepare(together(part, tube_aside(0.945))).report.hidden_open_edges, 4u);
+}
+
 TEST(OuterBoundary, InnerFacesAreKeptOnRequest) {
   const Mesh mesh = mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}});
   const PreparedMesh prepared = prepare_mesh(mesh, {.keep_inner_faces = true}).value();

@@ -156,12 +156,16 @@ TEST(ReportJson, UnionAndRemoval) {
 
   record.mesh.closed = true;
   record.mesh.signed_volume = 8;
-  record.ball_union = UnionRecord{6, 12, {1, 2, 3}};
+  record.ball_union = UnionRecord{6, 12, {1, 2, 3}, 1};
   record.removal = SheetRemoval{{2, 0}, {0.75, 0.5}, {1, 3}};
   record.keep_volume = 0.5;
   report = json::parse(report_json(record));
-  EXPECT_EQ(report["union"],
-            json({{"volume", 6.0}, {"area", 12.0}, {"components", 1}, {"tunnels", 2}, {"cavities", 3}}));
+  EXPECT_EQ(report["union"], json({{"volume", 6.0},
+                                   {"area", 12.0},
+                                   {"components", 1},
+                                   {"leading_components", 1},
+                                   {"tunnels", 2},
+                                   {"cavities", 3}}));
   EXPECT_EQ(report["removal"]["removed"], json({2, 0}));
   EXPECT_EQ(report["removal"]["kept"], json({1, 3}));
   EXPECT_EQ(report["removal"]["volume_left"], json({0.75, 0.5}));

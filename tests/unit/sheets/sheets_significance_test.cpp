@@ -101,6 +101,19 @@ TEST(Significance, SumsToOne) {
   EXPECT_NEAR(std::accumulate(found.of_ball.begin(), found.of_ball.end(), 0.0), 1, 1e-13);
 }
 
+TEST(Significance, OfComponentsDecreases) {
+  Parts parts;
+  parts.add(row({0, 0, 0}, {5, 0, 0}, 1, 0.5));
+  parts.add(row({10, 0, 0}, {5, 0, 0}, 2, 1));
+  parts.add(row({30, 0, 0}, {1e-3, 0, 0}, 3, 2));
+  const Significance measured = measure(parts);
+  const double all = 0.125 + 1 + 1 + 8;  // over that of a ball of radius 1; those of the last row almost coincide
+  ASSERT_EQ(measured.of_component.size(), 4u);
+  const std::array<double, 4> expected = {8 / all, 1 / all, 1 / all, 0.125 / all};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(measured.of_component[i], expected[i], 2e-3);
+  EXPECT_NEAR(std::accumulate(measured.of_component.begin(), measured.of_component.end(), 0.0), 1, 1e-12);
+}
+
 // Four balls of one size in a row, apart, in two sheets: those at the seam count for both. With voxels of side 0.75
 // sheets count up to 1.5 from a centre, so points a step away by 1/3.
 TEST(Significance, BallsAtASeamAreOfAllSheetsThere) {

@@ -128,4 +128,9 @@ Result<BettiNumbers> betti_numbers(const DualComplex& complex) {
                              [&]() -> Result<BettiNumbers> { return count_homology(complex); });
 }
 
+Result<std::vector<std::uint32_t>> component_of_vertices(const DualComplex& complex) {
+  return catch_out_of_memory("numbering the components of a union of balls",
+                             [&]() -> Result<std::vector<std::uint32_t>> { return number_components(complex); });
+}
+
 }  // namespace medial_vk

@@ -48,12 +48,25 @@ class DisjointSets {
   std::size_t sets_;
 };
 
-}  // namespace
-
-std::uint64_t count_components(const DualComplex& complex) {
+DisjointSets join_vertices(const DualComplex& complex) {
   DisjointSets sets(complex.vertices.size());
   for (const auto& [a, b] : complex.edges) sets.join(index_in(complex.vertices, a), index_in(complex.vertices, b));
-  return sets.sets();
+  return sets;
+}
+
+}  // namespace
+
+std::uint64_t count_components(const DualComplex& complex) { return join_vertices(complex).sets(); }
+
+std::vector<std::uint32_t> number_components(const DualComplex& complex) {
+  DisjointSets sets = join_vertices(complex);
+  std::vector<std::uint32_t> number(complex.vertices.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const std::size_t first = sets.find(i);  // the smallest index of the set
+    number[i] = first == i ? next++ : number[first];
+  }
+  return number;
 }
 
 void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices) {

@@ -46,6 +46,8 @@ std::size_t index_in(const std::vector<T>& list, const T& simplex) {
 }
 
 std::uint64_t count_components(const DualComplex& complex);
+/// By vertex, numbered in the order of their first vertices.
+std::vector<std::uint32_t> number_components(const DualComplex& complex);
 
 /// Sorts all lists and adds missing faces. Faces are missing by rounding only: if a simplex barely meets its ball, its
 /// faces may have been found to miss theirs.
