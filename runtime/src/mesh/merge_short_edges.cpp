@@ -50,8 +50,8 @@ class EdgeMerger {
       }
     }
     std::ranges::sort(edges, {}, &ShortEdge::key);
-    const auto repeated = std::ranges::unique(edges, {}, &ShortEdge::key);
-    edges.erase(repeated.begin(), repeated.end());
+    const auto is_same = [](const ShortEdge& e, const ShortEdge& f) { return e.key() == f.key(); };
+    edges.erase(std::unique(edges.begin(), edges.end(), is_same), edges.end());
     return edges;
   }
 
@@ -120,7 +120,7 @@ class EdgeMerger {
     }
     for (std::vector<std::uint32_t>* set : {&thirds, &near_one, &near_other}) {
       std::ranges::sort(*set);
-      set->erase(std::ranges::unique(*set).begin(), set->end());
+      set->erase(std::unique(set->begin(), set->end()), set->end());
     }
     std::ranges::set_intersection(near_one, near_other, std::back_inserter(common));
     return !thirds.empty() && common == thirds && !coincides(stays, moves);

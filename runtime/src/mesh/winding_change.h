@@ -1,6 +1,7 @@
 // How far a winding number that is known beside one triangle holds beside its neighbours.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,10 +37,8 @@ template <class Take>
 void visit_neighbours(const Mesh& mesh, const MeshTopology& topology, std::uint32_t start, const Point& centre,
                       double radius, Take take) {
   const auto is_near = [&](std::uint32_t t) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (!(length(mesh.vertices[v] - centre) <= radius)) return false;
-    }
-    return true;
+    return std::ranges::all_of(mesh.triangles[t],
+                               [&](std::uint32_t v) { return length(mesh.vertices[v] - centre) <= radius; });
   };
   std::vector<std::uint32_t> left = {start};
   while (!left.empty()) {

@@ -113,5 +113,27 @@ TEST(MergeShortEdges, DoesNotCloseATube) {
   EXPECT_EQ(fan.mesh.triangles.size(), 12u);
 }
 
+TEST(MergeShortEdges, DoesNotFlattenATetrahedron) {
+  Fan fan;
+  fan.mesh.vertices = {{1, 1, 0}, {1, -1, 1}, {0, 0, 0}, {1e-7, 0, 0}};
+  fan.mesh.triangles = {{2, 0, 1}, {3, 1, 0}, {2, 3, 0}, {3, 2, 1}};
+  fan.merge(2, 1e-6);
+  EXPECT_EQ(fan.mesh.triangles.size(), 4u);
+}
+
+TEST(MergeShortEdges, NoVertexMovesByMoreThanTheLength) {
+  // The vertices 4, 5 and 6 in a row: 6 moves onto 5, which would carry it too far if it moved onto 4.
+  const auto merged = [](double from_4_to_5) {
+    Fan fan;
+    const double x = from_4_to_5;
+    fan.mesh.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 0}, {x, 0, 0}, {x + 4e-7, 0, 0}};
+    fan.mesh.triangles = {{0, 5, 4}, {0, 1, 5}, {1, 6, 5}, {3, 4, 5}, {3, 5, 2}, {2, 5, 6}, {0, 4, 3}, {1, 2, 6}};
+    fan.merge(4, 1e-6);
+    return fan.mesh.triangles.size();
+  };
+  EXPECT_EQ(merged(5e-7), 4u);
+  EXPECT_EQ(merged(7e-7), 6u);
+}
+
 }  // namespace
 }  // namespace medial_vk
