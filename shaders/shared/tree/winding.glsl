@@ -38,8 +38,8 @@ struct Expansion {
   float angle;  // at least the solid angle of the part over 4 pi
 };
 
-// A part may use this much of the tolerance that is left, by its solid angle, and at most kMostOfRest of it, so that some
-// is always left (measured: docs/theory.md).
+// A part may use this much of the tolerance that is left, by its solid angle (measured), and at most kMostOfRest of it, so
+// that some is always left.
 const float kRestPerAngle = 0.5, kMostOfRest = 0.25;
 
 Expansion expand_child(vec3 p, uint texel) {
