@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 #include "reference_bridge/reference_bridge.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"

@@ -17,6 +17,12 @@ namespace {
 static_assert(sizeof(MedialSphere) ==
               sizeof(Point) + sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t) + 3 * sizeof(std::uint32_t));
 
+PreparedMesh torus(std::uint32_t around = 40, std::uint32_t along = 80) {
+  Mesh mesh = test::make_torus(1.0, 0.4, around, along, 0.5);
+  test::rotate(mesh, {0.3, 0.5, 0.8}, 0.7);
+  return test::prepare(std::move(mesh));
+}
+
 void expect_same_spheres(const Extraction& a, const Extraction& b) {
   EXPECT_EQ(a.grid.origin, b.grid.origin);
   EXPECT_EQ(a.grid.voxel_size, b.grid.voxel_size);
@@ -50,17 +56,11 @@ class BothModes : public testing::TestWithParam<Mode> {
     options_.resolution = 24;
   }
 
-  static PreparedMesh solid() {
-    Mesh mesh = test::make_torus(1, 0.4, 40, 80, 0.5);
-    test::rotate(mesh, {0.3, 0.5, 0.8}, 0.7);
-    return test::prepare(std::move(mesh));
-  }
-
   ExtractionOptions options_;
 };
 
 TEST_P(BothModes, TwiceTheSameBytes) {
-  const PreparedMesh mesh = solid();
+  const PreparedMesh mesh = torus();
   Context context = test::make_context();
   const CertifiedExtraction first = test::extract_on_device(context, mesh, options_);
   const CertifiedExtraction second = test::extract_on_device(context, mesh, options_);
@@ -70,7 +70,7 @@ TEST_P(BothModes, TwiceTheSameBytes) {
 }
 
 TEST_P(BothModes, MemoryOnlyCutsTheWork) {
-  const PreparedMesh mesh = solid();
+  const PreparedMesh mesh = torus();
   Context context = test::make_context();
   const CertifiedExtraction roomy = test::extract_on_device(context, mesh, options_);
   options_.memory_budget = 64ull << 20;
@@ -92,9 +92,7 @@ TEST_P(BothModes, MemoryOnlyCutsTheWork) {
 // Chunks of few top cells, among them some with only cells that are found empty when their lists are written.
 TEST(Determinism, SmallChunksGiveTheSame) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  Mesh solid = test::make_torus(1.0, 0.4, 80, 160, 0.5);
-  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
-  const PreparedMesh mesh = test::prepare(std::move(solid));
+  const PreparedMesh mesh = torus(80, 160);
   Context context = test::make_context();
   ExtractionOptions options;
   options.resolution = 100;
@@ -107,9 +105,7 @@ TEST(Determinism, SmallChunksGiveTheSame) {
 // A block of voxels counts the cells above it once more.
 TEST(Determinism, ATopCellThatDoesNotFitIsSearchedInBlocks) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  Mesh solid = test::make_torus(1.0, 0.4, 40, 80, 0.5);
-  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
-  const PreparedMesh mesh = test::prepare(std::move(solid));
+  const PreparedMesh mesh = torus();
   Context context = test::make_context();
   ExtractionOptions options;
   options.resolution = 128;
@@ -131,9 +127,7 @@ TEST(Determinism, ATopCellThatDoesNotFitIsSearchedInBlocks) {
 // What then stays undecided was found or proved at a level that is left out; all other voxels are as before.
 TEST(Determinism, AVoxelThatDoesNotFitIsDividedLess) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
-  Mesh solid = test::make_torus(1.0, 0.4, 40, 80, 0.5);
-  test::rotate(solid, {0.3, 0.5, 0.8}, 0.7);
-  const PreparedMesh mesh = test::prepare(std::move(solid));
+  const PreparedMesh mesh = torus();
   Context context = test::make_context();
   ExtractionOptions options;
   options.resolution = 100;

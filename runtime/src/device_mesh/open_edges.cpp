@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 
+#include "base/connected_vertices.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {
@@ -46,20 +47,6 @@ std::vector<Surplus> surpluses(const MeshView& mesh) {
   return out;
 }
 
-// The components of vertices connected by edges: a representative of each vertex, by path halving.
-class Parts {
- public:
-  std::uint32_t root(std::uint32_t v) {
-    auto parent = [this](std::uint32_t i) -> std::uint32_t& { return parents_.try_emplace(i, i).first->second; };
-    while (parent(v) != v) v = parent(v) = parent(parent(v));
-    return v;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
-
- private:
-  std::map<std::uint32_t, std::uint32_t> parents_;
-};
-
 }  // namespace
 
 OpenEdges find_open_edges(const MeshView& mesh, const UnitTransform& to_unit, std::uint32_t most) {
@@ -67,8 +54,8 @@ OpenEdges find_open_edges(const MeshView& mesh, const UnitTransform& to_unit, st
   OpenEdges out;
   out.count = static_cast<std::uint32_t>(edges.size());
   if (out.count > most) return out;
-  Parts parts;
-  for (const Surplus& e : edges) parts.unite(e.from, e.to);
+  ConnectedVertices parts;
+  for (const Surplus& e : edges) parts.connect(e.from, e.to);
   struct Mean {
     Point sum{};
     double count = 0;

@@ -1,55 +1,31 @@
 #include "mesh/holes.h"
 
-#include <cstdlib>
 #include <unordered_map>
 #include <utility>
 
+#include "base/connected_vertices.h"
 #include "base/point_ops.h"
 #include "mesh/mesh_topology.h"
 
 namespace medial_vk {
-namespace {
-
-/// Sets of vertices that edges connect, by path halving.
-class ConnectedVertices {
- public:
-  std::uint32_t root(std::uint32_t v) {
-    while (parent(v) != v) v = parent(v) = parent(parent(v));
-    return v;
-  }
-  void connect(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t root_of_b = root(b);
-    parent(root(a)) = root_of_b;
-  }
-
- private:
-  std::uint32_t& parent(std::uint32_t v) { return parents_.try_emplace(v, v).first->second; }
-
-  std::unordered_map<std::uint32_t, std::uint32_t> parents_;
-};
-
-}  // namespace
-
 Holes::Holes(const Mesh& mesh, const std::vector<std::uint32_t>& component_of) {
   const MeshTopology topology(mesh);
   ConnectedVertices connected;
   std::vector<char> is_repeated;
   for (std::uint32_t edge = 0; edge < topology.edge_count(); ++edge) {
     const auto& [low, high] = topology.ends(edge);
-    int balance = 0;
-    for (const std::uint32_t t : topology.triangles_of(edge))
-      balance += runs_upwards(mesh.triangles[t], {low, high}) ? 1 : -1;
+    const std::int64_t balance = balance_at(mesh, topology, edge);
     if (balance == 0) continue;
     const std::uint32_t component = component_of[topology.triangles_of(edge).front()];
     edges_.push_back(balance > 0 ? OpenEdge{low, high, component, 0} : OpenEdge{high, low, component, 0});
-    is_repeated.push_back(std::abs(balance) > 1);
+    is_repeated.push_back(balance < -1 || balance > 1);
     connected.connect(low, high);
     if (edges_.size() > kMostOpenEdges) {
       edges_.clear();
       return;
     }
   }
-  std::unordered_map<std::uint32_t, std::uint32_t> hole_of_root;  // by root
+  std::unordered_map<std::uint32_t, std::uint32_t> hole_of_root;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     OpenEdge& e = edges_[i];
     const auto [known, is_new] = hole_of_root.try_emplace(connected.root(e.from), count());

@@ -58,8 +58,7 @@ std::vector<bool> inspect_topology(const Mesh& mesh, const MeshTopology& topolog
   for (std::uint32_t edge = 0; edge < topology.edge_count(); ++edge) {
     const auto beside = topology.triangles_of(edge);
     const auto& ends = topology.ends(edge);
-    std::int64_t balance = 0;
-    for (const std::uint32_t t : beside) balance += runs_upwards(mesh.triangles[t], ends) ? 1 : -1;
+    const std::int64_t balance = balance_at(mesh, topology, edge);
     if (beside.size() == 1) ++report.open_edges;
     if (beside.size() == 2 && balance != 0) ++report.inconsistent_edges;
     if (beside.size() > 2) ++report.non_manifold_edges;

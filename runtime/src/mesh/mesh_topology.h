@@ -41,6 +41,14 @@ inline bool runs_upwards(const Triangle& t, const std::array<std::uint32_t, 2>& 
          (t[2] == ends[0] && t[0] == ends[1]);
 }
 
+/// How many more triangles traverse the edge from its smaller vertex to the other than back; 0: they cancel.
+inline std::int64_t balance_at(const Mesh& mesh, const MeshTopology& topology, std::uint32_t edge) {
+  std::int64_t balance = 0;
+  for (const std::uint32_t t : topology.triangles_of(edge))
+    balance += runs_upwards(mesh.triangles[t], topology.ends(edge)) ? 1 : -1;
+  return balance;
+}
+
 /// The triangles around each vertex.
 class VertexTriangles {
  public:

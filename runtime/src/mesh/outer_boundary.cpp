@@ -1,250 +1,18 @@
+// Holes that lie inside are filled, crossings are cut, inner patches are left out, and short edges are merged.
 #include "mesh/outer_boundary.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
-#include "base/parallel.h"
 #include "base/point_ops.h"
+#include "mesh/crossings/cut_crossings.h"
 #include "mesh/holes.h"
+#include "mesh/inspect_mesh.h"
 #include "mesh/merge_short_edges.h"
-#include "mesh/mesh_topology.h"
-#include "mesh/surface_parts.h"
-#include "mesh/winding_change.h"
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 
 namespace medial_vk {
-namespace {
-
-/// A patch lies inside if the winding number without itself is at least this beside every sample of it: 1/2 behind and
-/// in front, and a margin above the error of WindingTree.
-constexpr double kInside = 1.05;
-/// Or if it and that of the other components are at least this: 1/2, and a margin for two values. It is lower than 1
-/// only where its own component is open; beside the wall of a cavity it is 1/2.
-constexpr double kInsideOthers = 0.6;
-
-/// Where all components are closed, a patch has one value, and its largest triangles are evaluated, which are the
-/// farthest from others. Where some are open, all triangles are, near their corners, too, but for those so thin that
-/// rounding decides their value.
-constexpr std::size_t kSamples = 64;
-constexpr double kThin = 0x1p-30;  // of the area of the largest triangle of the patch
-
-double area(const std::array<Point, 3>& corners) {
-  return length(cross(corners[1] - corners[0], corners[2] - corners[0])) / 2;
-}
-
-/// The centroid, and a point near each corner.
-std::array<Point, 4> points_of(const std::array<Point, 3>& corners) {
-  const Point centroid = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
-  std::array<Point, 4> points = {centroid, centroid, centroid, centroid};
-  for (std::size_t k = 0; k < 3; ++k) points[k + 1] = centroid + 0.9 * (corners[k] - centroid);
-  return points;
-}
-
-double longest_side(const Mesh& mesh) {
-  Point lower = mesh.vertices.front(), upper = lower;
-  for (const Point& p : mesh.vertices) {
-    lower = least(lower, p);
-    upper = greatest(upper, p);
-  }
-  return std::ranges::max(upper - lower);
-}
-
-/// The winding numbers of one component.
-class ComponentField {
- public:
-  /// `triangles`: those of the component.
-  ComponentField(const Mesh& mesh, const std::vector<std::uint32_t>& triangles)
-      : part_(copy(mesh, triangles)), tree_(part_), winding_(tree_), position_of_(triangles.size()) {
-    for (std::uint32_t position = 0; position < tree_.order.size(); ++position)
-      position_of_[tree_.order[position]] = position;
-  }
-
-  /// Beside a point of its triangle with this number, without that triangle.
-  double beside(std::uint32_t number, const Point& p) const { return winding_.beside(position_of_[number], p); }
-
- private:
-  static Mesh copy(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    Mesh part;
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
-    for (const std::uint32_t t : triangles) {
-      Triangle corners = mesh.triangles[t];
-      for (std::uint32_t& v : corners) {
-        const auto [known, is_new] = numbers.try_emplace(v, static_cast<std::uint32_t>(part.vertices.size()));
-        if (is_new) part.vertices.push_back(mesh.vertices[v]);
-        v = known->second;
-      }
-      part.triangles.push_back(corners);
-    }
-    return part;
-  }
-
-  Mesh part_;
-  TriangleTree tree_;
-  WindingTree winding_;
-  std::vector<std::uint32_t> position_of_;
-};
-
-class BoundaryFinder {
- public:
-  BoundaryFinder(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads)
-      : component_of_(component_of),
-        cut_(std::move(cut)),
-        mesh_{std::move(cut_.vertices), std::move(cut_.triangles), 0, 0},
-        topology_(mesh_),
-        parts_(find_parts(mesh_, topology_)),
-        threads_(threads) {}
-
-  OuterBoundary run() {
-    find_inner_patches();
-    restore_openings();
-    OuterBoundary out;
-    out.mesh.vertices = std::move(mesh_.vertices);
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_inner_[parts_.patch_of[t]]) {
-        ++out.inner_triangles;
-        continue;
-      }
-      out.mesh.triangles.push_back(mesh_.triangles[t]);
-      out.source.push_back(cut_.source[t]);
-    }
-    out.cut_triangles = cut_.cut_triangles;
-    return out;
-  }
-
- private:
-  void find_inner_patches() {
-    std::swap(mesh_.vertices, cut_.decided);
-    const TriangleTree tree(mesh_);
-    const WindingTree winding(tree);
-    find_component_fields();
-    std::swap(mesh_.vertices, cut_.decided);
-    std::vector<std::vector<std::uint32_t>> positions(parts_.patches);  // in the tree
-    for (std::uint32_t position = 0; position < tree.order.size(); ++position)
-      positions[parts_.patch_of[tree.order[position]]].push_back(position);
-    const bool is_closed = balance_everywhere();
-    const WindingChange change(mesh_, topology_);
-    is_inner_.assign(parts_.patches, 0);
-    is_covered_.assign(mesh_.triangles.size(), 0);
-    parallel_for(parts_.patches, 1, threads_, [&](std::size_t patch) {
-      std::vector<std::uint32_t>& samples = positions[patch];
-      const auto area_at = [&](std::uint32_t position) { return area(tree.corners[position]); };
-      std::ranges::sort(samples, std::greater<>(), area_at);
-      const double least = kThin * area_at(samples.front());
-      if (is_closed && samples.size() > kSamples) samples.resize(kSamples);
-      is_inner_[patch] = std::ranges::all_of(samples, [&](std::uint32_t position) {
-        return area_at(position) < least || lies_inside(position, is_closed, tree, winding, change);
-      });
-    });
-    fields_.clear();
-    for (std::size_t t = 0; t < cut_.uncut.size(); ++t) {
-      if (cut_.uncut[t]) is_inner_[parts_.patch_of[t]] = 0;
-    }
-  }
-
-  /// Of the triangle at a position of the tree. The triangles around it for which the same follows are covered.
-  bool lies_inside(std::uint32_t position, bool is_closed, const TriangleTree& tree, const WindingTree& winding,
-                   const WindingChange& change) {
-    const std::uint32_t t = tree.order[position];
-    if (is_covered_[t]) return true;
-    const auto margin_at = [&](const Point& p) { return margin(t, p, winding.beside(position, p)); };
-    const std::array<Point, 4> points = points_of(tree.corners[position]);
-    const double at_centroid = margin_at(points[0]);
-    if (at_centroid < 0 || is_closed) return at_centroid >= 0;
-    cover(t, points[0], change.radius(points[0], at_centroid));
-    return is_covered_[t] ||
-           std::all_of(points.begin() + 1, points.end(), [&](const Point& p) { return margin_at(p) >= 0; });
-  }
-
-  /// By how much the winding numbers may change while a point of the triangle lies inside; negative if it does not.
-  /// `beside`: the winding number beside it. That of the other components changes by that of two fields.
-  double margin(std::uint32_t t, const Point& p, double beside) const {
-    if (beside >= kInside || beside < kInsideOthers) return beside - kInside;
-    return (std::min(beside, beside - fields_[component(t)]->beside(number_of_[t], p)) - kInsideOthers) / 2;
-  }
-
-  void cover(std::uint32_t t, const Point& centre, double radius) {
-    const auto is_near = [&](std::uint32_t v) { return length(mesh_.vertices[v] - centre) <= radius; };
-    if (!std::ranges::all_of(mesh_.triangles[t], is_near)) return;
-    is_covered_[t] = 1;
-    visit_neighbours(mesh_, topology_, t, centre, radius,
-                     [&](std::uint32_t other) { return std::exchange(is_covered_[other], 1) == 0; });
-  }
-
-  /// True if all triangles cancel at every edge.
-  bool balance_everywhere() const {
-    for (std::uint32_t edge = 0; edge < topology_.edge_count(); ++edge) {
-      int balance = 0;
-      for (const std::uint32_t t : topology_.triangles_of(edge)) balance += step_along(edge, t);
-      if (balance != 0) return false;
-    }
-    return true;
-  }
-
-  /// 1 or -1, by the direction in which the triangle runs along the edge.
-  int step_along(std::uint32_t edge, std::uint32_t t) const {
-    return runs_upwards(mesh_.triangles[t], topology_.ends(edge)) ? 1 : -1;
-  }
-
-  std::uint32_t component(std::uint32_t t) const { return component_of_[cut_.source[t]]; }
-
-  void find_component_fields() {
-    std::vector<std::vector<std::uint32_t>> members;
-    number_of_.resize(mesh_.triangles.size());
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      members.resize(std::max<std::size_t>(members.size(), component(t) + 1));
-      number_of_[t] = static_cast<std::uint32_t>(members[component(t)].size());
-      members[component(t)].push_back(t);
-    }
-    fields_.resize(members.size());
-    parallel_for(members.size(), 1, threads_, [&](std::size_t i) {
-      if (!members[i].empty()) fields_[i] = std::make_unique<ComponentField>(mesh_, members[i]);
-    });
-  }
-
-  /// Restores the inner patches at each edge of the boundary that would lose its balance without them. Edges between
-  /// inner patches lie inside, where a wall that ends does no harm.
-  void restore_openings() {
-    const std::vector<char> were_inner = is_inner_;
-    for (std::uint32_t edge = 0; edge < topology_.edge_count(); ++edge) {
-      int before = 0, after = 0;
-      std::size_t inner = 0;
-      const auto beside = topology_.triangles_of(edge);
-      for (const std::uint32_t t : beside) {
-        const int step = step_along(edge, t);
-        before += step;
-        const bool is_inner = were_inner[parts_.patch_of[t]] != 0;
-        inner += is_inner;
-        if (!is_inner) after += step;
-      }
-      if (inner == 0 || inner == beside.size() || std::abs(after) <= std::abs(before)) continue;
-      for (const std::uint32_t t : beside) is_inner_[parts_.patch_of[t]] = 0;
-    }
-  }
-
-  const std::vector<std::uint32_t>& component_of_;  // by triangle before the cut
-  CutMesh cut_;
-  Mesh mesh_;
-  MeshTopology topology_;
-  SurfaceParts parts_;
-  unsigned threads_;
-  std::vector<char> is_inner_;    // by patch
-  std::vector<char> is_covered_;  // by triangle: it lies inside as a neighbour does
-  std::vector<std::unique_ptr<ComponentField>> fields_;
-  std::vector<std::uint32_t> number_of_;  // by triangle: its number in its component
-};
-
-}  // namespace
-
-OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads) {
-  return BoundaryFinder(std::move(cut), component_of, threads).run();
-}
-
 namespace {
 
 /// Triangles of the mesh that have several parts.
@@ -257,24 +25,44 @@ std::uint64_t count_cut(const CutMesh& cut, std::size_t triangles) {
   return count;
 }
 
-/// The boundary of the mesh with the fillings of some holes. `filled`: by hole; the mark of those whose filling stays
-/// is removed.
-OuterBoundary find_filled_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of, const Holes& holes,
-                                   std::vector<char>& filled, unsigned threads) {
-  const Holes::Filled whole = holes.fill(mesh, component_of, filled);
-  const TriangleTree tree(whole.mesh);
-  const SelfIntersections intersections = find_self_intersections(whole.mesh, tree, threads);
-  CutMesh cut = cut_crossings(whole.mesh, tree, intersections, threads);
-  const auto of_mesh = [&](std::uint32_t source) { return source < mesh.triangles.size(); };
-  const auto parts = std::ranges::count_if(cut.source, of_mesh);
-  const std::uint64_t cut_triangles = count_cut(cut, mesh.triangles.size());
-  OuterBoundary boundary = leave_out_inner_patches(std::move(cut), whole.component_of, threads);
-  boundary.cut_triangles = cut_triangles;
-  boundary.inner_triangles = static_cast<std::uint64_t>(parts - std::ranges::count_if(boundary.source, of_mesh));
-  for (const std::uint32_t source : boundary.source) {
-    if (!of_mesh(source)) filled[whole.hole_of[source - mesh.triangles.size()]] = 0;
+/// The mesh with the fillings of some holes, cut.
+struct FilledMesh {
+  Holes::Filled whole;
+  CutMesh cut;
+  bool is_known = false;  // which triangles cross
+
+  FilledMesh(const Mesh& mesh, const std::vector<std::uint32_t>& component_of, const Holes& holes,
+             const std::vector<char>& filled, unsigned threads)
+      : whole(holes.fill(mesh, component_of, filled)) {
+    const TriangleTree tree(whole.mesh);
+    const SelfIntersections intersections = find_self_intersections(whole.mesh, tree, threads);
+    is_known = intersections.known;
+    cut = cut_crossings(whole.mesh, tree, intersections, threads);
   }
-  if (!intersections.known) filled.assign(filled.size(), 0);
+
+  std::size_t first_filling() const { return whole.mesh.triangles.size() - whole.hole_of.size(); }
+};
+
+/// Opens the holes again whose fillings do not lie inside.
+void open_again(const FilledMesh& mesh, std::vector<char>& filled, unsigned threads) {
+  const std::vector<char> inside = lie_inside(mesh.cut, mesh.whole.component_of, mesh.first_filling(), threads);
+  for (std::size_t t = 0; t < inside.size(); ++t) {
+    const std::size_t source = mesh.cut.source[t];
+    if (source >= mesh.first_filling() && inside[t] == 0) filled[mesh.whole.hole_of[source - mesh.first_filling()]] = 0;
+  }
+  if (!mesh.is_known) filled.assign(filled.size(), 0);
+}
+
+/// The boundary, if no filling is a part of it.
+std::optional<OuterBoundary> boundary_without_fillings(FilledMesh mesh, unsigned threads) {
+  const std::size_t first = mesh.first_filling();
+  const auto of_mesh = [&](std::uint32_t source) { return source < first; };
+  const auto parts = std::ranges::count_if(mesh.cut.source, of_mesh);
+  const std::uint64_t cut_triangles = count_cut(mesh.cut, first);
+  OuterBoundary boundary = leave_out_inner_patches(std::move(mesh.cut), mesh.whole.component_of, threads);
+  if (!std::ranges::all_of(boundary.source, of_mesh)) return std::nullopt;
+  boundary.cut_triangles = cut_triangles;
+  boundary.inner_triangles = static_cast<std::uint64_t>(parts) - boundary.source.size();
   return boundary;
 }
 
@@ -308,10 +96,12 @@ std::optional<OuterBoundary> find_boundary_with_fillings(const Mesh& mesh,
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds && std::ranges::count(filled, 1) > 0; ++round) {
     const std::vector<char> before = filled;
-    OuterBoundary boundary = find_filled_boundary(mesh, component_of, holes, filled, threads);
+    FilledMesh whole(mesh, component_of, holes, filled, threads);
+    open_again(whole, filled, threads);
     if (filled != before) continue;
-    for (std::uint32_t hole = 0; hole < holes.count(); ++hole) {
-      if (filled[hole] != 0) boundary.hidden_open_edges += holes.open_edges(hole);
+    std::optional<OuterBoundary> boundary = boundary_without_fillings(std::move(whole), threads);
+    for (std::uint32_t hole = 0; boundary && hole < holes.count(); ++hole) {
+      if (filled[hole] != 0) boundary->hidden_open_edges += holes.open_edges(hole);
     }
     return boundary;
   }
@@ -326,7 +116,9 @@ OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint3
   OuterBoundary boundary =
       filled ? std::move(*filled)
              : leave_out_inner_patches(cut_crossings(mesh, tree, intersections, threads), component_of, threads);
-  merge_short_edges(boundary.mesh, boundary.source, mesh.vertices.size(), kMergedLength * longest_side(mesh));
+  MeshReport box;
+  measure_box(mesh, box);
+  merge_short_edges(boundary.mesh, boundary.source, mesh.vertices.size(), kMergedLength * box.longest_side());
   return boundary;
 }
 

@@ -83,8 +83,8 @@ bool has_accurate_normal(const Mesh& mesh, const Triangle& t) {
 void set_flags(PreparedMesh& prepared, const std::vector<bool>& regular, const SelfIntersections& intersections,
                const Sidedness& sides) {
   MeshReport& report = prepared.report;
-  // The error bound of the tree's winding numbers; where the sides are not certain, no normal is trusted.
-  const float margin = report.closed ? 0.0f : 0.03f;
+  // Where the sides are not certain, no normal is trusted.
+  const float margin = report.closed ? 0.0f : kSideError;
   prepared.flags.assign(prepared.mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < prepared.flags.size(); ++i) {
     const float beside = sides.beside[i];
@@ -107,9 +107,8 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
     return invalid("the mesh encloses nothing: it is closed, but its volume is 0");
   }
   if (!sides.known) return {};
-  constexpr float kClear = 0.01f;  // well above the error of the winding numbers; a flat sheet has 0
   for (const float beside : sides.beside) {
-    if (beside > kClear) return {};
+    if (beside > kEncloses) return {};
   }
   return invalid(fmt::format(
       "the mesh encloses nothing: with {} open edges, the winding number reaches 1/2 behind none of its {} triangles",

@@ -9,9 +9,9 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "mesh/winding/winding_number.h"
+#include "mesh/winding/winding_step.h"
 #include "mesh/winding_change.h"
-#include "mesh/winding_number.h"
-#include "mesh/winding_step.h"
 
 namespace medial_vk {
 namespace {
@@ -19,14 +19,20 @@ namespace {
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-/// The values at which something about a triangle changes (turn_components(), set_flags() and check_enclosure() in
-/// prepare_mesh.cpp), ascending.
-constexpr std::array<double, 7> kThresholds = {-0.05, -0.03, 0.01, 0.03, 0.05, 0.97, 1.0};
+/// Half a percent of the full solid angle does not define a side; a plane sheet has 0 on both.
+constexpr float kClear = 0.05f;
+
+/// The values at which something about a triangle changes: that it is turned over, trusted, or encloses something.
+constexpr std::array kThresholds = {-kClear, -kSideError, kEncloses, kSideError, kClear, 1 - kSideError, 1.0f};
 
 double distance_to_threshold(double w) {
   double least = std::numeric_limits<double>::infinity();
-  for (const double threshold : kThresholds) least = std::min(least, std::abs(w - threshold));
+  for (const float threshold : kThresholds) least = std::min(least, std::abs(w - double{threshold}));
   return least;
+}
+
+double farthest_corner(const std::array<Point, 3>& corners, const Point& p) {
+  return std::max({length(corners[0] - p), length(corners[1] - p), length(corners[2] - p)});
 }
 
 class SideFinder {
@@ -176,7 +182,7 @@ class SideFinder {
               const Block& block, std::vector<char>& is_known) {
     const auto& c = tree_.corners[position];
     const Point centre = (1.0 / 3) * (c[0] + c[1] + c[2]);
-    const double radius = change.radius(centre, distance_to_threshold(w));
+    const double radius = change.radius(centre, distance_to_threshold(w), farthest_corner(c, centre));
     if (radius == 0) return;
     const std::uint32_t start = tree_.order[position];
     visit_neighbours(mesh_, topology_, start, centre, radius, [&](std::uint32_t t) {
@@ -191,8 +197,6 @@ class SideFinder {
   }
 
   bool turn_components(const std::vector<std::uint32_t>& triangles) {
-    // Half a percent of the full solid angle does not define a side; a plane sheet has 0 on both.
-    constexpr float kClear = 0.05f;
     struct Vote {
       double area = 0, for_it = 0, against = 0;
     };

@@ -11,6 +11,11 @@
 
 namespace medial_vk {
 
+/// The bound of the error of WindingTree on open meshes; a number within it of 0 or 1 decides nothing about a normal.
+constexpr float kSideError = 0.03f;
+/// A number above this encloses something: well above the mean error; a flat sheet has 0.
+constexpr float kEncloses = 0.01f;
+
 struct Sidedness {
   /// By triangle: the winding number at its centroid without itself; the inside lies behind and the outside in front
   /// if it is in [0, 1), since the triangle adds 1/2 behind and subtracts 1/2 in front. NaN: not evaluated.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -17,15 +16,14 @@ constexpr std::size_t kMostEdges = 4096;
 WindingChange::WindingChange(const Mesh& mesh, const MeshTopology& topology) {
   for (std::uint32_t edge = 0; edge < topology.edge_count() && !too_many_; ++edge) {
     const auto& ends = topology.ends(edge);
-    int balance = 0;
-    for (const std::uint32_t t : topology.triangles_of(edge)) balance += runs_upwards(mesh.triangles[t], ends) ? 1 : -1;
+    const std::int64_t balance = balance_at(mesh, topology, edge);
     if (balance == 0) continue;
-    edges_.push_back({mesh.vertices[ends[0]], mesh.vertices[ends[1]], static_cast<double>(std::abs(balance))});
+    edges_.push_back({mesh.vertices[ends[0]], mesh.vertices[ends[1]], std::abs(static_cast<double>(balance))});
     too_many_ = edges_.size() > kMostEdges;
   }
 }
 
-double WindingChange::radius(const Point& p, double most) const {
+double WindingChange::radius(const Point& p, double most, double least) const {
   if (too_many_) return 0;
   if (edges_.empty()) return std::numeric_limits<double>::infinity();
   struct Seen {
@@ -33,18 +31,18 @@ double WindingChange::radius(const Point& p, double most) const {
   };
   std::vector<Seen> seen;
   seen.reserve(edges_.size());
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), slope_at_p = 0;
   for (const OpenEdge& e : edges_) {
     const Point along = e.to - e.from, to_p = p - e.from;
     const double squared = dot(along, along);
     const double at = squared > 0 ? std::clamp(dot(to_p, along) / squared, 0.0, 1.0) : 0;
     const double distance = length(to_p - at * along);
     seen.push_back({distance, e.times * std::min(std::sqrt(squared), std::numbers::pi * distance)});
+    slope_at_p += seen.back().reach / std::max(distance * distance, 1e-300);
     nearest = std::min(nearest, distance);
   }
-  constexpr int kHalvings = 8;
-  double radius = nearest / 2;
-  for (int i = 0; i < kHalvings; ++i, radius /= 2) {
+  // The slope within a radius is at least that at the point, so most triangles near open edges end here.
+  for (double radius = std::min(nearest / 2, 4 * std::numbers::pi * most / slope_at_p); radius >= least; radius /= 2) {
     double slope = 0;
     for (const Seen& s : seen) slope += s.reach / ((s.distance - radius) * (s.distance - radius));
     if (radius * slope / (4 * std::numbers::pi) <= most) return radius;

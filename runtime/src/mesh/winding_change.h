@@ -17,8 +17,9 @@ class WindingChange {
  public:
   WindingChange(const Mesh& mesh, const MeshTopology& topology);
 
-  /// A radius around `p` within which the change is at most `most`; 0 if only a small one is known.
-  double radius(const Point& p, double most) const;
+  /// A radius of at least `least` around `p` within which the change is at most `most`; 0: none is known. Precondition:
+  /// `least` is positive.
+  double radius(const Point& p, double most, double least) const;
 
  private:
   struct OpenEdge {

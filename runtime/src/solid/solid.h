@@ -7,7 +7,7 @@
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh.h"
 #include "mesh/crossings/triangle_tree.h"
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 
 namespace medial_vk {
 

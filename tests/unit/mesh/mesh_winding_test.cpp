@@ -6,8 +6,8 @@
 #include <random>
 
 #include "base/point_ops.h"
-#include "mesh/winding_number.h"
-#include "mesh/winding_step.h"
+#include "mesh/winding/winding_number.h"
+#include "mesh/winding/winding_step.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {

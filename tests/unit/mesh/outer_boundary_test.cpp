@@ -7,7 +7,7 @@
 
 #include "base/point_ops.h"
 #include "mesh/outer_boundary.h"
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 #include "unit/mesh/prepared.h"
 
 namespace medial_vk {

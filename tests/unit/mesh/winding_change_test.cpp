@@ -9,7 +9,7 @@
 #include <random>
 
 #include "mesh/sidedness.h"
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 #include "unit/mesh/prepared.h"
 
 namespace medial_vk {
@@ -29,7 +29,7 @@ Mesh open_capsule(double height) {
 WindingChange change_of(const Mesh& mesh) { return {mesh, MeshTopology(mesh)}; }
 
 TEST(WindingChange, ThereIsNoneOnAClosedMesh) {
-  EXPECT_EQ(change_of(make_box({1, 1, 1})).radius({0.5, 0.5, 1}, 1e-9), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(change_of(make_box({1, 1, 1})).radius({0.5, 0.5, 1}, 1e-9, 1), std::numeric_limits<double>::infinity());
 }
 
 TEST(WindingChange, IsAtMostAsStated) {
@@ -41,7 +41,7 @@ TEST(WindingChange, IsAtMostAsStated) {
   for (int i = 0; i < 200; ++i) {
     const Point p = {0.2 * uniform(random), 0.2 * uniform(random), 0.6 * uniform(random)};  // away from the surface
     constexpr double kMost = 0.1;
-    const double radius = std::min(change.radius(p, kMost), 0.1);
+    const double radius = std::min(change.radius(p, kMost, 1e-6), 0.1);
     ASSERT_GT(radius, 0);
     const double w = exact_winding_number(mesh, p);
     for (int k = 0; k < 8; ++k) {
@@ -55,6 +55,15 @@ TEST(WindingChange, IsAtMostAsStated) {
   EXPECT_GT(greatest, 0.03);  // the bound is no idle one
 }
 
+TEST(WindingChange, HasNoRadiusBelowTheLeast) {
+  const WindingChange change = change_of(open_capsule(0.55));
+  const Point near_the_rim = {0.38, 0, 0.5};
+  const double radius = change.radius(near_the_rim, 0.1, 1e-6);
+  EXPECT_GT(radius, 0);
+  EXPECT_GE(change.radius(near_the_rim, 0.1, radius), radius);
+  EXPECT_EQ(change.radius(near_the_rim, 0.1, 1), 0);
+}
+
 TEST(WindingChange, IsUnknownAmongThousandsOfOpenEdges) {
   Mesh soup;
   for (std::uint32_t i = 0; i < 1500; ++i) {
@@ -62,7 +71,7 @@ TEST(WindingChange, IsUnknownAmongThousandsOfOpenEdges) {
     soup.vertices.insert(soup.vertices.end(), {{x, 0, 0}, {x + 0.5, 0, 0}, {x, 0.5, 0}});
     soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  EXPECT_EQ(change_of(soup).radius({0, 0, 100}, 1), 0);
+  EXPECT_EQ(change_of(soup).radius({0, 0, 100}, 1, 1e-6), 0);
 }
 
 TEST(WindingChange, SidesOfAnOpenMeshAreThoseOfEveryTriangle) {

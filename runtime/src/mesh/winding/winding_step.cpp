@@ -1,4 +1,4 @@
-#include "mesh/winding_step.h"
+#include "mesh/winding/winding_step.h"
 
 #include <algorithm>
 #include <array>

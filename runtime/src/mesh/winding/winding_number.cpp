@@ -1,4 +1,4 @@
-#include "mesh/winding_number.h"
+#include "mesh/winding/winding_number.h"
 
 #include <numbers>
 
