@@ -12,8 +12,8 @@
 #include "base/point_ops.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/surface_parts.h"
-#include "mesh/winding_change.h"
 #include "mesh/winding/winding_number.h"
+#include "mesh/winding_change.h"
 
 namespace medial_vk {
 namespace {
