@@ -9,28 +9,24 @@ using Limits = VkPhysicalDeviceLimits;
 
 // A test runs every kind of job and compares with what its programs bind (tests/faults/tiny_limits_test.cpp). Kernels
 // bind 14 storage buffers at most, but no device stops between 8 and 16.
-constexpr std::array kRequired = {
-    RequiredLimit{"maxPerStageDescriptorStorageBuffers", 16,
-                  [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorStorageBuffers; }},
-    RequiredLimit{"maxDescriptorSetStorageBuffers", 16,
-                  [](Limits& l) -> std::uint32_t& { return l.maxDescriptorSetStorageBuffers; }},
-    RequiredLimit{"maxPerStageDescriptorSampledImages", 3,
-                  [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorSampledImages; }},
-    RequiredLimit{"maxPerStageResources", 19, [](Limits& l) -> std::uint32_t& { return l.maxPerStageResources; }},
-    RequiredLimit{"maxPushConstantsSize", 128, [](Limits& l) -> std::uint32_t& { return l.maxPushConstantsSize; }},
+constexpr auto kRequired = std::to_array<RequiredLimit>({
+    {"maxPerStageDescriptorStorageBuffers", 16,
+     [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorStorageBuffers; }},
+    {"maxDescriptorSetStorageBuffers", 16,
+     [](Limits& l) -> std::uint32_t& { return l.maxDescriptorSetStorageBuffers; }},
+    {"maxPerStageDescriptorSampledImages", 3,
+     [](Limits& l) -> std::uint32_t& { return l.maxPerStageDescriptorSampledImages; }},
+    {"maxPerStageResources", 19, [](Limits& l) -> std::uint32_t& { return l.maxPerStageResources; }},
+    {"maxPushConstantsSize", 128, [](Limits& l) -> std::uint32_t& { return l.maxPushConstantsSize; }},
     // 256 lanes gather the contacts of a top cell, or resolve a query that a walk gave up.
-    RequiredLimit{"maxComputeWorkGroupInvocations", 256,
-                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupInvocations; }},
-    RequiredLimit{"maxComputeWorkGroupSize[0]", 256,
-                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupSize[0]; }},
-    RequiredLimit{"maxComputeSharedMemorySize", 16384,
-                  [](Limits& l) -> std::uint32_t& { return l.maxComputeSharedMemorySize; }},
+    {"maxComputeWorkGroupInvocations", 256,
+     [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupInvocations; }},
+    {"maxComputeWorkGroupSize[0]", 256, [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupSize[0]; }},
+    {"maxComputeSharedMemorySize", 16384, [](Limits& l) -> std::uint32_t& { return l.maxComputeSharedMemorySize; }},
     // Dispatches sized on the device have rows of 32,768 groups (shaders/shared/lanes/prepare.glsl).
-    RequiredLimit{"maxComputeWorkGroupCount[0]", 32768,
-                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[0]; }},
-    RequiredLimit{"maxComputeWorkGroupCount[1]", 65535,
-                  [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[1]; }},
-};
+    {"maxComputeWorkGroupCount[0]", 32768, [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[0]; }},
+    {"maxComputeWorkGroupCount[1]", 65535, [](Limits& l) -> std::uint32_t& { return l.maxComputeWorkGroupCount[1]; }},
+});
 
 }  // namespace
 

@@ -23,7 +23,8 @@ constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 constexpr float kClear = 0.05f;
 
 /// The values at which something about a triangle changes: that it is turned over, trusted, or encloses something.
-constexpr std::array kThresholds = {-kClear, -kSideError, kEncloses, kSideError, kClear, 1 - kSideError, 1.0f};
+constexpr std::array<float, 7> kThresholds = {-kClear, -kSideError,    kEncloses, kSideError,
+                                              kClear,  1 - kSideError, 1.0f};
 
 double distance_to_threshold(double w) {
   double least = std::numeric_limits<double>::infinity();
