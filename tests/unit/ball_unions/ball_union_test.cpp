@@ -50,7 +50,7 @@ void expect_volume(const std::vector<Ball>& balls, double expected) {
   EXPECT_NEAR(sum, found.volume, kExact * expected);
 }
 
-std::vector<Ball> random_balls(std::size_t count, unsigned seed, double least = 0.2, double most = 0.6) {
+std::vector<Ball> some_balls(std::size_t count, unsigned seed, double least = 0.2, double most = 0.6) {
   return test::random_balls(count, seed, least, most);
 }
 
@@ -101,7 +101,7 @@ TEST(BallUnion, OfThreeAndFourThatAllOverlap) {
 TEST(BallUnion, OfThreeAndFourInGeneralPosition) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     for (const std::size_t count : {3, 4}) {
-      const auto balls = random_balls(count, seed, 0.6, 0.9);
+      const auto balls = some_balls(count, seed, 0.6, 0.9);
       const double expected = by_slices(balls);
       EXPECT_NEAR(measure(balls).volume, expected, kExact * expected) << count << " balls, seed " << seed;
     }
@@ -110,7 +110,7 @@ TEST(BallUnion, OfThreeAndFourInGeneralPosition) {
 
 TEST(BallUnion, OfADozenAgainstSlices) {
   for (unsigned seed = 0; seed < 6; ++seed) {
-    const auto balls = random_balls(12, 100 + seed);
+    const auto balls = some_balls(12, 100 + seed);
     const double expected = by_slices(balls);
     EXPECT_NEAR(measure(balls).volume, expected, kExact * expected) << "seed " << seed;
   }
@@ -145,7 +145,7 @@ TEST(BallUnion, OfNestedBallsIsTheLargest) {
 }
 
 TEST(BallUnion, OfDuplicatesCountsTheFirst) {
-  auto balls = random_balls(10, 7);
+  auto balls = some_balls(10, 7);
   const BallUnion once = measure(balls);
   const auto again = balls;
   balls.insert(balls.end(), again.begin(), again.end());
@@ -228,7 +228,7 @@ TEST(BallUnion, OfCoplanarAndCosphericalCentres) {
 /// square.
 TEST(BallUnion, AreaIsTheDerivativeOfVolume) {
   const double step = 1e-4;
-  auto larger = random_balls(50, 3, 0.1, 0.3), smaller = larger;
+  auto larger = some_balls(50, 3, 0.1, 0.3), smaller = larger;
   const BallUnion found = measure(larger);
   for (Ball& ball : larger) ball.radius += step;
   for (Ball& ball : smaller) ball.radius -= step;
@@ -239,7 +239,7 @@ TEST(BallUnion, AreaIsTheDerivativeOfVolume) {
 
 /// Each ball's share agrees with samples in its power cell, within five standard errors.
 TEST(BallUnion, SharesAgainstSamples) {
-  const auto balls = random_balls(30, 11, 0.1, 0.3);
+  const auto balls = some_balls(30, 11, 0.1, 0.3);
   const BallUnion found = measure(balls);
   const double low = -0.3, side = 1.6;
   const int samples = 2'000'000;
@@ -270,7 +270,7 @@ TEST(BallUnion, SharesAgainstSamples) {
 
 /// A vertex of the envelope lies on its three spheres and in no ball.
 TEST(BallUnion, VerticesOfTheEnvelope) {
-  const auto balls = random_balls(200, 5, 0.05, 0.2);
+  const auto balls = some_balls(200, 5, 0.05, 0.2);
   const BallUnion found = measure(balls);
   ASSERT_GT(found.vertices.size(), 100u);
   for (const EnvelopeVertex& vertex : found.vertices) {
@@ -288,7 +288,7 @@ TEST(BallUnion, VerticesOfTheEnvelope) {
 }
 
 TEST(BallUnion, HoldsInAllUnits) {
-  const auto balls = random_balls(40, 17);
+  const auto balls = some_balls(40, 17);
   const BallUnion found = measure(balls);
   for (const double unit : {1e-30, 1e-9, 1e12}) {
     auto other = balls;
@@ -305,7 +305,7 @@ TEST(BallUnion, HoldsInAllUnits) {
 
 TEST(BallUnion, HoldsFarAway) {
   // Multiples of 2^-20, so that moving causes no rounding.
-  auto balls = random_balls(40, 19);
+  auto balls = some_balls(40, 19);
   for (auto& [c, r] : balls) {
     for (double& x : c) x = std::round(x * 0x1p20) * 0x1p-20;
   }
@@ -317,7 +317,7 @@ TEST(BallUnion, HoldsFarAway) {
 }
 
 TEST(BallUnion, DoesNotDependOnOrderOrThreads) {
-  const auto balls = random_balls(500, 23, 0.05, 0.15);
+  const auto balls = some_balls(500, 23, 0.05, 0.15);
   const BallUnion found = measure(balls);
   const auto one = measure_ball_union(balls, {.threads = 1, .complex = true});
   ASSERT_TRUE(one.ok());

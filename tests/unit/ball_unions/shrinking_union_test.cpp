@@ -15,9 +15,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr double kExact = 1e-12;  // relative
-
-using test::random_balls;
+constexpr double kSame = 1e-12;  // relative
 
 ShrinkingUnion build(const std::vector<Ball>& balls) {
   auto result = ShrinkingUnion::build(balls, 2);
@@ -38,17 +36,17 @@ void expect_same(const ShrinkingUnion& shrinking, const std::vector<Ball>& balls
   }
   const auto fresh = measure_ball_union(left, {.threads = 1, .complex = true});
   ASSERT_TRUE(fresh.ok());
-  EXPECT_NEAR(shrinking.volume(), fresh.value().volume, kExact * fresh.value().volume);
+  EXPECT_NEAR(shrinking.volume(), fresh.value().volume, kSame * fresh.value().volume);
   for (std::size_t n = 0; n < names.size(); ++n) {
-    EXPECT_NEAR(shrinking.volumes()[names[n]], fresh.value().volumes[n], kExact * fresh.value().volume);
+    EXPECT_NEAR(shrinking.volumes()[names[n]], fresh.value().volumes[n], kSame * fresh.value().volume);
   }
   EXPECT_EQ(shrinking.betti().value(), betti_numbers(fresh.value().complex).value());
 }
 
 TEST(ShrinkingUnion, AgreesWithANewMeasurement) {
   // Large ones among small ones: some are hidden until others go.
-  auto balls = random_balls(200, 3, 0.02, 0.12);
-  const auto large = random_balls(10, 4, 0.2, 0.3);
+  auto balls = test::random_balls(200, 3, 0.02, 0.12);
+  const auto large = test::random_balls(10, 4, 0.2, 0.3);
   balls.insert(balls.end(), large.begin(), large.end());
   ShrinkingUnion shrinking = build(balls);
   expect_same(shrinking, balls);
@@ -64,7 +62,7 @@ TEST(ShrinkingUnion, AgreesWithANewMeasurement) {
 }
 
 TEST(ShrinkingUnion, UndoesTheLastRemoval) {
-  const auto balls = random_balls(150, 8, 0.05, 0.2);
+  const auto balls = test::random_balls(150, 8, 0.05, 0.2);
   ShrinkingUnion shrinking = build(balls);
   ASSERT_TRUE(shrinking.remove(std::vector<std::uint32_t>{1, 2, 3}).ok());
   const std::vector<double> volumes(shrinking.volumes().begin(), shrinking.volumes().end());
@@ -88,7 +86,7 @@ TEST(ShrinkingUnion, OfEqualBallsKeepsOne) {
   const double volume = shrinking.volume();
   for (std::uint32_t i = 0; i < 4; ++i) {
     ASSERT_TRUE(shrinking.remove({&i, 1}).ok());
-    EXPECT_NEAR(shrinking.volume(), volume, kExact * volume);
+    EXPECT_NEAR(shrinking.volume(), volume, kSame * volume);
   }
 }
 
@@ -107,7 +105,7 @@ TEST(ShrinkingUnion, MeasuresABallThatWasCovered) {
 }
 
 TEST(ShrinkingUnion, RefusesUnknownBalls) {
-  ShrinkingUnion shrinking = build(random_balls(5, 1, 0.1, 0.2));
+  ShrinkingUnion shrinking = build(test::random_balls(5, 1, 0.1, 0.2));
   const double volume = shrinking.volume();
   const std::uint32_t names[] = {0, 5};
   const Status status = shrinking.remove(names);

@@ -3,51 +3,46 @@
 #include <gtest/gtest.h>
 
 #include "cli/options/doctor_options.h"
+#include "unit/cli/parse_results.h"
 
 namespace medial_vk::cli {
 namespace {
 
 using testing::HasSubstr;
 
-DoctorOptions parsed(const std::vector<std::string>& arguments) {
-  const Result<DoctorOptions> options = parse_doctor_options(arguments);
-  EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
-  return options.ok() ? options.value() : DoctorOptions{};
+DoctorOptions parsed_doctor(const std::vector<std::string>& arguments) {
+  return value_of(parse_doctor_options(arguments), arguments);
 }
 
-std::string message_of(const std::vector<std::string>& arguments) {
-  const Result<DoctorOptions> options = parse_doctor_options(arguments);
-  EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
-  if (options.ok()) return "";
-  EXPECT_EQ(options.error().code, ErrorCode::kUsage);
-  return options.error().message;
+std::string doctor_message(const std::vector<std::string>& arguments) {
+  return message_of(parse_doctor_options(arguments), arguments);
 }
 
 TEST(DoctorOptions, Defaults) {
-  const DoctorOptions options = parsed({});
+  const DoctorOptions options = parsed_doctor({});
   EXPECT_EQ(options, DoctorOptions());
   EXPECT_EQ(options.time_limit, 60u);
   EXPECT_FALSE(options.help);
 }
 
 TEST(DoctorOptions, AllAtOnce) {
-  const DoctorOptions options = parsed({"--device", "radeon", "--report", "-", "--time-limit", "5", "-v"});
+  const DoctorOptions options = parsed_doctor({"--device", "radeon", "--report", "-", "--time-limit", "5", "-v"});
   EXPECT_EQ(options.device, "radeon");
   EXPECT_EQ(options.report, "-");
   EXPECT_EQ(options.time_limit, 5u);
   EXPECT_TRUE(options.verbose);
-  EXPECT_TRUE(parsed({"--help"}).help);
-  EXPECT_TRUE(parsed({"-q"}).quiet);
+  EXPECT_TRUE(parsed_doctor({"--help"}).help);
+  EXPECT_TRUE(parsed_doctor({"-q"}).quiet);
 }
 
 TEST(DoctorOptions, WrongOnesAreNamed) {
-  EXPECT_THAT(message_of({"--devise", "0"}), HasSubstr("did you mean --device?"));
-  EXPECT_THAT(message_of({"part.stl"}), HasSubstr("unexpected 'part.stl': doctor takes options only"));
-  EXPECT_THAT(message_of({"--time-limit", "0"}), HasSubstr("--time-limit"));
-  EXPECT_THAT(message_of({"--time-limit", "1e3"}), HasSubstr("--time-limit"));
-  EXPECT_THAT(message_of({"--time-limit", "86401"}), HasSubstr("86400"));
-  EXPECT_THAT(message_of({"-q", "-v"}), HasSubstr("-q and -v"));
-  EXPECT_THAT(message_of({"--device"}), HasSubstr("--device"));
+  EXPECT_THAT(doctor_message({"--devise", "0"}), HasSubstr("did you mean --device?"));
+  EXPECT_THAT(doctor_message({"part.stl"}), HasSubstr("unexpected 'part.stl': doctor takes options only"));
+  EXPECT_THAT(doctor_message({"--time-limit", "0"}), HasSubstr("--time-limit"));
+  EXPECT_THAT(doctor_message({"--time-limit", "1e3"}), HasSubstr("--time-limit"));
+  EXPECT_THAT(doctor_message({"--time-limit", "86401"}), HasSubstr("86400"));
+  EXPECT_THAT(doctor_message({"-q", "-v"}), HasSubstr("-q and -v"));
+  EXPECT_THAT(doctor_message({"--device"}), HasSubstr("--device"));
 }
 
 TEST(DoctorOptions, NoLineAffectsTheNext) {

@@ -10,6 +10,7 @@
 #include "cli/options/parse_number.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/progress.h"
+#include "unit/cli/parse_results.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -30,18 +31,10 @@ Result<Options> parse_twice(const std::vector<std::string>& arguments) {
   return options;
 }
 
-Options parsed(const std::vector<std::string>& arguments) {
-  const Result<Options> options = parse_twice(arguments);
-  EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
-  return options.ok() ? options.value() : Options{};
-}
+Options parsed(const std::vector<std::string>& arguments) { return value_of(parse_twice(arguments), arguments); }
 
 std::string message_of(const std::vector<std::string>& arguments) {
-  const Result<Options> options = parse_twice(arguments);
-  EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
-  if (options.ok()) return "";
-  EXPECT_EQ(options.error().code, ErrorCode::kUsage);
-  return options.error().message;
+  return message_of(parse_twice(arguments), arguments);
 }
 
 TEST(Options, DefaultsAreThoseOfTheContract) {

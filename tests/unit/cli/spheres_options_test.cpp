@@ -3,28 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "cli/options/spheres_options.h"
+#include "unit/cli/parse_results.h"
 
 namespace medial_vk::cli {
 namespace {
 
 using testing::HasSubstr;
 
-SpheresOptions parsed(const std::vector<std::string>& arguments) {
-  const Result<SpheresOptions> options = parse_spheres_options(arguments);
-  EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
-  return options.ok() ? options.value() : SpheresOptions{};
+SpheresOptions parsed_spheres(const std::vector<std::string>& arguments) {
+  return value_of(parse_spheres_options(arguments), arguments);
 }
 
-std::string message_of(const std::vector<std::string>& arguments) {
-  const Result<SpheresOptions> options = parse_spheres_options(arguments);
-  EXPECT_FALSE(options.ok()) << testing::PrintToString(arguments);
-  if (options.ok()) return "";
-  EXPECT_EQ(options.error().code, ErrorCode::kUsage);
-  return options.error().message;
+std::string spheres_message(const std::vector<std::string>& arguments) {
+  return message_of(parse_spheres_options(arguments), arguments);
 }
 
 TEST(SpheresOptions, Defaults) {
-  const SpheresOptions mesh = parsed({"models/part.stl", "--count", "64"});
+  const SpheresOptions mesh = parsed_spheres({"models/part.stl", "--count", "64"});
   EXPECT_FALSE(mesh.is_robot);
   EXPECT_EQ(mesh.output, "part.spheres.csv");
   EXPECT_EQ(mesh.format, SphereFormat::kCsv);
@@ -32,68 +27,74 @@ TEST(SpheresOptions, Defaults) {
   EXPECT_EQ(mesh.spheres.method, SphereMethod::kBest);
   EXPECT_EQ(mesh.spheres.contract, SphereContract::kInside);
   EXPECT_EQ(mesh.spheres.object_angle, 0.6);
-  const SpheresOptions robot = parsed({"a/Arm.URDF", "--count-per-link", "8"});
+  const SpheresOptions robot = parsed_spheres({"a/Arm.URDF", "--count-per-link", "8"});
   EXPECT_TRUE(robot.is_robot);
   EXPECT_EQ(robot.output, "Arm.spheres.urdf");
   EXPECT_FALSE(robot.visual);
-  EXPECT_EQ(parsed({"arm.urdf", "--total", "8", "--levels"}).output, "arm.spheres.json");
-  EXPECT_EQ(parsed({"-", "--count", "8"}).output, "stdin.spheres.csv");
-  EXPECT_EQ(parsed({"a.obj", "--error", "0.1", "--format", "foam"}).output, "a.spheres.foam.json");
-  EXPECT_EQ(parsed({"a.obj", "--max-gap", "0.1", "--format", "curobo"}).output, "a.spheres.yml");
+  EXPECT_EQ(parsed_spheres({"arm.urdf", "--total", "8", "--levels"}).output, "arm.spheres.json");
+  EXPECT_EQ(parsed_spheres({"-", "--count", "8"}).output, "stdin.spheres.csv");
+  EXPECT_EQ(parsed_spheres({"a.obj", "--error", "0.1", "--format", "foam"}).output, "a.spheres.foam.json");
+  EXPECT_EQ(parsed_spheres({"a.obj", "--max-gap", "0.1", "--format", "curobo"}).output, "a.spheres.yml");
 }
 
 TEST(SpheresOptions, TheExtensionOrTheFormatDecides) {
-  const auto format = [](const std::string& file) { return parsed({"a.obj", "--count", "9", "-o", file}).format; };
+  const auto format = [](const std::string& file) {
+    return parsed_spheres({"a.obj", "--count", "9", "-o", file}).format;
+  };
   EXPECT_EQ(format("b.csv"), SphereFormat::kCsv);
   EXPECT_EQ(format("b.json"), SphereFormat::kJson);
   EXPECT_EQ(format("b.yml"), SphereFormat::kCurobo);
   EXPECT_EQ(format("b.YAML"), SphereFormat::kCurobo);
   EXPECT_EQ(format("b.xrdf"), SphereFormat::kXrdf);
   EXPECT_EQ(format("b.urdf"), SphereFormat::kUrdf);
-  EXPECT_EQ(parsed({"a.obj", "--count", "9", "-o", "b.json", "--format", "foam"}).format, SphereFormat::kFoam);
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "b.ply"}), HasSubstr("choose one with --format"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--format", "ply"}), HasSubstr("'ply' is unknown"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--levels", "-o", "b.yml"}), HasSubstr("one set of spheres only"));
+  EXPECT_EQ(parsed_spheres({"a.obj", "--count", "9", "-o", "b.json", "--format", "foam"}).format, SphereFormat::kFoam);
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "-o", "b.ply"}), HasSubstr("choose one with --format"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--format", "ply"}), HasSubstr("'ply' is unknown"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--levels", "-o", "b.yml"}),
+              HasSubstr("one set of spheres only"));
 }
 
 TEST(SpheresOptions, AGoalIsNeeded) {
-  EXPECT_THAT(message_of({"a.obj"}), HasSubstr("--count N"));
-  EXPECT_THAT(message_of({"a.urdf"}), HasSubstr("--count-per-link N"));
-  EXPECT_THAT(message_of({"a.obj", "--resolution", "40"}), HasSubstr("no goal is given: use --count N"));
-  EXPECT_EQ(parsed({"a.obj", "--resolution", "40", "--method", "source"}).spheres.resolution, 40u);
-  EXPECT_THAT(message_of({"a.urdf", "--count", "9"}), HasSubstr("--count-per-link N or --total N"));
-  EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--count-per-link", "3"}), HasSubstr("cannot be used together"));
-  EXPECT_THAT(message_of({"a.obj", "--total", "9"}), HasSubstr("'a.obj' is no .urdf"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "0"}), HasSubstr("not between 1 and"));
-  EXPECT_THAT(message_of({"a.obj", "--error", "1"}), HasSubstr("strictly between 0 and 1"));
-  EXPECT_THAT(message_of({"a.obj", "--max-gap", "-1"}), HasSubstr("strictly between"));
+  EXPECT_THAT(spheres_message({"a.obj"}), HasSubstr("--count N"));
+  EXPECT_THAT(spheres_message({"a.urdf"}), HasSubstr("--count-per-link N"));
+  EXPECT_THAT(spheres_message({"a.obj", "--resolution", "40"}), HasSubstr("no goal is given: use --count N"));
+  EXPECT_EQ(parsed_spheres({"a.obj", "--resolution", "40", "--method", "source"}).spheres.resolution, 40u);
+  EXPECT_THAT(spheres_message({"a.urdf", "--count", "9"}), HasSubstr("--count-per-link N or --total N"));
+  EXPECT_THAT(spheres_message({"a.urdf", "--total", "9", "--count-per-link", "3"}),
+              HasSubstr("cannot be used together"));
+  EXPECT_THAT(spheres_message({"a.obj", "--total", "9"}), HasSubstr("'a.obj' is no .urdf"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "0"}), HasSubstr("not between 1 and"));
+  EXPECT_THAT(spheres_message({"a.obj", "--error", "1"}), HasSubstr("strictly between 0 and 1"));
+  EXPECT_THAT(spheres_message({"a.obj", "--max-gap", "-1"}), HasSubstr("strictly between"));
 }
 
 TEST(SpheresOptions, MistakesAreNamed) {
-  EXPECT_EQ(message_of({}), "no MESH or ROBOT.urdf given");
-  EXPECT_THAT(message_of({"a.obj", "--cuont", "9"}), HasSubstr("did you mean --count?"));
-  EXPECT_THAT(message_of({"a.obj", "b.obj", "--count", "9"}), HasSubstr("one mesh or robot at a time"));
-  EXPECT_THAT(message_of({"a.urdf.xacro", "--count", "9"}), HasSubstr("expand it first"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--up", "z"}), HasSubstr("--picture"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--picture", "p.jpg"}), HasSubstr(".png"));
-  EXPECT_THAT(message_of({"a.csv", "--count", "9", "-o", "a.csv"}), HasSubstr("overwrite"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "-o", "a.json", "--report", "a.json"}), HasSubstr("same file"));
-  EXPECT_THAT(message_of({"a.urdf", "--total", "9", "--visual", "--collision"}), HasSubstr("together"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--object-angle", "0.4"}), HasSubstr("--method source"));
-  EXPECT_EQ(parsed({"a.obj", "--count", "9", "--object-angle", "0.4", "--method", "source"}).spheres.object_angle, 0.4);
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "-q", "-v"}), HasSubstr("-q and -v"));
-  EXPECT_THAT(message_of({"a.obj", "--count", "9", "--backend", "cpu", "--device", "1"}), HasSubstr("--device"));
+  EXPECT_EQ(spheres_message({}), "no MESH or ROBOT.urdf given");
+  EXPECT_THAT(spheres_message({"a.obj", "--cuont", "9"}), HasSubstr("did you mean --count?"));
+  EXPECT_THAT(spheres_message({"a.obj", "b.obj", "--count", "9"}), HasSubstr("one mesh or robot at a time"));
+  EXPECT_THAT(spheres_message({"a.urdf.xacro", "--count", "9"}), HasSubstr("expand it first"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--up", "z"}), HasSubstr("--picture"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--picture", "p.jpg"}), HasSubstr(".png"));
+  EXPECT_THAT(spheres_message({"a.csv", "--count", "9", "-o", "a.csv"}), HasSubstr("overwrite"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "-o", "a.json", "--report", "a.json"}), HasSubstr("same file"));
+  EXPECT_THAT(spheres_message({"a.urdf", "--total", "9", "--visual", "--collision"}), HasSubstr("together"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--object-angle", "0.4"}), HasSubstr("--method source"));
+  EXPECT_EQ(
+      parsed_spheres({"a.obj", "--count", "9", "--object-angle", "0.4", "--method", "source"}).spheres.object_angle,
+      0.4);
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "-q", "-v"}), HasSubstr("-q and -v"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--backend", "cpu", "--device", "1"}), HasSubstr("--device"));
 }
 
 TEST(SpheresOptions, PackagesAddUp) {
-  const SpheresOptions options = parsed({"a.urdf", "--total", "9", "--package", "a=b", "--package", "c=d"});
+  const SpheresOptions options = parsed_spheres({"a.urdf", "--total", "9", "--package", "a=b", "--package", "c=d"});
   EXPECT_EQ(options.packages, (std::vector<std::string>{"a=b", "c=d"}));
   EXPECT_EQ(options.input, "a.urdf");
-  EXPECT_EQ(parsed({"--package", "a=b", "a.urdf", "--total", "9"}).input, "a.urdf");
+  EXPECT_EQ(parsed_spheres({"--package", "a=b", "a.urdf", "--total", "9"}).input, "a.urdf");
 }
 
 TEST(SpheresOptions, HelpNeedsNothingElse) {
-  EXPECT_TRUE(parsed({"--help"}).help);
+  EXPECT_TRUE(parsed_spheres({"--help"}).help);
   EXPECT_THAT(spheres_help_text(), HasSubstr("ROBOT.urdf"));
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <random>
 
 #include "cpu_reference/queries.h"
 #include "dismissal/common_corner.h"
+#include "unit/cpu_reference/random.h"
 
 namespace medial_vk {
 namespace {
@@ -17,17 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using reference::Arc;
 using reference::Carrier;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3d unit() { return Vector3d(normal_(engine_), normal_(engine_), normal_(engine_)).normalized(); }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> normal_;
-};
 
 /// A triangle with a corner at the origin, far larger than the points that are tried: only its wedge matters.
 struct Wedge {
@@ -37,7 +26,7 @@ struct Wedge {
 
 /// Directions between those of a plane and all directions: many sheets are nearly flat.
 Wedge make_wedge(Random& random, double flatness) {
-  const auto direction = [&] { return random.unit().cwiseProduct(Vector3d(1, 1, flatness)).normalized(); };
+  const auto direction = [&] { return random.direction().cwiseProduct(Vector3d(1, 1, flatness)).normalized(); };
   Wedge w;
   do {
     w.corners = {Vector3d::Zero(), 1e3 * direction(), 1e3 * direction()};
@@ -89,7 +78,7 @@ Carrier make_carrier(const Wedge& w, int feature, int first, Arc& arc) {
 
 /// A point equally far from both wedges: on an arc between two random ones, by bisection.
 std::optional<Vector3d> find_tie(const Wedge& a, const Wedge& b, Random& random) {
-  const Vector3d p = random.unit(), q = random.unit();
+  const Vector3d p = random.direction(), q = random.direction();
   const auto at = [&](double t) { return ((1 - t) * p + t * q).normalized().eval(); };
   const auto gap = [&](double t) { return foot_of(a, at(t)).distance - foot_of(b, at(t)).distance; };
   double low = 0, high = 1;

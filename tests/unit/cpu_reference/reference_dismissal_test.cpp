@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,25 +12,13 @@
 #include "support/medial_samples.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
+#include "unit/cpu_reference/random.h"
 
 namespace medial_vk {
 namespace {
 
 using Eigen::Vector3d;
 using reference::Box;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(engine_); }
-  Vector3d point(const Vector3d& low, const Vector3d& high) {
-    return {(*this)(low.x(), high.x()), (*this)(low.y(), high.y()), (*this)(low.z(), high.z())};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// A star-shaped polygon with corners at random distances from the z axis, extruded.
 Mesh make_random_prism(Random& random) {

@@ -21,7 +21,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr EmbeddedShader kTestShaders[] = {{"count_workgroups", kCountWorkgroupsSpirv}};
+constexpr EmbeddedShader kCountingShaders[] = {{"count_workgroups", kCountWorkgroupsSpirv}};
 
 struct Dispatched {
   VkDispatchIndirectCommand command = {};
@@ -35,7 +35,7 @@ class DispatchRowsTest : public testing::Test {
   void SetUp() override {
     MEDIAL_VK_SKIP_WITHOUT_DEVICE();
     context_.emplace(test::make_context(test::no_validation_reason().empty()));
-    Internals::of(*context_).extra_shaders = kTestShaders;
+    Internals::of(*context_).extra_shaders = kCountingShaders;
   }
   void TearDown() override {
     if (context_) {

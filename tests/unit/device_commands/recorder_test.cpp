@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr EmbeddedShader kTestShaders[] = {{"write_sequence", kWriteSequenceSpirv}};
+constexpr EmbeddedShader kWritingShaders[] = {{"write_sequence", kWriteSequenceSpirv}};
 
 struct Push {
   std::uint32_t count;
@@ -44,7 +44,7 @@ class RecorderTest : public testing::Test {
     Result<Context> created = Context::create({.device = "", .validation = validation_, .cache_folder = "/dev/null"});
     ASSERT_TRUE(created.ok()) << created.error().message;
     context_.emplace(std::move(created.value()));
-    impl().extra_shaders = kTestShaders;
+    impl().extra_shaders = kWritingShaders;
     arena_.emplace(impl());
     const float texels[16] = {100, 0, 0, 0, 200, 0, 0, 0, 300, 0, 0, 0, 400, 0, 0, 0};
     const Buffer buffer = create(sizeof(texels), MemoryKind::kDevice);

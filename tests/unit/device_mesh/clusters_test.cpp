@@ -8,6 +8,7 @@
 
 #include "base/point_ops.h"
 #include "support/solids/solids.h"
+#include "unit/device_mesh/xyz.h"
 
 namespace medial_vk {
 namespace {
@@ -17,8 +18,6 @@ UnitTransform unit_box_of(const Bvh& bvh) {
   const Point sides = box.upper - box.lower;
   return {box.lower, std::max({sides[0], sides[1], sides[2]})};
 }
-
-Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
 // The rounding of numbers in the unit box to float.
 constexpr double kRounding = 1e-7;

@@ -11,6 +11,7 @@
 
 #include "base/point_ops.h"
 #include "support/solids/solids.h"
+#include "unit/device_mesh/xyz.h"
 
 namespace medial_vk {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 std::vector<gpu::OpenEdge> open_edges_of(const Mesh& mesh) {
   return find_open_edges(test::view_of(mesh, false), {{0, 0, 0}, 1}, 1000).listed;
 }
-
-Point xyz(const gpu::vec4& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
 double solid_angle(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point x = a - p, y = b - p, z = c - p;

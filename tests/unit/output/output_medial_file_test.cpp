@@ -18,7 +18,7 @@ namespace {
 using test::some_header;
 using testing::HasSubstr;
 
-std::vector<MedialSphere> some_spheres() {
+std::vector<MedialSphere> two_spheres() {
   MedialSphere a;
   a.centre = {1.0 / 3.0, 0.2, 123456.789012345678};
   a.radius = 0.1;
@@ -61,7 +61,7 @@ std::vector<double> parse_binary_vertex(const std::string& bytes, std::size_t of
 }
 
 TEST(OutputMedialFile, HeaderIsExactlyThatOfTheContract) {
-  const std::string ply = encode_ply(some_header(), some_spheres(), false);
+  const std::string ply = encode_ply(some_header(), two_spheres(), false);
   EXPECT_EQ(ply.substr(0, ply.find("end_header\n")),
             "ply\nformat binary_little_endian 1.0\n"
             "comment medial-vk 1.2.3\ncomment grid_origin -1 0.1 1e-09\ncomment voxel_size 0.00625\n"
@@ -74,18 +74,18 @@ TEST(OutputMedialFile, HeaderIsExactlyThatOfTheContract) {
 }
 
 TEST(OutputMedialFile, BinaryBodyHoldsTheExactNumbers) {
-  const std::string ply = encode_ply(some_header(), some_spheres(), false);
+  const std::string ply = encode_ply(some_header(), two_spheres(), false);
   const std::size_t body = ply.find("end_header\n") + 11;
   ASSERT_EQ(ply.size() - body, 2u * 68u);
-  EXPECT_EQ(parse_binary_vertex(ply, body), numbers_of(some_spheres()[0]));
-  EXPECT_EQ(parse_binary_vertex(ply, body + 68), numbers_of(some_spheres()[1]));
+  EXPECT_EQ(parse_binary_vertex(ply, body), numbers_of(two_spheres()[0]));
+  EXPECT_EQ(parse_binary_vertex(ply, body + 68), numbers_of(two_spheres()[1]));
 }
 
 TEST(OutputMedialFile, TextHoldsTheSameNumbersAsBinary) {
-  const std::string ply = encode_ply(some_header(), some_spheres(), true);
+  const std::string ply = encode_ply(some_header(), two_spheres(), true);
   EXPECT_THAT(ply, HasSubstr("format ascii 1.0\n"));
   std::istringstream body(ply.substr(ply.find("end_header\n") + 11));
-  for (const MedialSphere& sphere : some_spheres()) {
+  for (const MedialSphere& sphere : two_spheres()) {
     const std::vector<double> wanted = numbers_of(sphere);
     std::string line;
     ASSERT_TRUE(std::getline(body, line));
@@ -103,7 +103,7 @@ TEST(OutputMedialFile, TextHoldsTheSameNumbersAsBinary) {
 
 TEST(OutputMedialFile, ReaderGivesBackWhatWasWritten) {
   for (const bool ascii : {false, true}) {
-    const Result<MedialFile> file = decode_ply(encode_ply(some_header(), some_spheres(), ascii), "test");
+    const Result<MedialFile> file = decode_ply(encode_ply(some_header(), two_spheres(), ascii), "test");
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_EQ(file.value().header.version, "1.2.3");
     EXPECT_EQ(file.value().header.grid_origin, some_header().grid_origin);
@@ -113,7 +113,7 @@ TEST(OutputMedialFile, ReaderGivesBackWhatWasWritten) {
     EXPECT_EQ(file.value().header.radius_threshold, some_header().radius_threshold);
     ASSERT_EQ(file.value().spheres.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(numbers_of(file.value().spheres[i]), numbers_of(some_spheres()[i]));
+      EXPECT_EQ(numbers_of(file.value().spheres[i]), numbers_of(two_spheres()[i]));
     }
     const std::array<std::uint32_t, 3> voxel = file.value().spheres[1].voxel;
     EXPECT_EQ(voxel[0], static_cast<std::uint32_t>(std::floor((-0.999 + 1.0) / 0.00625)));
@@ -130,7 +130,7 @@ TEST(OutputMedialFile, NoPointsIsAFileToo) {
 }
 
 TEST(OutputMedialFile, ReaderRefusesEveryTruncation) {
-  const std::vector<MedialSphere> spheres = some_spheres();
+  const std::vector<MedialSphere> spheres = two_spheres();
   const std::string binary = encode_ply(some_header(), spheres, false);
   for (std::size_t size = 0; size < binary.size(); ++size) {
     ASSERT_FALSE(decode_ply(std::string_view(binary).substr(0, size), "cut").ok()) << size;
@@ -143,7 +143,7 @@ TEST(OutputMedialFile, ReaderRefusesEveryTruncation) {
 }
 
 TEST(OutputMedialFile, ReaderRefusesForeignHeadersAndWildCounts) {
-  std::string ply = encode_ply(some_header(), some_spheres(), false);
+  std::string ply = encode_ply(some_header(), two_spheres(), false);
   const auto replaced = [&](const std::string& from, const std::string& to) {
     std::string copy = ply;
     copy.replace(copy.find(from), from.size(), to);
@@ -159,7 +159,7 @@ TEST(OutputMedialFile, ReaderRefusesForeignHeadersAndWildCounts) {
 
 // Found by the fuzz target read_medial_ply: a file without a version could be read, but not be written and read again.
 TEST(OutputMedialFile, ReaderRefusesAHeaderWithoutOneOfItsComments) {
-  const std::string ply = encode_ply(some_header(), some_spheres(), true);
+  const std::string ply = encode_ply(some_header(), two_spheres(), true);
   for (const char* comment : {"comment medial-vk", "comment grid_origin", "comment voxel_size", "comment epsilon",
                               "comment object_angle", "comment radius_threshold"}) {
     std::string copy = ply;
@@ -172,14 +172,14 @@ TEST(OutputMedialFile, ReaderRefusesAHeaderWithoutOneOfItsComments) {
 
 TEST(OutputMedialFile, ReaderRefusesWhatFollowsTheLastPoint) {
   for (const bool ascii : {false, true}) {
-    const std::string ply = encode_ply(some_header(), some_spheres(), ascii);
+    const std::string ply = encode_ply(some_header(), two_spheres(), ascii);
     EXPECT_FALSE(decode_ply(ply + "0", "test").ok());
   }
 }
 
 // "12" may be the rest of "123".
 TEST(OutputMedialFile, ReaderRefusesALastLineWithoutItsEnd) {
-  std::vector<MedialSphere> spheres = some_spheres();
+  std::vector<MedialSphere> spheres = two_spheres();
   spheres.back().sheet = 123;
   const std::string text = encode_ply(some_header(), spheres, true);
   ASSERT_TRUE(text.ends_with(" 123\n"));
@@ -189,23 +189,23 @@ TEST(OutputMedialFile, ReaderRefusesALastLineWithoutItsEnd) {
 }
 
 TEST(OutputMedialFile, ReaderRefusesNumbersThatAreNone) {
-  std::vector<MedialSphere> spheres = some_spheres();
+  std::vector<MedialSphere> spheres = two_spheres();
   MedialHeader header = some_header();
   spheres[1].radius = std::numeric_limits<double>::infinity();
   for (const bool ascii : {false, true}) EXPECT_FALSE(decode_ply(encode_ply(header, spheres, ascii), "test").ok());
-  spheres = some_spheres();
+  spheres = two_spheres();
   spheres[0].spoke_b[1] = std::numeric_limits<float>::quiet_NaN();
   for (const bool ascii : {false, true}) EXPECT_FALSE(decode_ply(encode_ply(header, spheres, ascii), "test").ok());
   header.voxel_size = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(decode_ply(encode_ply(header, some_spheres(), false), "test").ok());
+  EXPECT_FALSE(decode_ply(encode_ply(header, two_spheres(), false), "test").ok());
 }
 
 TEST(OutputMedialFile, CsvHasATitleAndALinePerPoint) {
-  std::istringstream csv(encode_csv(some_spheres()));
+  std::istringstream csv(encode_csv(two_spheres()));
   std::string line;
   ASSERT_TRUE(std::getline(csv, line));
   EXPECT_EQ(line, "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z,object_angle,flux,sheet");
-  for (const MedialSphere& sphere : some_spheres()) {
+  for (const MedialSphere& sphere : two_spheres()) {
     ASSERT_TRUE(std::getline(csv, line));
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12);
     EXPECT_EQ(std::stod(line), sphere.centre[0]);

@@ -96,15 +96,15 @@ TEST(OutputNpz, NoPointsAreEmptyArrays) {
 
 TEST(OutputJson, HoldsEveryNumber) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const nlohmann::json json = nlohmann::json::parse(encode_json(some_header(), spheres, kMarks));
-  EXPECT_EQ(json["format"], 1);
-  EXPECT_EQ(json["version"], "1.2.3");
-  EXPECT_EQ(json["grid_origin"].get<Point>(), some_header().grid_origin);
-  EXPECT_EQ(json["voxel_size"], 0.00625);
-  EXPECT_EQ(json["object_angle_threshold"], 0.6);
-  ASSERT_EQ(json["points"].size(), spheres.size());
+  const nlohmann::json written = nlohmann::json::parse(encode_json(some_header(), spheres, kMarks));
+  EXPECT_EQ(written["format"], 1);
+  EXPECT_EQ(written["version"], "1.2.3");
+  EXPECT_EQ(written["grid_origin"].get<Point>(), some_header().grid_origin);
+  EXPECT_EQ(written["voxel_size"], 0.00625);
+  EXPECT_EQ(written["object_angle_threshold"], 0.6);
+  ASSERT_EQ(written["points"].size(), spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const nlohmann::json& point = json["points"][i];
+    const nlohmann::json& point = written["points"][i];
     EXPECT_EQ(point["centre"].get<Point>(), spheres[i].centre);
     EXPECT_EQ(point["radius"].get<double>(), spheres[i].radius);
     EXPECT_EQ((point["spoke_a"].get<std::array<float, 3>>()), spheres[i].spoke_a);

@@ -18,28 +18,10 @@
 #include "sphere_fits/steps/symmetric_difference.h"
 #include "support/indexed.h"
 #include "support/solids/solids.h"
+#include "unit/sphere_fits/shape.h"
 
 namespace medial_vk {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-struct Shape {
-  explicit Shape(Mesh raw)
-      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(test::indexed(mesh)).value()) {}
-  Shape(const Shape&) = delete;
-
-  std::vector<SphereSet> balanced(std::size_t count, bool levels = false) const {
-    SphereOptions request;
-    request.contract = SphereContract::kBalanced;
-    request.count = count;
-    if (levels) return approximate_in_levels(solid, request, reference_extractor()).value();
-    return {approximate_by_spheres(solid, request, reference_extractor()).value()};
-  }
-
-  PreparedMesh mesh;
-  Solid solid;
-};
 
 /// The numbers of the balls, in ascending order.
 std::vector<std::array<double, 4>> numbers_of(const std::vector<Ball>& balls) {
@@ -49,7 +31,7 @@ std::vector<std::array<double, 4>> numbers_of(const std::vector<Ball>& balls) {
   return numbers;
 }
 
-double volume_of(const Ball& ball) { return 4 * kPi / 3 * ball.radius * ball.radius * ball.radius; }
+double volume_of(const Ball& ball) { return 4 * std::numbers::pi / 3 * ball.radius * ball.radius * ball.radius; }
 
 double volume_along(const SolidLines& lines, std::size_t axis) {
   const SolidLines::Bundle& bundle = lines.along(axis);
@@ -126,10 +108,10 @@ TEST(SymmetricDifference, CountsABallInsideDownAndOneOutsideUp) {
   const double spacing = 1.0 / 160;
   EXPECT_NEAR(difference.of_none(), 1, 1e-12);
   const Ball inside = {{0.4, 0.5, 0.55}, 0.3};
-  EXPECT_NEAR(difference.change(inside, {}), -volume_of(inside), line_error(kPi * 0.09, spacing));
+  EXPECT_NEAR(difference.change(inside, {}), -volume_of(inside), line_error(std::numbers::pi * 0.09, spacing));
   // Half of it outside: neither gain nor loss.
   const Ball half = {{1, 0.5, 0.5}, 0.2};
-  EXPECT_NEAR(difference.change(half, {}), 0, line_error(kPi * 0.04, spacing));
+  EXPECT_NEAR(difference.change(half, {}), 0, line_error(std::numbers::pi * 0.04, spacing));
   const std::vector<Ball> same = {inside};
   EXPECT_EQ(difference.change(inside, same), 0);
   const std::vector<Ball> larger = {{inside.centre, 0.35}};
@@ -162,9 +144,9 @@ TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
   const Ball ball = cube.balanced(1).back().balls.at(0);
   const auto difference = [](double r) {
     const double h = std::max(0.0, r - 0.5);
-    return 1 - 4 * kPi / 3 * r * r * r + 12 * kPi * h * h * (3 * r - h) / 3;
+    return 1 - 4 * std::numbers::pi / 3 * r * r * r + 12 * std::numbers::pi * h * h * (3 * r - h) / 3;
   };
-  const double estimate_error = line_error(kPi * 0.36, 1.0 / 160);
+  const double estimate_error = line_error(std::numbers::pi * 0.36, 1.0 / 160);
   EXPECT_LE(difference(ball.radius), difference(0.6) + 2 * estimate_error);
   EXPECT_NEAR(ball.radius, 0.6, 0.04);  // the radius for which that holds
 }

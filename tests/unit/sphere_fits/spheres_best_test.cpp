@@ -22,28 +22,12 @@
 #include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
+#include "unit/sphere_fits/shape.h"
 
 namespace medial_vk {
 namespace {
 
 using testing::HasSubstr;
-
-/// A mesh that stays in memory, as its solid requires.
-struct Shape {
-  explicit Shape(Mesh raw)
-      : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(test::indexed(mesh)).value()) {}
-  Shape(const Shape&) = delete;
-
-  Result<SphereSet> fit(const SphereOptions& request) const {
-    return best_spheres(solid, request, reference_extractor(), {});
-  }
-  double error_of(const std::vector<Ball>& balls) const {
-    return 1 - measure_ball_union(balls).value().volume / solid.volume();
-  }
-
-  PreparedMesh mesh;
-  Solid solid;
-};
 
 Mesh turned_l_shape() {
   Mesh mesh = test::make_l_shape(2.0, 0.6, 0.8);

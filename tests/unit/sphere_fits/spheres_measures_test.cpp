@@ -16,8 +16,6 @@ namespace medial_vk {
 namespace {
 
 using namespace test;
-constexpr double kPi = std::numbers::pi;
-
 SphereMeasures measure_in_cube(const std::vector<Ball>& balls, MeasureOptions options = {}) {
   const PreparedMesh mesh = prepare(make_box({2, 2, 2}));
   const Solid solid = Solid::build(test::indexed(mesh)).value();
@@ -29,12 +27,12 @@ TEST(SphereMeasures, BallInsideACube) {
   EXPECT_TRUE(m.inside.proved());
   EXPECT_FALSE(m.cover.proved());
   EXPECT_EQ(m.volume.standard_error, 0);
-  EXPECT_NEAR(m.volume.normalized(), 1 - kPi / 6, 1e-9);
-  EXPECT_NEAR(m.volume.normalized_lower_bound(), 1 - kPi / 6, 1e-9);
+  EXPECT_NEAR(m.volume.normalized(), 1 - std::numbers::pi / 6, 1e-9);
+  EXPECT_NEAR(m.volume.normalized_lower_bound(), 1 - std::numbers::pi / 6, 1e-9);
   EXPECT_EQ(m.volume.outside, 0);
   EXPECT_EQ(m.metrics.num_spheres, 1u);
-  EXPECT_NEAR(m.metrics.coverage, kPi / 6, 1e-9);
-  EXPECT_NEAR(m.metrics.volume_ratio, kPi / 6, 1e-9);
+  EXPECT_NEAR(m.metrics.coverage, std::numbers::pi / 6, 1e-9);
+  EXPECT_NEAR(m.metrics.volume_ratio, std::numbers::pi / 6, 1e-9);
   EXPECT_EQ(m.metrics.protrusion, 0);
   EXPECT_EQ(m.metrics.protrusion_dist_mean, 0);
   EXPECT_EQ(m.metrics.protrusion_dist_p95, 0);
@@ -58,8 +56,8 @@ TEST(SphereMeasures, BallInsideACube) {
 TEST(SphereMeasures, BallThatSticksOut) {
   const double radius = 1.2, height = 0.2;
   const SphereMeasures m = measure_in_cube({{{1, 1, 1}, radius}});
-  const double outside = 6 * kPi * height * height * (3 * radius - height) / 3;
-  const double ball = 4 * kPi / 3 * radius * radius * radius;
+  const double outside = 6 * std::numbers::pi * height * height * (3 * radius - height) / 3;
+  const double ball = 4 * std::numbers::pi / 3 * radius * radius * radius;
   EXPECT_FALSE(m.inside.proved());
   EXPECT_GT(m.volume.standard_error, 0);
   EXPECT_LT(m.volume.standard_error, 0.01);
@@ -68,7 +66,8 @@ TEST(SphereMeasures, BallThatSticksOut) {
   EXPECT_GE(m.volume.normalized(), m.volume.normalized_lower_bound());
   EXPECT_NEAR(m.metrics.coverage, (ball - outside) / 8, 0.005);
   // Six caps of the sphere, each of 2 pi r h.
-  EXPECT_NEAR(m.metrics.protrusion, 6 * 2 * kPi * radius * height / (4 * kPi * radius * radius), 0.03);
+  EXPECT_NEAR(m.metrics.protrusion,
+              6 * 2 * std::numbers::pi * radius * height / (4 * std::numbers::pi * radius * radius), 0.03);
   EXPECT_GT(m.metrics.protrusion_dist_p95, m.metrics.protrusion_dist_mean);
   EXPECT_LT(m.metrics.protrusion_dist_p95, height);
   EXPECT_NEAR(m.histograms.envelope_to_boundary.greatest, height, 1e-3);
@@ -79,7 +78,7 @@ TEST(SphereMeasures, BallThatCovers) {
   EXPECT_TRUE(m.cover.proved());
   EXPECT_EQ(m.volume.standard_error, 0);
   EXPECT_EQ(m.volume.uncovered, 0);
-  EXPECT_NEAR(m.volume.outside, 4 * kPi / 3 * 1.8 * 1.8 * 1.8 - 8, 1e-9);
+  EXPECT_NEAR(m.volume.outside, 4 * std::numbers::pi / 3 * 1.8 * 1.8 * 1.8 - 8, 1e-9);
   EXPECT_EQ(m.metrics.coverage, 1);
   EXPECT_EQ(m.metrics.max_uncovered_gap, 0);
   EXPECT_EQ(m.distances.between_sets().upper, m.distances.balls_to_solid.upper);
@@ -105,7 +104,7 @@ TEST(SphereMeasures, AnOpenMeshHasAnEstimate) {
   ASSERT_FALSE(solid.has_volume());
   const SphereMeasures m = measure_spheres(solid, std::vector<Ball>{{{0, 0, 0}, 0.9}}).value();
   EXPECT_GT(m.volume.standard_error, 0);
-  EXPECT_NEAR(m.volume.solid, 4 * kPi / 3, 0.1);
+  EXPECT_NEAR(m.volume.solid, 4 * std::numbers::pi / 3, 0.1);
   EXPECT_NEAR(m.volume.normalized(), 1 - 0.729, 0.02);
 }
 
