@@ -116,7 +116,8 @@ export class Page {
   /** Milliseconds from the request to the first frame, by the page's clock. */
   async load(url, limit = 120000) {
     this.url = url;
-    await this.send('Page.navigate', {url});
+    const {errorText} = await this.send('Page.navigate', {url});
+    if (errorText) throw new Error(`${url}: ${errorText}`);
     const end = Date.now() + limit;
     while (Date.now() < end) {
       const ready = await this.evaluate(`(({ready, complete}) => complete !== undefined && ready)
