@@ -5,9 +5,21 @@ set(slow
   # Certified extractions, copies that are late, and smaller pictures and fits fail in the same ways.
   faults.HostMemory.RunsOutInThesisExtraction
   faults.PictureFaults.OfMemory
+  faults.TwoQueueFaults.OfManyChunks/CopiesAreLate
   faults.TwoQueueFaults.OfManyChunks/KernelsAreLate
   faults.VulkanFaults.OfThesisExtraction
   counts.WorkCounts.AFitOfPartsBuildsOneTreeAndUploadsOncePerPart
+  # Meshes that are read through storage buffers remain, and the limits by themselves.
+  faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers
+  # One rounding of three remains, and boundaries of four times fewer triangles.
+  unit.OtherSpecialsTest.AnOpenMesh/low
+  unit.OtherSpecialsTest.AnOpenMesh/zero
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_4x
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_4x
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_4x
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_4x
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_4x
+  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/triaxial_4x
   # Blocks of a top cell remain.
   property.Determinism.AVoxelThatDoesNotFitIsDividedLess
   # Smaller solids and meshes remain.
@@ -37,15 +49,15 @@ set(full
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
   regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles
   regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles)
-# Left out of the tests under ASan that scripts/test --asan-host runs; tests/CMakeLists.txt has those of unit.
-set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
-  LABELS "faults;sanitized_full")
 foreach(tier slow full)
   foreach(name ${${tier}})
     string(REGEX REPLACE "[.].*" "" folder "${name}")
     set_tests_properties("${name}" PROPERTIES LABELS "${folder};${tier}")
   endforeach()
 endforeach()
+# Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit.
+set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
+  LABELS "faults;slow;sanitized_full")
 # Left out of every build under a sanitizer or with counters, where this test would take an hour and more.
 set_tests_properties(regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles PROPERTIES
   LABELS "regression;full;release_only")

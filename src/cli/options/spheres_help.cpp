@@ -18,7 +18,7 @@ Usage:
 Examples:
   medial-vk spheres part.stl --count 64     writes part.spheres.csv
   medial-vk spheres robot.urdf --count-per-link 32    writes robot.spheres.urdf
-  medial-vk spheres robot.urdf --total 200 -o robot.yml     for cuRobo
+  medial-vk spheres robot.urdf --total 100 -o robot.yml     for cuRobo
   medial-vk spheres part.stl --error 0.05 --picture part.png    covers 95 %
 
 How many spheres (goals that are given together must all be met):
