@@ -139,14 +139,14 @@ def made_meshes():
     }
 
 
-def write_meshes(folder, make_model):
+def write_meshes(folder, programs):
     """Generates the meshes and returns their names."""
     for name, mesh in made_meshes().items():
         WRITERS[Path(name).suffix](folder / name, mesh)
     subprocess.run([sys.executable, ROOT / "bench" / "write_torus.py", folder / "torus.ply", "2000"], check=True)
     meshes.write_torus(folder / "turned_torus.obj", around=24, along=48)
-    if make_model:
-        meshes.make("turtle-6k", folder, make_model)
+    if programs:
+        meshes.make("turtle-6k", folder, programs)
     else:
         print("There is no make_model beside either program, so the turtle is left out.", file=sys.stderr)
     return sorted(path.name for path in folder.iterdir())

@@ -10,7 +10,10 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 # Cells along the turtle's longest side, by the approximate number of triangles: an animal-like smooth union of
 # ellipsoids (examples/make_model.cpp), the same solid each time.
 TURTLES = {"turtle-6k": 52, "turtle-24k": 104, "turtle-96k": 208, "turtle-1m": 672}
-GENERATED = ["torus-16k", *TURTLES]
+# Kind and triangles of meshes with what scans have (bench/scans/make_scan.cpp).
+SCANS = {"bust-24k": ("bust", 24_092), "bust-96k": ("bust", 95_936), "creature-6k": ("creature", 6_000),
+         "creature-65k": ("creature", 65_000)}
+GENERATED = ["torus-16k", *TURTLES, *SCANS]
 EXTENSIONS = (".obj", ".ply", ".stl", ".off")
 
 
@@ -33,15 +36,19 @@ def write_torus(path, around=64, along=125, major=1.0, minor=0.4, flatten=0.5):
                 out.write(f"f {a + 1} {b + 1} {e + 1}\nf {a + 1} {e + 1} {d + 1}\n")
 
 
-def make(name, folder, make_model):
-    """The path of a generated mesh, made in `folder` if it is not there yet."""
+def make(name, folder, programs):
+    """The path of a generated mesh, made in `folder` by one of the `programs` if it is not there yet."""
     path = Path(folder) / f"{name}.obj"
     if path.exists():
         return path
     if name == "torus-16k":
         write_torus(path)
     elif name in TURTLES:
-        subprocess.run([make_model, path, str(TURTLES[name])], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([programs / "make_model", path, str(TURTLES[name])], check=True, stdout=subprocess.DEVNULL)
+    elif name in SCANS:
+        kind, triangles = SCANS[name]
+        subprocess.run([programs / "bench_make_scan", kind, path, str(triangles)], check=True,
+                       stdout=subprocess.DEVNULL)
     else:
         raise SystemExit(f"there is no mesh named {name}; there are {', '.join(GENERATED)}")
     return path

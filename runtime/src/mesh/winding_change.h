@@ -27,7 +27,23 @@ class WindingChange {
     double times;  // it is traversed so much more often in one direction
   };
 
+  /// Neighbouring edges, in their box.
+  struct Group {
+    std::size_t first, end;
+    Point lower, upper;
+    double length = 0;  // the sum, each as often as it is open
+  };
+
+  void add_group(std::size_t first, std::size_t end);
+  static double distance(const Point& p, const OpenEdge& e);
+  static double distance(const Point& p, const Group& group);
+  double distance_to_edges(const Point& p) const;
+  /// A bound of the change within that radius. It is of use up to `most`: near edges count one by one, far ones in
+  /// groups, and `most` decides which are near.
+  double change_within(const Point& p, double radius, double most) const;
+
   std::vector<OpenEdge> edges_;
+  std::vector<Group> groups_;
   bool too_many_ = false;
 };
 

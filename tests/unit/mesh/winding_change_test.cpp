@@ -64,14 +64,37 @@ TEST(WindingChange, HasNoRadiusBelowTheLeast) {
   EXPECT_EQ(change.radius(near_the_rim, 0.1, 1), 0);
 }
 
-TEST(WindingChange, IsUnknownAmongThousandsOfOpenEdges) {
+/// Triangles in a row, with three open edges each.
+Mesh triangles_in_a_row(std::uint32_t count) {
   Mesh soup;
-  for (std::uint32_t i = 0; i < 1500; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     const double x = i;
     soup.vertices.insert(soup.vertices.end(), {{x, 0, 0}, {x + 0.5, 0, 0}, {x, 0.5, 0}});
     soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  EXPECT_EQ(change_of(soup).radius({0, 0, 100}, 1, 1e-6), 0);
+  return soup;
+}
+
+TEST(WindingChange, IsAtMostAsStatedAmongThousandsOfOpenEdges) {
+  const Mesh soup = triangles_in_a_row(1500);
+  const WindingChange change = change_of(soup);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t found = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Point p = {750 + 750 * uniform(random), 0.25 + uniform(random), 0.1 + std::abs(uniform(random))};
+    constexpr double kMost = 0.02;
+    const double radius = change.radius(p, kMost, 1e-6), w = exact_winding_number(soup, p);
+    if (radius == 0) continue;
+    ++found;
+    EXPECT_LE(std::abs(exact_winding_number(soup, p + Point{0, 0, radius}) - w), kMost);
+    EXPECT_LE(std::abs(exact_winding_number(soup, p + Point{radius, 0, 0}) - w), kMost);
+  }
+  EXPECT_EQ(found, 50u);
+}
+
+TEST(WindingChange, IsUnknownAmongTooManyOpenEdges) {
+  EXPECT_EQ(change_of(triangles_in_a_row(22000)).radius({0, 0, 100}, 1, 1e-6), 0);
 }
 
 TEST(WindingChange, SidesOfAnOpenMeshAreThoseOfEveryTriangle) {
