@@ -11,15 +11,9 @@ set(slow
   counts.WorkCounts.AFitOfPartsBuildsOneTreeAndUploadsOncePerPart
   # Meshes that are read through storage buffers remain, and the limits by themselves.
   faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers
-  # One rounding of three remains, and boundaries of four times fewer triangles.
+  # One rounding of three remains.
   unit.OtherSpecialsTest.AnOpenMesh/low
   unit.OtherSpecialsTest.AnOpenMesh/zero
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_4x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_4x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_4x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_4x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_4x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/triaxial_4x
   # Blocks of a top cell remain.
   property.Determinism.AVoxelThatDoesNotFitIsDividedLess
   # Smaller solids and meshes remain.
@@ -27,13 +21,6 @@ set(slow
   unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint
   regression.LoopBudget.MoreTrianglesThanEightBudgets)
 set(full
-  # Boundaries of four and sixteen times fewer triangles stay.
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_16x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_16x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/pear_16x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/oblate_16x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/prolate_16x
-  analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/triaxial_16x
   # The other runs of Kills write more kinds of files; the other tests of goals cover them one by one.
   cli.Kills.LeaveWholeFilesOrNone/Spheres
   cli.SpheresCommand.CoversAndBalancedSetsMeetGoals
@@ -49,6 +36,11 @@ set(full
   regression.LargeMesh.TheCircleInATorusOfHalfAMillionTriangles
   regression.LargeMesh.DistancesToATorusOfFiveMillionTriangles
   regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles)
+# Boundaries of four and sixteen times as many triangles; the coarsest remain.
+foreach(solid torus capsule pear oblate prolate triaxial)
+  list(APPEND slow analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/${solid}_4x)
+  list(APPEND full analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/${solid}_16x)
+endforeach()
 foreach(tier slow full)
   foreach(name ${${tier}})
     string(REGEX REPLACE "[.].*" "" folder "${name}")

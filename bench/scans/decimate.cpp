@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "base/point_ops.h"

@@ -18,6 +18,7 @@
 
 #include "base/point_ops.h"
 #include "decimate.h"
+#include "support/solids/mesh_files.h"
 
 namespace medial_vk::bench {
 namespace {
@@ -116,14 +117,6 @@ void merge_badly(Mesh& mesh, std::size_t count) {
   }
 }
 
-bool write_obj(const Mesh& mesh, const std::string& path) {
-  std::ofstream out(path);
-  out.precision(9);
-  for (const Point& p : mesh.vertices) out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-  for (const Triangle& t : mesh.triangles) out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  return static_cast<bool>(out.flush());
-}
-
 }  // namespace
 }  // namespace medial_vk::bench
 
@@ -140,7 +133,8 @@ int main(int argc, char** argv) {
   Mesh mesh = bench::decimate(bench::scan(kind == "bust" ? bench::bust : bench::creature, squares),
                               static_cast<std::size_t>(triangles));
   if (kind == "creature") bench::merge_badly(mesh, 8);
-  if (!bench::write_obj(mesh, argv[2])) {
+  std::ofstream out(argv[2]);
+  if (!(out << test::to_obj(mesh)).flush()) {
     std::fprintf(stderr, "bench_make_scan: cannot write %s\n", argv[2]);
     return 1;
   }

@@ -1,5 +1,6 @@
-#pragma once
 // The value or the message of a parsed command line.
+#pragma once
+
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,6 @@
+// Random numbers, points and directions, the same in every run.
 #pragma once
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <random>

@@ -1,4 +1,6 @@
+// Numbers of kernels as points.
 #pragma once
+
 #include "base/point_ops.h"
 #include "gpu_types.h"
 

@@ -93,6 +93,12 @@ TEST(WindingChange, IsAtMostAsStatedAmongThousandsOfOpenEdges) {
   EXPECT_EQ(found, 50u);
 }
 
+TEST(WindingChange, HasNoRadiusIfNoChangeIsPermitted) {
+  const WindingChange change = change_of(triangles_in_a_row(1));
+  EXPECT_EQ(change.radius({0.1, 0.1, 0}, 0, 1), 0);
+  EXPECT_EQ(change.radius({0.1, 0.1, 9}, 0, 1), 0);
+}
+
 TEST(WindingChange, IsUnknownAmongTooManyOpenEdges) {
   EXPECT_EQ(change_of(triangles_in_a_row(22000)).radius({0, 0, 100}, 1, 1e-6), 0);
 }

@@ -1,4 +1,6 @@
+// Solids to which balls are fitted.
 #pragma once
+
 #include <utility>
 #include <vector>
 
