@@ -49,7 +49,7 @@ void build(benchmark::State& state) {
   const auto threads = static_cast<unsigned>(state.range(2));
   double sah = 0;
   for (auto _ : state) {
-    const Result<Bvh> bvh = Bvh::build(view_of(mesh), leaf_size, threads);
+    const Result<Bvh> bvh = Bvh::build(view_of(mesh), {.leaf_size = leaf_size, .threads = threads});
     state.PauseTiming();
     if (!bvh.ok()) state.SkipWithError(bvh.error().message.c_str());
     sah = sah_cost(bvh.value());
@@ -77,11 +77,11 @@ void refit(benchmark::State& state) {
   Mesh bent = mesh;
   for (Point& p : bent.vertices) p[2] += 0.3 * std::sin(2 * p[0]);
   const auto threads = static_cast<unsigned>(state.range(2));
-  Bvh bvh = Bvh::build(view_of(mesh), static_cast<std::uint32_t>(state.range(1))).value();
+  Bvh bvh = Bvh::build(view_of(mesh), {.leaf_size = static_cast<std::uint32_t>(state.range(1))}).value();
   bool is_bent = false;
   for (auto _ : state) {
     is_bent = !is_bent;
-    if (!bvh.refit(view_of(is_bent ? bent : mesh), threads).ok()) state.SkipWithError("refit failed");
+    if (!bvh.refit(view_of(is_bent ? bent : mesh), {.threads = threads}).ok()) state.SkipWithError("refit failed");
   }
   if (!is_bent && !bvh.refit(view_of(bent)).ok()) state.SkipWithError("refit failed");
   state.counters["sah"] = sah_cost(bvh);
@@ -115,18 +115,18 @@ void prepare(benchmark::State& state) {
 const UnitTransform kUnit = {{-2, -2, -2}, 4};
 
 void triangle_texels(benchmark::State& state) {
-  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), 8).value();
+  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), {.leaf_size = 8}).value();
   run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_triangle_texels(bvh, kUnit, {})); });
 }
 
 void tree_texels(benchmark::State& state) {
-  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), 8).value();
+  const Bvh bvh = Bvh::build(view_of(mesh_of(state.range(0))), {.leaf_size = 8}).value();
   run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_tree_texels(bvh, kUnit)); });
 }
 
 void mesh_links(benchmark::State& state) {
   const Mesh& mesh = mesh_of(state.range(0));
-  const Bvh bvh = Bvh::build(view_of(mesh), 8).value();
+  const Bvh bvh = Bvh::build(view_of(mesh), {.leaf_size = 8}).value();
   const std::vector<std::uint8_t> flags(mesh.triangles.size(), kTrustedNormal);
   const MeshView view = {mesh.vertices, mesh.triangles, flags, true};
   run_on_mesh(state, [&](const Mesh&) { benchmark::DoNotOptimize(make_mesh_links(view, bvh.order())); });

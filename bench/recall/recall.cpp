@@ -152,7 +152,7 @@ std::vector<std::uint32_t> resolutions_for(const Subject& subject, const std::ve
 
 Status measure(const Subject& subject, const Options& options, Context* context, std::vector<RecallRow>& rows) {
   const std::vector<MedialSample> samples = draw_samples(subject, options);
-  const Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(subject.mesh), options.threads);
+  const Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(subject.mesh), {.threads = options.threads});
   if (!made.ok()) return made.error();
   const IndexedMesh& indexed = made.value();
   for (const std::string& mode : options.modes) {

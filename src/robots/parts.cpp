@@ -98,7 +98,7 @@ class PartLoader {
     if (!prepared) {
       return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
     }
-    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), options_.threads);
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = options_.threads});
     if (!indexed) return indexed.error();
     part.mesh = std::move(indexed).value();
     return {};

@@ -37,7 +37,7 @@ TEST_F(SpheresCommand, WritesATableOfAMesh) {
   const ToolResult result = spheres({"part.obj", "--count", "50"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, IsEmpty());
-  EXPECT_THAT(result.err, HasSubstr("no sphere sticks out"));
+  EXPECT_THAT(result.err, HasSubstr("no sphere reaches out"));
   EXPECT_THAT(result.err, HasSubstr("part.spheres.csv"));
   EXPECT_THAT(result.err, Not(HasSubstr("\r")));
   const std::string table = read_file(path("part.spheres.csv"));

@@ -1,4 +1,5 @@
-// How often the costly steps run: indices (Bvh::build()), uploads of a mesh, threads of the host. The linker sends
+// How often the costly steps run: indices (Bvh::build()), uploads of a mesh, threads of the host. (The refined copy of
+// the tree that a fit makes per Solid searches for no splits of large nodes and is not counted.) The linker sends
 // calls of these functions through the counters below (tests/CMakeLists.txt, --wrap).
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "device_mesh/device_mesh.h"
+#include "medial_vk/extraction_job.h"
 #include "medial_vk/medial_vk.h"
 #include "support/device/device.h"
 #include "support/indexed.h"
@@ -21,14 +23,12 @@ std::atomic<int> trees = 0, uploads = 0, threads = 0;
 
 // The names that --wrap gives: Bvh::build(), DeviceMesh::create() and the start of a std::thread.
 extern "C" {
-medial_vk::Result<medial_vk::Bvh> __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(const medial_vk::MeshView& mesh,
-                                                                                   std::uint32_t leaf_size,
-                                                                                   unsigned count);
-medial_vk::Result<medial_vk::Bvh> __wrap__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(const medial_vk::MeshView& mesh,
-                                                                                   std::uint32_t leaf_size,
-                                                                                   unsigned count) {
+medial_vk::Result<medial_vk::Bvh> __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewERKNS_10BvhOptionsE(
+    const medial_vk::MeshView& mesh, const medial_vk::BvhOptions& options);
+medial_vk::Result<medial_vk::Bvh> __wrap__ZN9medial_vk3Bvh5buildERKNS_8MeshViewERKNS_10BvhOptionsE(
+    const medial_vk::MeshView& mesh, const medial_vk::BvhOptions& options) {
   ++trees;
-  return __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewEjj(mesh, leaf_size, count);
+  return __real__ZN9medial_vk3Bvh5buildERKNS_8MeshViewERKNS_10BvhOptionsE(mesh, options);
 }
 
 medial_vk::Result<medial_vk::DeviceMesh> __real__ZN9medial_vk10DeviceMesh6createERNS_7Context4ImplERKNS_11IndexedMeshEb(
@@ -70,11 +70,13 @@ class WorkCounts : public testing::Test {
   void SetUp() override {
     MEDIAL_VK_SKIP_WITHOUT_DEVICE();
     ContextOptions options;
-    options.threads = 1;
+    options.threads = context_threads();
     options.cache_folder = "/dev/null";
     context_.emplace(Context::create(options).value());
     trees = uploads = threads = 0;
   }
+
+  virtual unsigned context_threads() const { return 1; }
 
   std::optional<Context> context_;
 };
@@ -83,6 +85,7 @@ TEST_F(WorkCounts, AnAnalysisBuildsOneTreeAndUploadsOnce) {
   const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh()).value()).value();
   AnalysisOptions options;
   options.extraction.resolution = 40;
+  options.sheets.emplace();
   options.volumes = options.medial_mesh = true;
   ASSERT_TRUE(analyse(mesh, options, *context_).ok());
   EXPECT_EQ(trees, 1);
@@ -96,7 +99,7 @@ TEST_F(WorkCounts, AFitOfSpheresBuildsOneTreeAndUploadsOnce) {
       trees = uploads = 0;
       int extractions = 0;
       const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(test::make_box({1, 0.7, 0.45})).value()).value();
-      SphereOptions options;
+      SphereFitOptions options;
       options.method = method;
       options.contract = contract;
       options.count = 80;
@@ -144,17 +147,19 @@ TEST_F(WorkCounts, AMeshThatMovesBuildsNoTree) {
 }
 
 TEST_F(WorkCounts, OneThreadIsOneThread) {
-  const IndexedMesh mesh = IndexedMesh::build(prepare_mesh(large_mesh(), {.threads = 1}).value(), 1).value();
+  const IndexedMesh mesh =
+      IndexedMesh::build(prepare_mesh(large_mesh(), {.threads = 1}).value(), {.threads = 1}).value();
   AnalysisOptions options;
   options.extraction.resolution = 60;
+  options.sheets.emplace();
   options.volumes = options.removal_orders = options.medial_mesh = true;
   options.threads = 1;
   ASSERT_TRUE(analyse(mesh, options, *context_).ok());
   IndexedMesh moved = mesh;
   Scene scene = Scene::create(*context_, moved).value();
-  ASSERT_TRUE(moved.move_vertices(mesh.prepared().mesh.vertices, {}, 1).ok());
+  ASSERT_TRUE(moved.move_vertices(mesh.prepared().mesh.vertices, {.threads = 1}).ok());
   ASSERT_TRUE(scene.update(moved).ok());
-  SphereOptions spheres;
+  SphereFitOptions spheres;
   spheres.count = 20;
   spheres.resolution = 16;
   spheres.threads = 1;
@@ -167,7 +172,30 @@ TEST_F(WorkCounts, OneThreadIsOneThread) {
   EXPECT_EQ(threads, 0);
 }
 
-// Without this, the test above could not fail.
+class ThreadCounts : public WorkCounts {
+  unsigned context_threads() const override { return 4; }
+};
+
+// The number of a call goes before that of its context, also for programs and for arrays of the device.
+TEST_F(ThreadCounts, OneThreadOfACallIsOneThread) {
+  const IndexedMesh mesh =
+      IndexedMesh::build(prepare_mesh(large_mesh(), {.threads = 1}).value(), {.threads = 1}).value();
+  AnalysisOptions options;
+  options.extraction.resolution = 20;
+  options.threads = 1;
+  ASSERT_TRUE(analyse(mesh, options, *context_).ok());
+  EXPECT_EQ(threads, 0);
+  Scene scene = Scene::create(*context_, mesh).value();  // has no number of its own
+  EXPECT_GT(threads, 0);
+  threads = 0;
+  ExtractionOptions alone = options.extraction;
+  alone.threads = 1;
+  ASSERT_TRUE(extract_medial_spheres(scene, alone).ok());
+  ASSERT_TRUE(ExtractionJob::create(*context_, mesh, alone, {}).ok());
+  EXPECT_EQ(threads, 0);
+}
+
+// Without this, the tests above could not fail.
 TEST_F(WorkCounts, MoreThreadsAreStarted) {
   ASSERT_TRUE(prepare_mesh(large_mesh(), {.threads = 4}).ok());
   EXPECT_GT(threads, 0);

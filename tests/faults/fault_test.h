@@ -126,7 +126,7 @@ inline Answer make_scene_and_query(Context& context, const PreparedMesh& mesh) {
 }
 
 /// Calls and allocations fail one by one: all of them, or the first and every n-th after it, where the environment
-/// variable MEDIAL_VK_FAULT_STRIDE gives n. With a sanitizer, a run with every one of them takes too long.
+/// variable MEDIAL_VK_FAULT_STRIDE gives n. With a sanitizer, scripts/test lets one of seven fail.
 inline std::uint64_t fault_stride() {
   static const std::uint64_t stride = [] {
     const char* text = std::getenv("MEDIAL_VK_FAULT_STRIDE");

@@ -178,7 +178,7 @@ TEST_F(HostMemory, RunsOutInAShrinkingUnion) {
   const std::vector<Ball> balls = random_balls(40, 3, 0.1, 0.3);
   const std::uint32_t first[] = {1, 4, 9, 16, 25}, second[] = {2, 3, 5, 7, 11, 13};
   fail_every_allocation("a shrinking union", [&]() -> Answer {
-    auto rest = in_runtime([&] { return ShrinkingUnion::build(balls, 1); });
+    auto rest = in_runtime([&] { return ShrinkingUnion::build(balls, {.threads = 1}); });
     if (!rest.ok()) return rest.error();
     if (const Status status = remove_or_leave(rest.value(), first); !status.ok()) return status.error();
     if (const Status status = remove_or_leave(rest.value(), second); !status.ok()) return status.error();

@@ -10,7 +10,7 @@
 namespace medial_vk::fuzz {
 namespace {
 
-void require_in_range(const SphereOptions& fit) {
+void require_in_range(const SphereFitOptions& fit) {
   require(fit.count <= 1'000'000, "--count keeps its range");
   require(fit.error >= 0 && fit.error < 1, "--error keeps its range");
   require(fit.max_gap >= 0 && std::isfinite(fit.max_gap), "--max-gap keeps its range");
@@ -20,7 +20,7 @@ void require_in_range(const SphereOptions& fit) {
 }
 
 void require_goal(const cli::SpheresOptions& options) {
-  const SphereOptions& fit = options.spheres;
+  const SphereFitOptions& fit = options.spheres;
   const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
   require(fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 || fit.max_gap > 0 ||
               by_resolution,

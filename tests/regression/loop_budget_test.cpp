@@ -63,7 +63,8 @@ TEST(LoopBudget, ClustersAreExpandedInRounds) {
   const ExtractionCounters::Level& level = result.extraction.measurements.counters.levels[0];
   ASSERT_GT(level.cluster_tests, 0u) << "no list holds clusters";
   const Mesh sphere = test::make_sphere(1, 300000);
-  const Bvh bvh = Bvh::build({sphere.vertices, sphere.triangles, {}, true}, gpu::kMostLeafTriangles).value();
+  const Bvh bvh =
+      Bvh::build({sphere.vertices, sphere.triangles, {}, true}, {.leaf_size = gpu::kMostLeafTriangles}).value();
   const auto clusters = make_clusters(bvh, {}, {}, 16, 8192);
   const std::uint32_t most = std::ranges::max_element(clusters, {}, &gpu::Cluster::count)->count;
   EXPECT_GT(clusters.size() * (1 + (most + 7) / 8), gpu::kEntriesPerRound) << "one round suffices";

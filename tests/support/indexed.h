@@ -12,13 +12,13 @@ namespace medial_vk::test {
 
 /// The value; throws std::runtime_error, a test failure, if there is an error.
 inline IndexedMesh indexed(const MeshView& mesh, unsigned threads = 0) {
-  Result<IndexedMesh> made = IndexedMesh::build(mesh, threads);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh, {.threads = threads});
   if (!made.ok()) throw std::runtime_error(made.error().message);
   return std::move(made).value();
 }
 
 inline IndexedMesh indexed(const PreparedMesh& mesh, unsigned threads = 0) {
-  Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(mesh), threads);
+  Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(mesh), {.threads = threads});
   if (!made.ok()) throw std::runtime_error(made.error().message);
   return std::move(made).value();
 }
@@ -26,7 +26,7 @@ inline IndexedMesh indexed(const PreparedMesh& mesh, unsigned threads = 0) {
 /// extract_medial_spheres() of a mesh that is indexed for it.
 inline Result<Extraction> extract_spheres(Context& context, const MeshView& mesh, const ExtractionOptions& options,
                                           const ProgressCallback& progress = {}, const std::stop_token& stop = {}) {
-  Result<IndexedMesh> made = IndexedMesh::build(mesh, options.threads);
+  Result<IndexedMesh> made = IndexedMesh::build(mesh, {.threads = options.threads});
   if (!made.ok()) return made.error();
   return extract_medial_spheres(made.value(), options, context, progress, stop);
 }

@@ -7,7 +7,7 @@ namespace medial_vk::test {
 
 /// Moves the mesh of a job, and the job after it. Errors: those of both.
 inline Status move(ExtractionJob& job, IndexedMesh& mesh, const MeshView& to) {
-  if (Status status = mesh.move_vertices(to.vertices, to.flags); !status.ok()) return status;
+  if (Status status = mesh.move_vertices(to.vertices, {.flags = to.flags}); !status.ok()) return status;
   return job.update(mesh);
 }
 

@@ -24,9 +24,9 @@ class Context;
 /// The parts of an analysis; only those requested are computed.
 struct AnalysisOptions {
   ExtractionOptions extraction;
-  /// The options of the grouping into sheets; without a value the spheres are not grouped. `volumes`, `keep_volume`,
-  /// `removal_orders` and `medial_mesh` require sheets: without a value here they cause the error kUsage.
-  std::optional<SheetOptions> sheets = SheetOptions();
+  /// Group the spheres into sheets, with these options. `volumes`, `keep_volume`, `removal_orders` and `medial_mesh`
+  /// require sheets: without a value here they cause the error kUsage.
+  std::optional<SheetOptions> sheets;
   /// Leave out spheres whose centre lies within epsilon of the centre of another sphere (2.4.2).
   bool simplify = false;
   /// Measure the union of the balls, and with it the significance of sheets (6.1).
@@ -38,21 +38,21 @@ struct AnalysisOptions {
   bool keep_topology = false;
   bool removal_orders = false;  ///< Find the complete orders of removal by both rules.
   bool medial_mesh = false;     ///< Join the points to a surface with the topology of the union.
-  /// Of the host, for every step, 0: one per core. No result depends on it. `threads` of the options above is 0, or the
-  /// same number; another one is the error kUsage.
+  /// Of the host, for every step; 0: one per core, and for work on a context as many as that has. No result depends on
+  /// it. `threads` of the options above is 0, or the same number; another one is the error kUsage.
   unsigned threads = 0;
 };
 
 /// The results of analyse(), in the units of the mesh.
 struct Analysis {
   VoxelGrid grid;
-  std::vector<MedialSphere> spheres;      ///< Certified, in voxel order, with their sheets.
+  std::vector<MedialSphere> spheres;      ///< Certified, in voxel order.
   std::vector<UndecidedVoxel> undecided;  ///< Mode certified, in voxel order.
   CertificateReport certificate;
   std::uint64_t simplified = 0;  ///< Spheres left out by `simplify`.
 
   /// The sheets of `spheres`; removed sheets keep their numbers and have no spheres.
-  Sheets sheets;
+  std::optional<Sheets> sheets;
   /// The significance of balls and sheets in the union before any removal; `of_ball` and `areas` are by index into
   /// `spheres`.
   std::optional<Significance> significance;

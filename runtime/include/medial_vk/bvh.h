@@ -32,23 +32,32 @@ struct BvhHit {
   std::uint32_t triangle = 0xffffffffu;  ///< Index into the mesh's triangles; the smallest among exact ties.
 };
 
+struct BvhOptions {
+  std::uint32_t leaf_size = 4;  ///< Most triangles of a leaf; a leaf at the greatest depth may have more.
+  unsigned threads = 0;         ///< Of the host, 0: one per core. The tree does not depend on it.
+};
+
+struct RefitOptions {
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+};
+
 /// The tree. Queries may come from several threads at once.
 class Bvh {
  public:
   /// Greatest depth of a leaf below the root, and so the capacity that a traversal stack requires.
   static constexpr std::uint32_t kMaxDepth = 48;
 
-  /// Copies the corners of the triangles in leaf order. `threads` 0: one per core. Errors: kInvalidMesh (no triangle,
-  /// index out of range, coordinate not finite), kOutOfMemory.
-  static Result<Bvh> build(const MeshView& mesh, std::uint32_t leaf_size = 4, unsigned threads = 0);
+  /// Copies the corners of the triangles in leaf order. Errors: kInvalidMesh (no triangle, index out of range,
+  /// coordinate not finite), kOutOfMemory.
+  static Result<Bvh> build(const MeshView& mesh, const BvhOptions& options = {});
 
   /// Follows triangles that have moved: takes the corners of triangle t from triangle t of `mesh`, and makes every box
   /// the least one around the triangles below it. The triangles of each node and the order of the leaves stay the same.
   /// All answers are as exact as those of a new tree, and nearly as fast while triangles that were neighbours stay
-  /// neighbours. The time is linear in the number of triangles. `threads` is as in build(); the result does not depend
-  /// on it. Errors: kInvalidMesh (another number of triangles, index out of range, coordinate not finite: the tree is
-  /// unchanged), kOutOfMemory (the tree is unusable until a refit succeeds).
-  Status refit(const MeshView& mesh, unsigned threads = 0);
+  /// neighbours. The time is linear in the number of triangles. Errors: kInvalidMesh (another number of triangles,
+  /// index out of range, coordinate not finite: the tree is unchanged), kOutOfMemory (the tree is unusable until a
+  /// refit succeeds).
+  Status refit(const MeshView& mesh, const RefitOptions& options = {});
 
   const std::vector<BvhNode>& nodes() const { return nodes_; }                   ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }             ///< Triangle index by leaf position.
@@ -62,7 +71,7 @@ class Bvh {
 
  private:
   friend struct Internals;
-  Result<Bvh> refined(std::uint32_t leaf_size) const;  // refined_tree.h
+  Result<Bvh> refined(std::uint32_t leaf_size) const;
   void take_corners(const MeshView& mesh, unsigned threads);
 
   std::vector<BvhNode> nodes_;

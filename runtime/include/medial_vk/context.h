@@ -64,7 +64,7 @@ struct ContextOptions {
   /// Folder of the pipeline cache. Empty: $XDG_CACHE_HOME/medial-vk, else $HOME/.cache/medial-vk, else none.
   std::string cache_folder;
   /// Threads of the host for the library's own work on this context (programs, arrays for the device); 0: one per core.
-  /// Drivers have threads of their own.
+  /// A call whose options have another number than 0 uses that instead. Drivers have threads of their own.
   unsigned threads = 0;
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).

@@ -12,18 +12,28 @@
 
 namespace medial_vk {
 
+struct IndexOptions {
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The index does not depend on it.
+};
+
+struct MoveOptions {
+  /// TriangleFlags for the new positions, for which the caller is responsible; empty: the present flags are kept.
+  std::span<const std::uint8_t> flags = {};
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+};
+
 /// A prepared mesh, the tree over its triangles, and the links between triangles at edges and vertices. It is built
 /// once, on the host and without a device, and is the input of every step. Copies share their data; move_vertices() on
 /// one copy does not change the others.
 class IndexedMesh {
  public:
-  /// `threads` 0: one per core. Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not
-  /// finite, flags that are neither none nor one per triangle), kOutOfMemory.
-  static Result<IndexedMesh> build(PreparedMesh mesh, unsigned threads = 0);
+  /// Errors: kInvalidMesh (no triangle, an index out of range, a coordinate that is not finite, flags that are neither
+  /// none nor one per triangle), kOutOfMemory.
+  static Result<IndexedMesh> build(PreparedMesh mesh, const IndexOptions& options = {});
   /// Builds the index of a mesh that is known to be clean, such as that of a renderer, without its preparation. Arrays
   /// are copied, the caller is responsible for the flags, and the report holds only the counts and the box. The same
   /// errors.
-  static Result<IndexedMesh> build(const MeshView& mesh, unsigned threads = 0);
+  static Result<IndexedMesh> build(const MeshView& mesh, const IndexOptions& options = {});
 
   // A move is a copy, so that no object is ever empty.
   IndexedMesh(const IndexedMesh&) = default;
@@ -42,10 +52,9 @@ class IndexedMesh {
   double longest_side() const;
 
   /// Follows vertices that have moved; their number is unchanged. The tree is refitted: results are as exact as those
-  /// of a new tree, and nearly as fast while neighbours stay neighbours. `flags`: TriangleFlags for the new positions,
-  /// for which the caller is responsible; empty: the present flags are kept. Errors: kInvalidMesh (another number of
+  /// of a new tree, and nearly as fast while neighbours stay neighbours. Errors: kInvalidMesh (another number of
   /// vertices or flags, a coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
-  Status move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags = {}, unsigned threads = 0);
+  Status move_vertices(std::span<const Point> vertices, const MoveOptions& options = {});
 
  private:
   friend struct Internals;

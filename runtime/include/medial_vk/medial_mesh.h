@@ -50,7 +50,7 @@ struct MedialMeshOptions {
 
 /// Collapses the dual complex of the union of the grown balls to a mesh, which has the homotopy type of that union.
 /// Precondition: `sheets` are the sheets of the same spheres. The mesh does not depend on the order of the spheres.
-/// Errors: those of measure_ball_union().
+/// Errors: kUsage (a length that is negative or not finite), and those of measure_ball_union().
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
                                     const MedialMeshOptions& options);
 

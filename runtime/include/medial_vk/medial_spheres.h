@@ -41,7 +41,8 @@ struct ExtractionOptions {
   /// staging memory of moved vertices (ExtractionJob). At least a quarter of it is left for the search, so the total
   /// exceeds the budget if the mesh takes more than three quarters.
   std::uint64_t memory_budget = 1ull << 30;
-  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Of the host; 0: as many as the context has, or one per core without a context. The result does not depend on it.
+  unsigned threads = 0;
   MeasurementOptions measurements;
 
   bool operator==(const ExtractionOptions&) const = default;

@@ -27,6 +27,6 @@
 #include "medial_vk/sheets.h"
 #include "medial_vk/shrinking_union.h"
 #include "medial_vk/significance.h"
+#include "medial_vk/sphere_fits.h"
 #include "medial_vk/sphere_measures.h"
-#include "medial_vk/spheres.h"
 #include "medial_vk/version.h"

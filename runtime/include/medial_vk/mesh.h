@@ -37,7 +37,7 @@ struct MeshReport {
   std::uint64_t inner_walls_dropped = 0;
   std::uint64_t open_edges = 0;          ///< Edges of one triangle.
   std::uint64_t non_manifold_edges = 0;  ///< Edges of three or more triangles.
-  /// Edges of two triangles that traverse them in the same direction, which turning faces over cannot correct.
+  /// Edges of two triangles that traverse them in the same direction. Turning faces over cannot correct them.
   std::uint64_t inconsistent_edges = 0;
   std::uint64_t non_manifold_vertices = 0;  ///< Vertices whose triangles form more than one fan.
   std::uint64_t components = 0;             ///< Connected by shared edges.

@@ -17,8 +17,8 @@
 #include "medial_vk/pose.h"
 #include "medial_vk/progress.h"
 #include "medial_vk/result.h"
+#include "medial_vk/sphere_fits.h"
 #include "medial_vk/sphere_measures.h"
-#include "medial_vk/spheres.h"
 
 namespace medial_vk {
 
@@ -37,10 +37,10 @@ struct Part {
   std::optional<double> volume;
 };
 
-/// All given goals must be met, as in SphereOptions.
+/// All given goals must be met, as in SphereFitOptions.
 struct PartFitOptions {
   /// Of each part. `count` is not read if one of the next two numbers is given.
-  SphereOptions spheres;
+  SphereFitOptions spheres;
   std::size_t count_per_link = 0;  ///< Greatest number of balls of each link, for its parts together; 0: no such goal.
   std::size_t total = 0;           ///< Greatest number of balls of all parts together; 0: no such goal.
   /// Of the host, 0: one per core. No result depends on it. `threads` of `spheres` is 0, or the same number; another

@@ -1,5 +1,4 @@
-// Batches of scattered queries of one mesh on the device, answered by walks of its BVH. The tests compare the results
-// with the CPU reference, kernel by kernel.
+// Batches of scattered queries of one mesh on the device, answered by walks of its BVH.
 #pragma once
 
 #include <cstdint>

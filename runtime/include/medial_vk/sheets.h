@@ -12,18 +12,18 @@
 namespace medial_vk {
 
 struct SheetOptions {
-  /// tau of Section 2.5, degrees: neighbours are linked if their normals differ by at most this angle.
+  /// tau of Section 2.5, degrees, 0 to 90: neighbours are linked if their normals differ by at most this angle.
   double angle = 5.7;
-  /// Degrees: neighbours are also linked if both spokes turn by at most this angle, as from facet to facet of a round
-  /// shape. 0: only the published test of normals applies, and components are not joined across borders.
+  /// Degrees, 0 to 180: neighbours are also linked if both spokes turn by at most this angle, as from facet to facet of
+  /// a round shape. 0: only the published test of normals applies, and components are not joined across borders.
   double crease = 10;
-  /// Degrees: two components are joined if the mean turn of the spokes at the points of their border is at most this
-  /// limit, where each turn is clamped to [limit - 30, limit + 4]. A border that is short for the smaller component is
-  /// extended by points whose turn is limit + 4.
+  /// Degrees, 0 to 180: two components are joined if the mean turn of the spokes at the points of their border is at
+  /// most this limit, where each turn is clamped to [limit - 30, limit + 4]. A border that is short for the smaller
+  /// component is extended by points whose turn is limit + 4.
   double border = 77;
-  /// Components narrower than this fraction of the mean diameter of their balls are absorbed by their neighbours, point
-  /// by point; 0: none. The width of a component is twice the greatest distance of one of its points from a border or a
-  /// rim.
+  /// 0 to 1: components narrower than this fraction of the mean diameter of their balls are absorbed by their
+  /// neighbours, point by point; 0: none. The width of a component is twice the greatest distance of one of its points
+  /// from a border or a rim.
   double width = 0.17;
   /// Components of fewer points than this are absorbed too; 0: none.
   std::uint64_t absorb_fragments = 0;
@@ -70,7 +70,7 @@ struct Sheets {
 
 /// Groups the points. The sheet of a point depends neither on the order of the points nor on the number of threads.
 /// `extraction` gives the object angle and epsilon of the points. Precondition: at most one point per voxel of `grid`.
-/// Error: kOutOfMemory.
+/// Errors: kUsage (an option out of range), kOutOfMemory.
 Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
                            const ExtractionOptions& extraction, const SheetOptions& options);
 

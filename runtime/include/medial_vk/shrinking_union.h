@@ -11,13 +11,17 @@
 
 namespace medial_vk {
 
+struct ShrinkingUnionOptions {
+  unsigned threads = 0;  ///< Of the host, 0: one per core. Results do not depend on it.
+};
+
 /// Holds all balls, and marks those that are still in the union. A removal changes only the power cells of the
 /// neighbours and of balls that the removed ones had hidden, and only these are remeasured. It serves the removal of
 /// sheets by significance (S. Stolpner, 2011, Section 6.3) and without changes of topology (Section 6.4.1).
 class ShrinkingUnion {
  public:
-  /// Conditions and errors are those of measure_ball_union(). `threads` 0: one per core; results do not depend on it.
-  static Result<ShrinkingUnion> build(std::span<const Ball> balls, unsigned threads = 0);
+  /// Conditions and errors are those of measure_ball_union().
+  static Result<ShrinkingUnion> build(std::span<const Ball> balls, const ShrinkingUnionOptions& options = {});
   ShrinkingUnion(ShrinkingUnion&&) noexcept;
   ShrinkingUnion& operator=(ShrinkingUnion&&) noexcept;
   ~ShrinkingUnion();

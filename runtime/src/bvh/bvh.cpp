@@ -104,11 +104,11 @@ void walk_near_first(const std::vector<BvhNode>& nodes, const Point& p, Limit li
 
 }  // namespace
 
-Result<Bvh> Bvh::build(const MeshView& mesh, std::uint32_t leaf_size, unsigned threads) {
-  threads = thread_count(threads);
+Result<Bvh> Bvh::build(const MeshView& mesh, const BvhOptions& options) {
+  const unsigned threads = thread_count(options.threads);
   return catch_out_of_memory("building a tree over the triangles", [&]() -> Result<Bvh> {
     if (Status status = check_mesh(mesh, threads); !status) return status.error();
-    BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, leaf_size), threads);
+    BvhBuilder builder(make_primitives(mesh, threads), std::max(1u, options.leaf_size), threads);
     Bvh bvh;
     bvh.nodes_ = builder.build();
     bvh.order_ = builder.take_order();
@@ -135,8 +135,8 @@ Result<Bvh> Bvh::refined(std::uint32_t leaf_size) const {
   });
 }
 
-Status Bvh::refit(const MeshView& mesh, unsigned threads) {
-  threads = thread_count(threads);
+Status Bvh::refit(const MeshView& mesh, const RefitOptions& options) {
+  const unsigned threads = thread_count(options.threads);
   if (mesh.triangles.size() != order_.size()) {
     return invalid_mesh("the mesh has " + std::to_string(mesh.triangles.size()) +
                         " triangles, the tree was built over " + std::to_string(order_.size()));

@@ -38,7 +38,7 @@ class Context::Impl {
   std::uint32_t transfer_family = 0;
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
 
-  unsigned host_threads = 0;           // ContextOptions::threads
+  unsigned host_threads = 0;           // ContextOptions::threads, or of the present call (ThreadsOfCall)
   ProgramsProgress programs_progress;  // ContextOptions::programs_progress
   VkPhysicalDeviceLimits limits{};
   VkPhysicalDeviceMemoryProperties memory{};
@@ -85,6 +85,21 @@ class Context::Impl {
   std::string pipeline_cache_file_;            // empty: none
   std::uint64_t pipeline_cache_checksum_ = 0;  // of the data that was read
   std::map<ProgramKey, OwnedProgram> programs_;
+};
+
+/// The number of threads of a call, 0: that of the context, from its construction to its destruction.
+class ThreadsOfCall {
+ public:
+  ThreadsOfCall(ContextImpl& context, unsigned threads) : context_(context), before_(context.host_threads) {
+    if (threads != 0) context.host_threads = threads;
+  }
+  ThreadsOfCall(const ThreadsOfCall&) = delete;
+  ThreadsOfCall& operator=(const ThreadsOfCall&) = delete;
+  ~ThreadsOfCall() { context_.host_threads = before_; }
+
+ private:
+  ContextImpl& context_;
+  unsigned before_;
 };
 
 /// "vkCreateBuffer failed: out of device memory"; kOutOfMemory for the two memory results, else kInternal.

@@ -38,7 +38,7 @@ PhysicalDevice describe_device(VkPhysicalDevice handle, std::uint32_t queue_fami
 
 /// The device given by `choice`: an index, part of a name (case does not matter; of several the best), or, empty,
 /// the best of all: discrete, integrated, virtual, cpu, other; the first listed among equals.
-/// `origin` names the source of the choice in errors ("--device", "MEDIAL_VK_DEVICE").
+/// `origin` names the source of the choice in errors ("`device`", "MEDIAL_VK_DEVICE").
 /// Returns the index. Errors: kNoDevice, listing what exists.
 Result<std::uint32_t> choose_device(std::span<const DeviceDescription> devices, const std::string& choice,
                                     const std::string& origin);

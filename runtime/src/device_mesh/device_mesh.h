@@ -88,7 +88,7 @@ struct DeviceMesh {
   /// Index into MeshView::triangles, one word per leaf position.
   Buffer triangle_info;
   /// gpu::TriangleLinks by leaf position, as two texels of integers, and caps of spokes by vertex
-  /// (runtime/src/device_mesh/mesh_links.h); null until add_links().
+  /// (runtime/src/indexed_mesh/mesh_links.h); null until add_links().
   Buffer triangle_links;
   VkBufferView link_texels = VK_NULL_HANDLE;
   Buffer corner_cones;

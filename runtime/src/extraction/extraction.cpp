@@ -57,6 +57,7 @@ Result<Extraction> extract_medial_spheres(const IndexedMesh& mesh, const Extract
                                           const ProgressCallback& progress, const std::stop_token& stop) {
   return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
     ContextImpl& device = Internals::of(context);
+    const ThreadsOfCall threads(device, options.threads);
     Result<DeviceMesh> uploaded = DeviceMesh::create(device, mesh, options.mode == Mode::kCertified);
     if (!uploaded.ok()) return uploaded.error();
     return extract(device, uploaded.value(), options, watch);
@@ -68,6 +69,7 @@ Result<Extraction> extract_medial_spheres(Scene& scene, const ExtractionOptions&
   return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
     auto& of = Internals::of(scene);
     if (Status ready = of.usable(); !ready.ok()) return ready.error();
+    const ThreadsOfCall threads(*of.context, options.threads);
     return extract(*of.context, of.mesh, options, watch);
   });
 }
@@ -78,6 +80,7 @@ Extractor device_extractor(Context& context) try {
                                                       const ProgressCallback& progress, const std::stop_token& stop) {
         return watched(options, progress, stop, [&](StopWatch& watch) -> Result<Extraction> {
           ContextImpl& device = Internals::of(context);
+          const ThreadsOfCall threads(device, options.threads);
           const bool with_links = options.mode == Mode::kCertified;
           if (Status status = kept->keep(device, mesh, with_links); !status.ok()) return status.error();
           return extract(device, *kept->mesh, options, watch);

@@ -147,6 +147,7 @@ Result<ExtractionJob> ExtractionJob::create(Context& context, const IndexedMesh&
   if (options.mode != Mode::kCertified || job.frames == 0)
     return Error{ErrorCode::kUsage, "a recorded job requires `mode` certified, and `frames` of at least 1"};
   return catch_out_of_memory("preparing a job", [&]() -> Result<ExtractionJob> {
+    const ThreadsOfCall threads(Internals::of(context), options.threads);
     Result<StopWord> stop = StopWord::create(Internals::of(context));
     if (!stop.ok()) return stop.error();
     Result<DeviceMesh> device = DeviceMesh::create(Internals::of(context), mesh, true);

@@ -45,18 +45,18 @@ Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, st
 
 IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-Result<IndexedMesh> IndexedMesh::build(PreparedMesh mesh, unsigned threads) {
+Result<IndexedMesh> IndexedMesh::build(PreparedMesh mesh, const IndexOptions& options) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
     if (Status status = check_flags(mesh.flags.size(), mesh.mesh.triangles.size()); !status.ok()) return status.error();
-    Result<Bvh> bvh = Bvh::build(mesh.view(), gpu::kMostLeafTriangles, threads);
+    Result<Bvh> bvh = Bvh::build(mesh.view(), {.leaf_size = gpu::kMostLeafTriangles, .threads = options.threads});
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), mesh.report);  // a caller may have filled in the mesh
-    MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), threads);
+    MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), options.threads);
     return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(mesh), std::move(bvh).value(), std::move(links)}));
   });
 }
 
-Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, unsigned threads) {
+Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, const IndexOptions& options) {
   return catch_out_of_memory("indexing a mesh", [&]() -> Result<IndexedMesh> {
     PreparedMesh copy;
     copy.mesh.vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
@@ -64,10 +64,10 @@ Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, unsigned threads) {
     copy.flags.assign(mesh.flags.begin(), mesh.flags.end());
     copy.report = report_of(mesh);
     if (Status status = check_flags(mesh.flags.size(), mesh.triangles.size()); !status.ok()) return status.error();
-    Result<Bvh> bvh = Bvh::build(copy.view(), gpu::kMostLeafTriangles, threads);
+    Result<Bvh> bvh = Bvh::build(copy.view(), {.leaf_size = gpu::kMostLeafTriangles, .threads = options.threads});
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), copy.report);
-    MeshLinks links = make_mesh_links(copy.view(), bvh.value().order(), threads);
+    MeshLinks links = make_mesh_links(copy.view(), bvh.value().order(), options.threads);
     return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(copy), std::move(bvh).value(), std::move(links)}));
   });
 }
@@ -78,8 +78,8 @@ const Bvh& IndexedMesh::bvh() const { return impl_->bvh; }
 
 double IndexedMesh::longest_side() const { return impl_->prepared.report.longest_side(); }
 
-Status IndexedMesh::move_vertices(std::span<const Point> vertices, std::span<const std::uint8_t> flags,
-                                  unsigned threads) {
+Status IndexedMesh::move_vertices(std::span<const Point> vertices, const MoveOptions& options) {
+  const std::span<const std::uint8_t> flags = options.flags;
   if (Status status = check_moved(impl_->prepared, vertices, flags); !status.ok()) return status;
   return catch_out_of_memory("moving a mesh", [&]() -> Status {
     // A copy, since others may share the data, and an error must leave them unchanged.
@@ -87,9 +87,9 @@ Status IndexedMesh::move_vertices(std::span<const Point> vertices, std::span<con
     moved->prepared.mesh.vertices.assign(vertices.begin(), vertices.end());
     if (!flags.empty()) moved->prepared.flags.assign(flags.begin(), flags.end());
     const MeshView view = moved->prepared.view();
-    if (Status status = moved->bvh.refit(view, threads); !status.ok()) return status;
+    if (Status status = moved->bvh.refit(view, {.threads = options.threads}); !status.ok()) return status;
     take_box(moved->bvh, moved->prepared.report);
-    moved->links = make_mesh_links(view, moved->bvh.order(), threads);
+    moved->links = make_mesh_links(view, moved->bvh.order(), options.threads);
     impl_ = std::move(moved);
     return {};
   });

@@ -109,6 +109,10 @@ class Builder {
 
 Result<MedialMesh> make_medial_mesh(std::span<const MedialSphere> spheres, const Sheets& sheets,
                                     const MedialMeshOptions& options) {
+  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (!is_length(options.growth) || !is_length(options.epsilon)) {
+    return Error{ErrorCode::kUsage, "`growth` and `epsilon` must be lengths of 0 or more"};
+  }
   return catch_out_of_memory("joining medial points", [&]() -> Result<MedialMesh> {
     const VoxelGraph graph(spheres, options.threads);
     Result<MedialMesh> mesh = Builder(graph, options).run();

@@ -38,8 +38,8 @@ class WindingChange {
   static double distance(const Point& p, const OpenEdge& e);
   static double distance(const Point& p, const Group& group);
   double distance_to_edges(const Point& p) const;
-  /// A bound of the change within that radius. It is of use up to `most`: near edges count one by one, far ones in
-  /// groups, and `most` decides which are near.
+  /// A bound of the change within that radius. Near edges count one by one and far ones in groups. The bound is sharp
+  /// enough for a comparison with `most`, which decides which edges are near.
   double change_within(const Point& p, double radius, double most) const;
 
   std::vector<OpenEdge> edges_;

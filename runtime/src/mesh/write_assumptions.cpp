@@ -96,7 +96,7 @@ void write_assumptions(MeshReport& r) {
     add("Too many triangles lie close together to look for all crossings: no normal is relied on.");
   }
   if (!r.sides_known) {
-    add("Too many triangles lie close together to look at both sides of each: normals of those left out are not "
+    add("Too many triangles lie close together to examine both sides of each: normals of those left out are not "
         "relied on.");
   }
   if (r.faces_within > 0) {

@@ -182,7 +182,7 @@ class Fitting {
     NeedCurve curve;
     curve.is_ball = part.ball.has_value();
     if (curve.is_ball) return curve;
-    SphereOptions options = options_.spheres;
+    SphereFitOptions options = options_.spheres;
     options.count = count;
     const Result<CoverageCurve> found =
         measure_coverage_curve(*part.mesh, options, extractor_of(number), reporter(), stop_);
@@ -221,7 +221,7 @@ class Fitting {
     }
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    SphereOptions options = options_.spheres;
+    SphereFitOptions options = options_.spheres;
     options.count = count;
     Result<SphereFit> fitted = fit_spheres(*part.mesh, options, extractor_of(number), reporter(), stop_);
     if (!fitted) return named(part, fitted.error());

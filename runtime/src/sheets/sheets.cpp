@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "sheets/absorb_components.h"
+#include "sheets/check_sheet_options.h"
 #include "sheets/grow_components.h"
 #include "sheets/join_components.h"
 #include "sheets/rim.h"
@@ -110,6 +111,7 @@ void measure_areas(const VoxelGraph& graph, const VoxelGrid& grid, double epsilo
 
 Result<Sheets> find_sheets(std::span<const MedialSphere> spheres, const VoxelGrid& grid,
                            const ExtractionOptions& extraction, const SheetOptions& options) try {
+  if (Status status = check_sheet_options(options); !status) return status.error();
   const VoxelGraph graph(spheres, options.threads);
   std::vector<std::uint32_t> component_of = grow_components(graph, extraction.object_angle, options);
   join_components(graph, options, component_of);

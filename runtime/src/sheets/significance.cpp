@@ -235,7 +235,7 @@ Result<Significance> measure_significance(const SheetBalls& sheets, unsigned thr
 
 Result<SheetRemoval> remove_sheets(const SheetBalls& sheets, const Significance& significance, RemovalRule rule,
                                    double least_volume, unsigned threads, const RemovalProgress& progress) {
-  Result<ShrinkingUnion> whole = ShrinkingUnion::build(sheets.balls, threads);
+  Result<ShrinkingUnion> whole = ShrinkingUnion::build(sheets.balls, {.threads = threads});
   if (!whole) return whole.error();
   return Removing(sheets, significance, rule, least_volume, progress, std::move(whole).value()).run();
 }

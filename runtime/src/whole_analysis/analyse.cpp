@@ -8,6 +8,7 @@
 #include "base/host_memory.h"
 #include "base/stopwatch.h"
 #include "mesh/inspect_mesh.h"
+#include "sheets/check_sheet_options.h"
 #include "simplification/simplify_spheres.h"
 #include "whole_analysis/measure_sheets.h"
 
@@ -23,8 +24,14 @@ class AnalysisRun {
   }
 
   Result<Analysis> run() {
+    if (!(options_.keep_volume >= 0 && options_.keep_volume <= 1)) {
+      return Error{ErrorCode::kUsage, "`keep_volume` must be 0 to 1"};
+    }
     if (!options_.sheets && (measures() || options_.medial_mesh)) {
       return Error{ErrorCode::kUsage, "`volumes`, `keep_volume`, `removal_orders` and `medial_mesh` require `sheets`"};
+    }
+    if (options_.sheets) {
+      if (Status status = check_sheet_options(*options_.sheets); !status) return status.error();
     }
     if (Status status = take_threads(); !status) return status.error();
     if (Status status = extract(); !status) return status.error();
@@ -80,7 +87,7 @@ class AnalysisRun {
     Result<Sheets> sheets = find_sheets(out_.spheres, out_.grid, options_.extraction, *options_.sheets);
     if (!sheets) return sheets.error();
     out_.sheets = std::move(sheets).value();
-    for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets.of_point[i];
+    for (std::size_t i = 0; i < out_.spheres.size(); ++i) out_.spheres[i].sheet = out_.sheets->of_point[i];
     out_.measurements.host_times.push_back({"sheets", stopwatch.lap()});
     return {};
   }
@@ -101,7 +108,7 @@ class AnalysisRun {
     if (Status status = reached("medial mesh"); !status) return status;
     Stopwatch stopwatch;
     Result<MedialMesh> joined =
-        make_medial_mesh(out_.spheres, out_.sheets, {out_.grid.voxel_size, epsilon(), options_.threads});
+        make_medial_mesh(out_.spheres, *out_.sheets, {out_.grid.voxel_size, epsilon(), options_.threads});
     if (!joined) return joined.error();
     out_.medial_mesh = std::move(joined).value();
     out_.euler_characteristic = euler_characteristic_of_solid(mesh_.prepared());

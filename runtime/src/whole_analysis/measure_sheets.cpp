@@ -33,7 +33,7 @@ class SheetMeasuring {
         stop_(stop),
         out_(analysis),
         balls_(balls_of(analysis.spheres)),
-        sheets_{balls_, analysis.sheets.of_point, analysis.sheets.sheets.size()} {}
+        sheets_{balls_, analysis.sheets->of_point, analysis.sheets->sheets.size()} {}
 
   Status run() {
     if (Status status = measure(); !status.ok()) return status;
@@ -47,7 +47,7 @@ class SheetMeasuring {
     const VoxelGraph graph(out_.spheres, options_.threads);
     sheets_.graph = &graph;
     sheets_.voxel_size = out_.grid.voxel_size;
-    const std::vector<double> weights = seam_weights(out_.sheets);
+    const std::vector<double> weights = seam_weights(*out_.sheets);
     sheets_.weights = weights;
     Result<Significance> measured = measure_significance(sheets_, options_.threads);
     sheets_.graph = nullptr;
@@ -55,7 +55,7 @@ class SheetMeasuring {
     if (!measured) return measured.error();
     out_.significance = std::move(measured).value();
     for (std::size_t sheet = 0; sheet < sheets_.sheets; ++sheet) {
-      out_.sheets.sheets[sheet].significance = out_.significance->of_sheet[sheet];
+      out_.sheets->sheets[sheet].significance = out_.significance->of_sheet[sheet];
     }
     return {};
   }
@@ -93,9 +93,9 @@ class SheetMeasuring {
       keep[i] = is_kept_sheet[static_cast<std::size_t>(sheets_.sheet_of[i])];
     }
     keep_marked(keep, out_.spheres);
-    keep_marked(keep, out_.sheets.of_point);
-    keep_marked(keep, out_.sheets.marks);
-    keep_marked(keep, out_.sheets.areas);
+    keep_marked(keep, out_.sheets->of_point);
+    keep_marked(keep, out_.sheets->marks);
+    keep_marked(keep, out_.sheets->areas);
     keep_marked(keep, significance.of_ball);
     keep_marked(keep, significance.areas);
     out_.removal = std::move(removal);

@@ -150,7 +150,7 @@ bool has_files(const std::string& folder) {
 Result<TrialTask> make_trial_task() {
   Result<PreparedMesh> prepared = prepare_mesh(make_solid(), {.threads = 1});
   if (!prepared) return prepared.error();
-  Result<IndexedMesh> mesh = IndexedMesh::build(std::move(prepared).value(), 1);
+  Result<IndexedMesh> mesh = IndexedMesh::build(std::move(prepared).value(), {.threads = 1});
   if (!mesh) return mesh.error();
   TrialTask task = {std::move(mesh).value(), {}, {}, 0};
   task.options.resolution = kResolution;

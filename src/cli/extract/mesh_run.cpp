@@ -77,7 +77,7 @@ Status MeshRun::index(PreparedMesh mesh) {
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
   const unsigned threads = shared_.opening.threads_beside(mesh.mesh.triangles.size(), options_.threads);
-  Result<IndexedMesh> made = IndexedMesh::build(std::move(mesh), threads);
+  Result<IndexedMesh> made = IndexedMesh::build(std::move(mesh), {.threads = threads});
   if (!made) return with_hint(made.error());
   mesh_.emplace(std::move(made).value());
   record_.longest_side = mesh_->longest_side();
@@ -130,7 +130,7 @@ void MeshRun::describe() {
   record_.radii = range_of_radii(analysis_.spheres);
   record_.object_angles = range_of_object_angles(analysis_.spheres);
   record_.sheet_options = options_.sheets;
-  record_.sheets = std::move(analysis_.sheets);
+  record_.sheets = std::move(*analysis_.sheets);
   if (analysis_.significance) {
     const Significance& measured = *analysis_.significance;
     record_.ball_union =

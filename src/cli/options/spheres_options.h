@@ -11,7 +11,7 @@
 #include "cli/options/parse_picture.h"
 #include "common/backend.h"
 #include "medial_vk/result.h"
-#include "medial_vk/spheres.h"
+#include "medial_vk/sphere_fits.h"
 #include "output/picture/panels/options.h"
 #include "output/sphere_files/sphere_file.h"
 
@@ -26,7 +26,7 @@ struct SpheresOptions {
   SphereFormat format = SphereFormat::kCsv;
 
   bool keep_inner_faces = false;
-  SphereOptions spheres;           ///< `threads` is the number for the whole run.
+  SphereFitOptions spheres;        ///< `threads` is the number for the whole run.
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
 

@@ -59,7 +59,7 @@ class SpheresRun {
     if (!prepared) return prepared.error();
     record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
     if (!record_.part.empty()) record_.name = record_.part;
-    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), threads);
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = threads});
     if (!indexed) return with_hint(indexed.error());
     FittedSolid solid;
     solid.link = solid.name = record_.name;
@@ -158,7 +158,7 @@ class SpheresRun {
   Status fit_one_mesh(const StageProgress& on_progress, const std::stop_token& stop) {
     Stopwatch stopwatch;
     FittedSolid& solid = record_.solids.front();
-    const SphereOptions& fit_options = options_.spheres;
+    const SphereFitOptions& fit_options = options_.spheres;
     Result<SphereFit> fit = shared_.context
                                 ? fit_spheres(*solid.mesh, fit_options, *shared_.context, on_progress, stop)
                                 : fit_spheres(*solid.mesh, fit_options, reference_extractor(), on_progress, stop);

@@ -20,11 +20,14 @@ constexpr ParameterWords library_only(std::string_view parameter) { return same(
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
     {"amplitude", "--perturb", {}, {}},
+    {"angle", "--sheet-angle", {}, {}},
     library_only("ball"),
+    {"border", "--sheet-border", {}, {}},
     library_only("capacity"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount},
     {"count_per_link", {}, {}, "--count-per-link"},
+    {"crease", "--sheet-crease", {}, {}},
     same("deep_angle", "the deep angle"),
     {"device", "--device", "--device", "--device", "--device"},
     {"epsilon", "--epsilon", "epsilon", "epsilon"},
@@ -32,6 +35,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"extra_levels", "--extra-levels", "the number of extra levels", "the number of extra levels"},
     library_only("frames"),
     library_only("group_size"),
+    library_only("growth"),
     {"keep_volume", "--keep-volume", {}, {}},
     library_only("largest"),
     {"max_gap", {}, "--max-gap", "--max-gap"},
@@ -57,6 +61,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("validation"),
     {"volume", {}, {}, "volume"},
     library_only("volumes"),
+    {"width", "--sheet-width", {}, {}},
 };
 
 std::string_view words_of(const ParameterWords& parameter, Command command) {

@@ -11,7 +11,7 @@
 #include "medial_vk/context.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/part_fits.h"
-#include "medial_vk/spheres.h"
+#include "medial_vk/sphere_fits.h"
 
 namespace medial_vk {
 
@@ -48,7 +48,7 @@ struct FitsRecord {
   std::string output;
   std::string output_format;
   bool is_robot = false;
-  SphereOptions spheres;
+  SphereFitOptions spheres;
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
   Backend backend = Backend::kVulkan;

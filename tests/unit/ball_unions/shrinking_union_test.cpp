@@ -18,7 +18,7 @@ namespace {
 constexpr double kSame = 1e-12;  // relative
 
 ShrinkingUnion build(const std::vector<Ball>& balls) {
-  auto result = ShrinkingUnion::build(balls, 2);
+  auto result = ShrinkingUnion::build(balls, {.threads = 2});
   EXPECT_TRUE(result.ok()) << result.error().message;
   return std::move(result).value();
 }

@@ -48,9 +48,9 @@ BvhBox expect_least_boxes(const Bvh& bvh, const Mesh& mesh, std::uint32_t index)
 TEST(BvhRefit, ChangesNothingWhereNothingMoved) {
   const Mesh mesh = test::make_turned_torus(100, 60);
   for (const unsigned threads : {1u, 2u, 5u}) {
-    const Bvh built = Bvh::build(test::view_of(mesh), 4, threads).value();
+    const Bvh built = Bvh::build(test::view_of(mesh), {.threads = threads}).value();
     Bvh refitted = built;
-    ASSERT_TRUE(refitted.refit(test::view_of(mesh), threads).ok());
+    ASSERT_TRUE(refitted.refit(test::view_of(mesh), {.threads = threads}).ok());
     EXPECT_TRUE(same_bytes(built, refitted));
   }
 }
@@ -68,11 +68,11 @@ TEST(BvhRefit, ComesBackToTheSameBytes) {
 TEST(BvhRefit, FitsTheLeastBoxes) {
   const Mesh mesh = test::make_turned_torus(100, 60), moved = test::bent(mesh);
   for (const std::uint32_t leaf_size : {1u, 4u, 100u, 100'000u}) {
-    const Bvh built = Bvh::build(test::view_of(mesh), leaf_size).value();
+    const Bvh built = Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size}).value();
     expect_least_boxes(built, mesh, 0);
     Bvh one = built, many = built;
-    ASSERT_TRUE(one.refit(test::view_of(moved), 1).ok());
-    ASSERT_TRUE(many.refit(test::view_of(moved), 7).ok());
+    ASSERT_TRUE(one.refit(test::view_of(moved), {.threads = 1}).ok());
+    ASSERT_TRUE(many.refit(test::view_of(moved), {.threads = 7}).ok());
     EXPECT_TRUE(same_bytes(one, many));
     expect_least_boxes(one, moved, 0);
   }
@@ -131,9 +131,10 @@ TEST(BvhRefit, RefusesWhatDoesNotFitAndStaysAsItWas) {
 TEST(BvhBuild, IsTheSameForAnyNumberOfThreads) {
   const Mesh mesh = test::make_sphere(1.0, 150'000);
   for (const std::uint32_t leaf_size : {1u, 8u}) {
-    const Bvh one = Bvh::build(test::view_of(mesh), leaf_size, 1).value();
+    const Bvh one = Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size, .threads = 1}).value();
     for (const unsigned threads : {2u, 3u, 16u}) {
-      EXPECT_TRUE(same_bytes(one, Bvh::build(test::view_of(mesh), leaf_size, threads).value()));
+      EXPECT_TRUE(
+          same_bytes(one, Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size, .threads = threads}).value()));
     }
   }
 }

@@ -94,7 +94,7 @@ void expect_sound(const Bvh& bvh, std::size_t triangles) {
 TEST(Bvh, HoldsEveryTriangleOnce) {
   const Mesh mesh = test::make_turned_torus();
   for (const std::uint32_t leaf_size : {1u, 4u, 8u}) {
-    const auto bvh = Bvh::build(test::view_of(mesh), leaf_size);
+    const auto bvh = Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size});
     ASSERT_TRUE(bvh.ok());
     expect_sound(bvh.value(), mesh.triangles.size());
   }
@@ -102,9 +102,9 @@ TEST(Bvh, HoldsEveryTriangleOnce) {
 
 TEST(Bvh, DoesNotDependOnTheNumberOfThreads) {
   const Mesh mesh = test::make_sphere(1.0, 20000);
-  const auto one = Bvh::build(test::view_of(mesh), 4, 1);
+  const auto one = Bvh::build(test::view_of(mesh), {.threads = 1});
   for (const unsigned threads : {2u, 3u, 8u}) {
-    const auto many = Bvh::build(test::view_of(mesh), 4, threads);
+    const auto many = Bvh::build(test::view_of(mesh), {.threads = threads});
     ASSERT_EQ(one.value().nodes().size(), many.value().nodes().size());
     EXPECT_EQ(one.value().order(), many.value().order());
     for (std::size_t i = 0; i < one.value().nodes().size(); ++i) {
@@ -121,11 +121,12 @@ TEST(Bvh, StaysShallowWhenTrianglesShrinkGeometrically) {
     mesh.vertices.insert(mesh.vertices.end(), {{x, 0, 0}, {1.2 * x, 0, 0}, {x, 0.2 * x, 0}});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const auto bvh = Bvh::build(test::view_of(mesh), 1);
+  const auto bvh = Bvh::build(test::view_of(mesh), {.leaf_size = 1});
   ASSERT_TRUE(bvh.ok());
   expect_sound(bvh.value(), mesh.triangles.size());
   // The coarse tree has used up its depth before its leaves are split.
-  expect_sound(refined_tree(Bvh::build(test::view_of(mesh), 64).value(), 1).value(), mesh.triangles.size());
+  expect_sound(refined_tree(Bvh::build(test::view_of(mesh), {.leaf_size = 64}).value(), 1).value(),
+               mesh.triangles.size());
 }
 
 TEST(Bvh, HandlesManyTrianglesInOnePlace) {
@@ -142,10 +143,10 @@ TEST(Bvh, HandlesManyTrianglesInOnePlace) {
 
 TEST(Bvh, RefinedIsTheTreeOfSmallerLeaves) {
   for (const Mesh& mesh : {test::make_torus(1.0, 0.4, 40, 30, 0.5), test::make_box({1, 2, 3})}) {
-    const Bvh coarse = Bvh::build(test::view_of(mesh), 8).value();
+    const Bvh coarse = Bvh::build(test::view_of(mesh), {.leaf_size = 8}).value();
     for (const std::uint32_t leaf_size : {1u, 2u, 4u, 8u}) {
       const Bvh fine = refined_tree(coarse, leaf_size).value(),
-                built = Bvh::build(test::view_of(mesh), leaf_size).value();
+                built = Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size}).value();
       EXPECT_EQ(fine.order(), built.order());
       EXPECT_TRUE(fine.corners() == built.corners());
       ASSERT_EQ(fine.nodes().size(), built.nodes().size());
@@ -180,7 +181,7 @@ TEST(Bvh, FindsTheNearestPoint) {
 TEST(Bvh, BreaksTiesByTheSmallestIndex) {
   const Mesh mesh = test::make_box({2, 2, 2});
   for (const std::uint32_t leaf_size : {1u, 2u, 12u}) {
-    const BvhHit hit = Bvh::build(test::view_of(mesh), leaf_size).value().closest({1, 1, 1});
+    const BvhHit hit = Bvh::build(test::view_of(mesh), {.leaf_size = leaf_size}).value().closest({1, 1, 1});
     EXPECT_EQ(hit.triangle, 0u);
     EXPECT_DOUBLE_EQ(hit.squared_distance, 1.0);
   }

@@ -67,19 +67,19 @@ void expect_bounds_hold(const Bvh& bvh) {
 
 TEST(Clusters, PartTheLeavesAndBoundThem) {
   const Mesh mesh = test::make_turned_torus();
-  expect_bounds_hold(Bvh::build(test::view_of(mesh), 4).value());
+  expect_bounds_hold(Bvh::build(test::view_of(mesh)).value());
 }
 
 TEST(Clusters, BoundAMeshThatHasMoved) {
   const Mesh before = test::make_turned_torus(), after = test::bent(before);
-  Bvh bvh = Bvh::build(test::view_of(before), 4).value();
+  Bvh bvh = Bvh::build(test::view_of(before)).value();
   ASSERT_TRUE(bvh.refit(test::view_of(after)).ok());
   expect_bounds_hold(bvh);
 }
 
 TEST(Clusters, AnUntrustedNormalFitsNoCone) {
   const Mesh mesh = test::make_turned_torus();
-  const Bvh bvh = Bvh::build(test::view_of(mesh), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(mesh)).value();
   std::vector<std::uint8_t> flags(mesh.triangles.size(), kTrustedNormal);
   flags[77] = 0;
   for (const gpu::Cluster& c : make_clusters(bvh, unit_box_of(bvh), flags, 16, 8192)) {
@@ -100,7 +100,7 @@ int side_by_cylinder(const gpu::Cluster& c, const Point& p) {
 }
 
 TEST(Clusters, AreBehindOrInFrontOnlyIfAllTheirTrianglesAre) {
-  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus()), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus())).value();
   const UnitTransform to_unit = unit_box_of(bvh);
   const std::vector<std::uint8_t> trusted(bvh.corners().size(), kTrustedNormal);
   const std::vector<gpu::Cluster> clusters = make_clusters(bvh, to_unit, trusted, 16, 8192);
@@ -123,7 +123,7 @@ TEST(Clusters, AreBehindOrInFrontOnlyIfAllTheirTrianglesAre) {
 }
 
 TEST(Clusters, GrowUntilThereAreFewEnough) {
-  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus()), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(test::make_turned_torus())).value();
   const auto number = [&](std::uint32_t most) { return make_clusters(bvh, unit_box_of(bvh), {}, 16, most).size(); };
   const std::size_t all = number(8192);
   EXPECT_GE(all, 3600u / 16);
@@ -134,7 +134,7 @@ TEST(Clusters, GrowUntilThereAreFewEnough) {
 
 TEST(Clusters, AreRunsOfEqualLengthWhereSubtreesAreTooMany) {
   const Mesh mesh = test::make_torus(1.0, 0.4, 100, 100);
-  const Bvh bvh = Bvh::build(test::view_of(mesh), 4).value();
+  const Bvh bvh = Bvh::build(test::view_of(mesh)).value();
   const auto clusters = make_clusters(bvh, unit_box_of(bvh), {}, 16, 3);
   ASSERT_EQ(clusters.size(), 3u);  // 20,000 triangles: subtrees of 4,096 are more
   EXPECT_EQ(clusters[0].count, 6667u);

@@ -99,7 +99,8 @@ TEST_F(IndexedMeshTest, RefusesVerticesThatAreNotItsOwn) {
   vertices.pop_back();
   EXPECT_EQ(mesh.move_vertices(vertices).error().code, ErrorCode::kInvalidMesh);
   const std::vector<std::uint8_t> flags(3, kTrustedNormal);
-  EXPECT_EQ(mesh.move_vertices(before.prepared().mesh.vertices, flags).error().code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(mesh.move_vertices(before.prepared().mesh.vertices, {.flags = flags}).error().code,
+            ErrorCode::kInvalidMesh);
   EXPECT_TRUE(mesh.is_same(before));
 }
 

@@ -173,7 +173,7 @@ TEST(PacketTreeTexels, WideNodesHoldEveryTriangleOnce) {
   for (const std::size_t triangles : {1, 8, 9, 12, 3600}) {
     Mesh mesh = triangles <= 12 ? test::make_box({1, 2, 3}) : test::make_turned_torus();
     mesh.triangles.resize(triangles);
-    const Bvh bvh = Bvh::build(test::view_of(mesh), 8).value();
+    const Bvh bvh = Bvh::build(test::view_of(mesh), {.leaf_size = 8}).value();
     for (const std::uint32_t arity : {4u, 8u}) {
       const std::vector<Texel> texels = make_wide_tree_texels(bvh.nodes(), {{0, 0, 0}, 3}, arity);
       std::vector<int> seen(triangles);

@@ -19,11 +19,11 @@ struct Shape {
       : mesh(prepare_mesh(std::move(raw)).value()), solid(Solid::build(test::indexed(mesh)).value()) {}
   Shape(const Shape&) = delete;
 
-  Result<SphereSet> fit(const SphereOptions& request) const {
+  Result<SphereSet> fit(const SphereFitOptions& request) const {
     return best_spheres(solid, request, reference_extractor(), {});
   }
   std::vector<SphereSet> balanced(std::size_t count, bool levels = false) const {
-    SphereOptions request;
+    SphereFitOptions request;
     request.contract = SphereContract::kBalanced;
     request.count = count;
     if (levels) return approximate_in_levels(solid, request, reference_extractor()).value();

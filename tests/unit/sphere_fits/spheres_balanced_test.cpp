@@ -153,7 +153,7 @@ TEST(BalancedSpheres, OneBallOfACubeIsHalfOutside) {
 
 TEST(BalancedSpheres, AreBetterThanBallsInsideAndThanTheSources) {
   const Shape shape(test::make_l_shape(2.0, 0.6, 0.8));
-  SphereOptions request;
+  SphereFitOptions request;
   request.count = 24;
   const SphereSet inside = approximate_by_spheres(shape.solid, request, reference_extractor()).value();
   const SphereSet dilated = dilate_to_boundary(shape.solid, inside).value();
@@ -184,7 +184,7 @@ TEST(BalancedSpheres, MoreBallsAreNeverWorseAndLevelsAreTheAnswersForTheirNumber
 TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
   for (const Point& size : {Point{1, 0.8, 0.6}, Point{1, 0.02, 0.006}}) {
     const Shape box(test::make_box(size));
-    SphereOptions request;
+    SphereFitOptions request;
     request.contract = SphereContract::kBalanced;
     request.error = 0.25;
     const std::vector<Ball> balls = approximate_by_spheres(box.solid, request, reference_extractor()).value().balls;
@@ -203,7 +203,7 @@ TEST(BalancedSpheres, MeetAnErrorThatIsMeasuredOtherwise) {
 
 TEST(BalancedSpheres, LevelsOfAnErrorAreHalves) {
   const Shape box(test::make_box({1, 1, 1}));
-  SphereOptions request;
+  SphereFitOptions request;
   request.contract = SphereContract::kBalanced;
   request.error = 0.2;
   const std::vector<SphereSet> levels = approximate_in_levels(box.solid, request, reference_extractor()).value();
@@ -218,7 +218,7 @@ TEST(BalancedSpheres, OfAnOpenMeshAreRefused) {
   Mesh open = test::make_box({1, 1, 1});
   open.triangles.pop_back();
   const Shape shape(std::move(open));
-  SphereOptions request;
+  SphereFitOptions request;
   request.contract = SphereContract::kBalanced;
   request.count = 6;
   EXPECT_EQ(approximate_by_spheres(shape.solid, request, reference_extractor()).error().code, ErrorCode::kUsage);

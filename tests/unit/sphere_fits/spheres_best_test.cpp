@@ -214,7 +214,7 @@ TEST(BestMethod, GapsAreFilledWhenCandidatesAreUsedUp) {
 
 TEST(BestMethod, StopsOnRequest) {
   const Shape shape(turned_l_shape());
-  SphereOptions request{.count = 50, .resolution = 16};
+  SphereFitOptions request{.count = 50, .resolution = 16};
   const Result<SphereSet> set =
       best_spheres(shape.solid, request, reference_extractor(), [](const char*, double done) { return done < 0.3; });
   ASSERT_FALSE(set.ok());

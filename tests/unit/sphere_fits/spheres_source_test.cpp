@@ -41,7 +41,7 @@ class SourceMethod : public testing::Test {
 
   PreparedMesh mesh_;
   Solid solid_;
-  SphereOptions request_;
+  SphereFitOptions request_;
 };
 
 TEST_F(SourceMethod, KeepsTheCountAndStaysInside) {

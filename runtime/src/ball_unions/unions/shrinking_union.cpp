@@ -178,10 +178,10 @@ ShrinkingUnion::ShrinkingUnion(ShrinkingUnion&&) noexcept = default;
 ShrinkingUnion& ShrinkingUnion::operator=(ShrinkingUnion&&) noexcept = default;
 ShrinkingUnion::~ShrinkingUnion() = default;
 
-Result<ShrinkingUnion> ShrinkingUnion::build(std::span<const Ball> balls, unsigned threads) {
+Result<ShrinkingUnion> ShrinkingUnion::build(std::span<const Ball> balls, const ShrinkingUnionOptions& options) {
   if (const Status status = check_balls(balls); !status.ok()) return status.error();
   return catch_out_of_memory("measuring a union of balls", [&]() -> Result<ShrinkingUnion> {
-    return ShrinkingUnion(std::make_unique<Impl>(balls, threads));
+    return ShrinkingUnion(std::make_unique<Impl>(balls, options.threads));
   });
 }
 

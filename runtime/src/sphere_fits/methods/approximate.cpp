@@ -18,7 +18,7 @@ namespace {
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
 /// Balls inside the solid, with which the methods of all contracts begin.
-Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> inside_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress) {
   switch (options.method) {
     case SphereMethod::kSource:
@@ -30,7 +30,7 @@ Result<SphereSet> inside_spheres(const Solid& solid, const SphereOptions& option
 }
 
 /// Turns the set into one for the contract.
-Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereOptions& options,
+Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const SphereFitOptions& options,
                                 const SphereProgress& progress) {
   switch (options.contract) {
     case SphereContract::kInside:
@@ -43,7 +43,7 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
   return inside;
 }
 
-Status check_request(const Solid& solid, const SphereOptions& options) {
+Status check_request(const Solid& solid, const SphereFitOptions& options) {
   const bool finite = std::isfinite(options.error) && std::isfinite(options.max_gap);
   if (!finite || options.error < 0 || options.error >= 1 || options.max_gap < 0) {
     return usage("`error` must be in [0, 1), and `max_gap` finite and not negative");
@@ -71,9 +71,9 @@ Status check_request(const Solid& solid, const SphereOptions& options) {
 
 /// The balls inside with which covers of `count` balls begin: more than `count`, up to the next number for which covers
 /// are searched.
-Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& options, std::size_t count,
+Result<SphereSet> cover_starts(const Solid& solid, const SphereFitOptions& options, std::size_t count,
                                const Extractor& extractor, const SphereProgress& progress) {
-  SphereOptions start = options;
+  SphereFitOptions start = options;
   start.contract = SphereContract::kInside;
   start.error = 0;
   start.count = cover_top(count);
@@ -82,7 +82,7 @@ Result<SphereSet> cover_starts(const Solid& solid, const SphereOptions& options,
 
 /// A cover that adds no more than the error: tries the numbers for which covers are searched, one after the other, then
 /// fewer balls.
-Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> cover_for_error(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                   const SphereProgress& progress) {
   const std::size_t most = options.count > 0 ? options.count : kMostBalls;
   const double volume = (1 + options.error) * solid.volume();
@@ -99,7 +99,7 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereOptions& optio
 }
 
 /// The smaller levels of a cover, and the cover itself.
-Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOptions& options, bool all_levels,
+Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                             SphereSet cover, const Extractor& extractor,
                                             const SphereProgress& progress) {
   std::vector<SphereSet> levels;
@@ -115,7 +115,7 @@ Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereOpti
   return levels;
 }
 
-Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptions& options, bool all_levels,
+Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                            const Extractor& extractor, const SphereProgress& progress) {
   const std::size_t count = options.count;
   if (options.error > 0) {
@@ -131,12 +131,12 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereOptio
 }
 
 /// Every level is the state of the method at its number of balls.
-Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOptions& options, bool all_levels,
+Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                              const Extractor& extractor, const SphereProgress& progress) {
   Result<SphereSet> found = best_spheres(solid, options, extractor, progress);
   if (found && all_levels && (options.error > 0 || options.max_gap > 0)) {
     // The numbers of the levels are known only now.
-    SphereOptions again = options;
+    SphereFitOptions again = options;
     again.count = found.value().balls.size();
     again.error = again.max_gap = 0;
     found = best_spheres(solid, again, extractor, progress);
@@ -151,7 +151,7 @@ Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereOpt
   return levels;
 }
 
-Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions& options, bool all_levels,
+Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                          const Extractor& extractor, const SphereProgress& progress) {
   if (Status status = check_request(solid, options); !status) return status.error();
   if (options.contract == SphereContract::kCover && options.method == SphereMethod::kBest) {
@@ -176,7 +176,7 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereOptions
 }
 
 /// Converts exceptions to errors.
-Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOptions& options, bool all_levels,
+Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                               const Extractor& extractor, const SphereProgress& progress) {
   try {
     return levels_of(solid, options, all_levels, extractor, progress);
@@ -191,20 +191,20 @@ Result<std::vector<SphereSet>> guarded_levels(const Solid& solid, const SphereOp
 
 }  // namespace
 
-Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
-                                         const SphereProgress& progress) {
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereFitOptions& options,
+                                         const Extractor& extractor, const SphereProgress& progress) {
   Result<std::vector<SphereSet>> levels = guarded_levels(solid, options, false, extractor, progress);
   if (!levels) return levels.error();
   SphereSet last = std::move(levels.value().back());
   return last;
 }
 
-Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereOptions& options,
+Result<std::vector<SphereSet>> approximate_once(const Solid& solid, const SphereFitOptions& options,
                                                 const Extractor& extractor, const SphereProgress& progress) {
   return guarded_levels(solid, options, false, extractor, progress);
 }
 
-Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereOptions& options,
+Result<std::vector<SphereSet>> approximate_in_levels(const Solid& solid, const SphereFitOptions& options,
                                                      const Extractor& extractor, const SphereProgress& progress) {
   return guarded_levels(solid, options, true, extractor, progress);
 }

@@ -46,8 +46,8 @@ constexpr double kEnough = 2e-3;  // share of the gain of the new ball: a sweep 
 
 class Placing {
  public:
-  Placing(const Solid& solid, const SphereOptions& options, const Extractor& extractor, const SphereProgress& progress,
-          DynamicUnion balls)
+  Placing(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
+          const SphereProgress& progress, DynamicUnion balls)
       : solid_(solid),
         options_(options),
         extractor_(extractor),
@@ -307,7 +307,7 @@ class Placing {
   }
 
   const Solid& solid_;
-  const SphereOptions& options_;
+  const SphereFitOptions& options_;
   const Extractor& extractor_;
   const SphereProgress& progress_;
   DynamicUnion balls_;
@@ -334,7 +334,7 @@ double largest_number(const MeshReport& report) {
 
 }  // namespace
 
-Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                const SphereProgress& progress) {
   const std::size_t most = options.count > 0 ? options.count : kMostBalls;
   Result<DynamicUnion> balls =

@@ -12,7 +12,7 @@ namespace medial_vk {
 /// Neither the choice of a ball nor its motion depends on the requested number, and no step reduces the union, so more
 /// balls never leave more volume uncovered. With the contract balanced, balls also grow and move beyond the boundary to
 /// minimise SymmetricDifference, which more balls never increase. Errors: those of approximate_by_spheres().
-Result<SphereSet> best_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> best_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                const SphereProgress& progress);
 
 }  // namespace medial_vk

@@ -8,7 +8,7 @@
 
 #include "base/host_memory.h"
 #include "base/point_ops.h"
-#include "medial_vk/spheres.h"
+#include "medial_vk/sphere_fits.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/quality/measures.h"
@@ -68,7 +68,7 @@ ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector
   return reach;
 }
 
-Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereFit> fit(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                       const SphereProgress& progress) {
   Result<std::vector<SphereSet>> sets = options.levels ? approximate_in_levels(solid, options, extractor, progress)
                                                        : approximate_once(solid, options, extractor, progress);
@@ -89,7 +89,7 @@ Result<SphereFit> fit(const Solid& solid, const SphereOptions& options, const Ex
 }
 
 /// Method source may have no set of so few balls; a larger set also contains the curve.
-Result<SphereSet> inside_of_at_least(const Solid& solid, SphereOptions options, const Extractor& extractor,
+Result<SphereSet> inside_of_at_least(const Solid& solid, SphereFitOptions options, const Extractor& extractor,
                                      const SphereProgress& progress) {
   options.contract = SphereContract::kInside;
   options.error = options.max_gap = 0;
@@ -101,7 +101,7 @@ Result<SphereSet> inside_of_at_least(const Solid& solid, SphereOptions options, 
   return set;
 }
 
-Result<CoverageCurve> curve_of(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<CoverageCurve> curve_of(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                const SphereProgress& progress) {
   Result<SphereSet> set = inside_of_at_least(solid, options, extractor, progress);
   if (!set) return set.error();
@@ -133,19 +133,19 @@ auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const st
 
 }  // namespace
 
-Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, const Extractor& extractor,
                               const StageProgress& progress, const std::stop_token& stop) {
   return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
     return fit(solid, options, stopped_by(extractor, stop), on_progress);
   });
 }
 
-Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, Context& context,
                               const StageProgress& progress, const std::stop_token& stop) {
   return fit_spheres(mesh, options, device_extractor(context), progress, stop);
 }
 
-Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereFitOptions& options,
                                              const Extractor& extractor, const StageProgress& progress,
                                              const std::stop_token& stop) {
   return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
@@ -153,7 +153,7 @@ Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const Sphe
   });
 }
 
-Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereFitOptions& options, Context& context,
                                              const StageProgress& progress, const std::stop_token& stop) {
   return measure_coverage_curve(mesh, options, device_extractor(context), progress, stop);
 }

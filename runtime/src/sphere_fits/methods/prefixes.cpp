@@ -27,7 +27,7 @@ std::vector<std::uint32_t> least_first(const ShrinkingUnion& balls, std::size_t 
 
 Status order_by_share(std::vector<Ball>& balls, unsigned threads) {
   if (balls.size() < 2) return {};
-  Result<ShrinkingUnion> shrinking = ShrinkingUnion::build(balls, threads);
+  Result<ShrinkingUnion> shrinking = ShrinkingUnion::build(balls, {.threads = threads});
   if (!shrinking) return shrinking.error();
   std::vector<std::uint32_t> order;  // the last first
   while (order.size() < balls.size()) {
@@ -48,7 +48,7 @@ Status order_by_share(std::vector<Ball>& balls, unsigned threads) {
 Result<std::vector<double>> prefix_volumes(std::span<const Ball> balls, unsigned threads) {
   std::vector<double> volumes(balls.size());
   if (balls.empty()) return volumes;
-  Result<ShrinkingUnion> shrinking = ShrinkingUnion::build(balls, threads);
+  Result<ShrinkingUnion> shrinking = ShrinkingUnion::build(balls, {.threads = threads});
   if (!shrinking) return shrinking.error();
   for (std::size_t i = balls.size(); i-- > 0;) {
     volumes[i] = shrinking.value().volume();

@@ -21,7 +21,7 @@ constexpr std::uint32_t kFirstGrid = 4;
 /// Searches the grid; every attempt is an extraction.
 class GridSearch {
  public:
-  GridSearch(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+  GridSearch(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
              const SphereProgress& progress)
       : solid_(solid), options_(options), extractor_(extractor), progress_(progress) {}
 
@@ -133,7 +133,7 @@ class GridSearch {
   }
 
   const Solid& solid_;
-  const SphereOptions& options_;
+  const SphereFitOptions& options_;
   const Extractor& extractor_;
   const SphereProgress& progress_;
   std::vector<Ball> best_;
@@ -143,7 +143,7 @@ class GridSearch {
 
 }  // namespace
 
-Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> source_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress) {
   if (options.max_gap > 0) return source_usage("`method` source does not support `max_gap`; use `method` best");
   const bool has_goal = options.count > 0 || options.error > 0;

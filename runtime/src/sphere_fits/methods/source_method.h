@@ -13,7 +13,7 @@ namespace medial_vk {
 /// `request.resolution`, which otherwise must be 0. Sides are whole fractions of the longest side, so a count may be
 /// missed by a step. Errors: kUsage if even the coarsest grid has more balls than requested, if no grid reaches the
 /// error, or for goals that this method does not support (max_gap); those of extract_and_certify(); kInterrupted.
-Result<SphereSet> source_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
+Result<SphereSet> source_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                  const SphereProgress& progress);
 
 }  // namespace medial_vk

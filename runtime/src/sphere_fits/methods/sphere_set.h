@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
-#include "medial_vk/spheres.h"
+#include "medial_vk/sphere_fits.h"
 #include "solid/solid.h"
 #include "sphere_fits/quality/threads.h"
 
@@ -28,7 +28,7 @@ Result<std::vector<Ball>> find_medial_balls(const Solid& solid, const Extraction
                                             const Extractor& extractor, const SphereProgress& progress);
 
 /// Approximates the solid. Does not throw. Errors: those of fit_spheres().
-Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereOptions& options, const Extractor& extractor,
-                                         const SphereProgress& progress = {});
+Result<SphereSet> approximate_by_spheres(const Solid& solid, const SphereFitOptions& options,
+                                         const Extractor& extractor, const SphereProgress& progress = {});
 
 }  // namespace medial_vk

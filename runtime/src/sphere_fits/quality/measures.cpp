@@ -184,7 +184,7 @@ double p95_of(std::vector<double> values) {
 }
 
 /// Distances to the boundary of those points of all spheres that are outside the solid.
-std::vector<double> protruding(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
+std::vector<double> distances_outside(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
   std::vector<std::vector<double>> by_ball(balls.size());
   for_all(balls.size(), 4, threads, [&](std::size_t i) {
     const Ball& ball = balls[i];
@@ -208,7 +208,7 @@ SphereFitMetrics fit_metrics(const Solid& solid, const Envelope& envelope, const
   metrics.num_spheres = balls.size();
   const VolumeError& volume = measures.volume;
   metrics.coverage = volume.solid > 0 ? 1 - volume.uncovered / volume.solid : 0;
-  const std::vector<double> out = protruding(solid, balls, options.threads);
+  const std::vector<double> out = distances_outside(solid, balls, options.threads);
   metrics.protrusion = static_cast<double>(out.size()) / static_cast<double>(kSpherePoints * balls.size());
   metrics.protrusion_dist_mean = mean_of(out);
   metrics.protrusion_dist_p95 = p95_of(out);

@@ -31,7 +31,7 @@ enum class SphereMethod {
 };
 
 /// All given goals must be met, with as few balls as the method finds.
-struct SphereOptions {
+struct SphereFitOptions {
   SphereMethod method = SphereMethod::kBest;
   SphereContract contract = SphereContract::kInside;
   /// Greatest number of balls; 0: the number that the other goals require, of which one must then be given.
@@ -46,7 +46,7 @@ struct SphereOptions {
   bool levels = false;        ///< Also return sets of half, a quarter ... of the balls.
   unsigned threads = 0;       ///< Of the host, 0: one per core. The result does not depend on it.
 
-  bool operator==(const SphereOptions&) const = default;
+  bool operator==(const SphereFitOptions&) const = default;
 };
 
 /// The greatest number of balls if no count is given.
@@ -67,11 +67,11 @@ struct SphereFit {
 /// any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal,
 /// a goal out of range, a goal that the contract, the method or the mesh does not support, a goal that is not reached);
 /// kInvalidMesh (no ball fits); kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
-Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, const Extractor& extractor,
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
 /// The same on the device of `context`.
-Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, Context& context,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});
 
 /// The volume of a solid that 1, 2, 3 ... balls inside it cover, by which balls are distributed among solids.
@@ -83,12 +83,12 @@ struct CoverageCurve {
 
 /// The curve for at least `options.count` balls, or for as many as the method finds. The contract and the goals of the
 /// options are not read. Errors: those of fit_spheres().
-Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options,
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereFitOptions& options,
                                              const Extractor& extractor, const StageProgress& progress = {},
                                              const std::stop_token& stop = {});
 
 /// The same on the device of `context`.
-Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereOptions& options, Context& context,
+Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereFitOptions& options, Context& context,
                                              const StageProgress& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace medial_vk
