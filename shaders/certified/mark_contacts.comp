@@ -245,10 +245,10 @@ void main() {
   if (!is_first) before = stored(item);
   // Whether Lemma L applies is known only from the nearest triangle, at the end. A witness from a sample may give too
   // large a bound: the cell is then marked once more without it, which is rare if only half of the bound is used.
-  float promise = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
+  float bound = candidates_of(parent) < kWitnessSample ? front.distance : 0.5 * front.distance;
   bool may_walk_twice = is_first && is_last && parent.list_count <= kMostWalkedTwice;
   bool in_parent = (parent.flags & kCellInside) != 0u, may_be_inside = in_parent || is_behind(front);
-  Prism prism = prism_at(front.distance, may_walk_twice && may_be_inside && clears_boundary(promise));
+  Prism prism = prism_at(front.distance, may_walk_twice && may_be_inside && clears_boundary(bound));
   uint candidates = candidates_of(parent), sampled = candidates / (1u + candidates / kWitnessSample);
   for (uint walks = 1u;; ++walks) {
     Marks marks = mark(parent, child, centre, front, back, prism, begin, end, before);

@@ -32,7 +32,7 @@ std::string printable(std::string_view text) {
   return text.size() > kLongest ? line + "..." : line;
 }
 
-/// The name by which assimp asks for the scene: its path, with the extension of its format.
+/// The name by which assimp requests the scene: its path, with the extension of its format.
 std::string main_path_of(const SceneBytes& scene) {
   const std::string path = scene.path.empty() ? "scene" : scene.path;
   return path.ends_with("." + scene.format) ? path : path + "." + scene.format;

@@ -15,7 +15,7 @@ namespace medial_vk {
 /// regular file, and nothing to be written. All files together have a limit.
 class SceneIo : public Assimp::IOSystem {
  public:
-  /// `main_path` is the name by which assimp asks for `bytes`. With `has_folder` false no other file exists.
+  /// `main_path` is the name by which assimp requests `bytes`. With `has_folder` false no other file exists.
   SceneIo(std::string main_path, std::string_view bytes, bool has_folder);
   ~SceneIo() override;
 

@@ -319,7 +319,7 @@ class PlyReader {
       }
       if (!is_vertex(value)) return index_error("strip list", list, value);
       const auto vertex = static_cast<std::uint32_t>(value.integer);
-      // A repeated vertex leads the strip to another place or turns it over: it is no face that somebody drew.
+      // A repeated vertex leads the strip to another place or turns it over: it makes no face.
       const bool is_joint = before[0] == before[1] || before[0] == vertex || before[1] == vertex;
       if (length >= 2 && !is_joint) {
         const std::uint32_t corners[] = {before[length % 2], before[1 - length % 2], vertex};

@@ -1,5 +1,5 @@
 // The data that triangles share with their neighbours, and the caps of spokes to vertices
-// (runtime/src/device_mesh/mesh_links.h), from texel or storage buffers as for triangles. Include after "gpu_types.h"
+// (runtime/src/indexed_mesh/mesh_links.h), from texel or storage buffers as for triangles. Include after "gpu_types.h"
 // and "triangles.glsl", and define LINK_STORAGE_BINDING, LINK_TEXEL_BINDING, CORNER_STORAGE_BINDING and
 // CORNER_TEXEL_BINDING before.
 #ifndef MEDIAL_VK_LINKS_GLSL

@@ -8,7 +8,7 @@ namespace medial_vk::cli {
 // long: a single text.
 std::string spheres_help_text() {
   return R"(medial-vk spheres puts N balls in the place of a solid, or of every link of a
-robot: for collision checks, distances, shadows. Tight, and with a promise.
+robot: for collision checks, distances, shadows. Tight, and with a proof.
 
 Usage:
   medial-vk spheres [options] MESH          OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
@@ -34,10 +34,10 @@ How many spheres (goals that are given together must all be met):
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time
                         (csv, json, foam)
 
-What they promise:
-      --contract WHAT   inside: no sphere sticks out (default); cover: nothing
-                        of the solid is left out, for safety; balanced: no
-                        promise, the least volume between spheres and solid
+What they guarantee:
+      --contract WHAT   inside: no sphere reaches out of the solid (default);
+                        cover: all of the solid is covered, for safety; balanced:
+                        neither, the least volume between spheres and solid
       --method HOW      best: chosen and moved for the least volume uncovered, or
                         as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N
@@ -77,7 +77,7 @@ Output:
                         take faces inside the solid, such as those of a part
                         that reaches into another one, for its boundary, too
 
-      --check           also test the promise by the independent CPU reference;
+      --check           also test the contract by the independent CPU reference;
                         exit code 7 if it is not kept
 
 Where it runs:

@@ -28,7 +28,7 @@ struct Given {
 };
 
 void declare(CLI::App& app, SpheresOptions& options, Given& given) {
-  SphereOptions& fit = options.spheres;
+  SphereFitOptions& fit = options.spheres;
   Declarations add(app);
   add.text("INPUT", "file", options.input);
   add.flag("--each", options.each);
@@ -101,7 +101,7 @@ Status check_input(SpheresOptions& options, const Given& given) {
 }
 
 Status check_goals(const SpheresOptions& options) {
-  const SphereOptions& fit = options.spheres;
+  const SphereFitOptions& fit = options.spheres;
   if (options.is_robot && fit.count > 0) {
     return usage_error("--count is for one mesh; of a robot use --count-per-link N or --total N");
   }
@@ -166,7 +166,7 @@ Status complete_files(SpheresOptions& options, const Given& given) {
 
 Status check_combinations(const SpheresOptions& options, const Given& given) {
   if (options.check && options.spheres.contract == SphereContract::kBalanced) {
-    return usage_error("--check: spheres of the contract balanced promise nothing that could be checked");
+    return usage_error("--check: spheres of the contract balanced guarantee nothing that could be checked");
   }
   if (given.object_angle > 0 && options.spheres.method != SphereMethod::kSource) {
     return usage_error("--object-angle is of --method source; the method best chooses among all medial spheres");

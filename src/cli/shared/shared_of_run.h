@@ -1,4 +1,4 @@
-// Of a run over one mesh or several.
+// The device, the progress and the threads that the meshes of one run share.
 #pragma once
 
 #include <optional>

@@ -37,7 +37,7 @@ std::string where(const SpheresOptions& options, const FitsRecord& record) {
 std::string description_of(SphereContract contract) {
   switch (contract) {
     case SphereContract::kInside:
-      return "inside: no sphere sticks out";
+      return "inside: no sphere reaches out";
     case SphereContract::kCover:
       return "cover: nothing is left out";
     case SphereContract::kBalanced:
@@ -97,9 +97,9 @@ std::optional<std::string> difference_text(SphereContract contract, const FitsRe
   if (!(whole > 0)) return std::nullopt;
   if (variance == 0) {
     return fmt::format("{:.3g} % of the volume is {}", 100 * difference / whole,
-                       contract == SphereContract::kCover ? "added" : "uncovered or sticks out");
+                       contract == SphereContract::kCover ? "added" : "uncovered or reaches out");
   }
-  return fmt::format("{:.3g} % of the volume, uncovered or sticking out (+- {:.2g} %, standard error)",
+  return fmt::format("{:.3g} % of the volume, uncovered or reaching out (+- {:.2g} %, standard error)",
                      100 * difference / whole, 100 * std::sqrt(variance) / whole);
 }
 
@@ -158,7 +158,7 @@ std::string spheres_opening(const SpheresOptions& options, const FitsRecord& rec
 
 std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record,
                             std::span<const OutputFile> files) {
-  const SphereOptions& fit = options.spheres;
+  const SphereFitOptions& fit = options.spheres;
   std::string spheres = grouped(count_spheres(record));
   if (options.spheres.levels) spheres += fmt::format(", in {} levels", record.solids.front().levels.size());
   std::string text = line("spheres", spheres);
