@@ -50,6 +50,7 @@ endforeach()
 # Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit.
 set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
   LABELS "faults;slow;sanitized_full")
+set_tests_properties(faults.PoorDevice.ReadsALargeMeshThroughStorageBuffers PROPERTIES LABELS "faults;sanitized_full")
 # Left out of every build under a sanitizer or with counters, where this test would take an hour and more.
 set_tests_properties(regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles PROPERTIES
   LABELS "regression;full;release_only")
