@@ -5,14 +5,19 @@
 
 namespace medial_vk {
 
-Extractor reference_extractor() {
-  return [](const IndexedMesh& mesh, const ExtractionOptions& options, const ProgressCallback& progress,
-            const std::stop_token& stop) -> Result<Extraction> {
+Extractor reference_extractor(const std::function<void(const TimeEstimate&)>& on_estimate) {
+  return [on_estimate](const IndexedMesh& mesh, const ExtractionOptions& options, const ProgressCallback& progress,
+                       const std::stop_token& stop) -> Result<Extraction> {
     const auto goes_on = [&](double done) {
       if (progress) progress(done);
       return !stop.stop_requested();
     };
-    const reference::Result result = reference::extract(to_reference(mesh.prepared()), to_reference(options), goes_on);
+    std::function<void(const reference::TimeEstimate&)> pass_on;
+    if (on_estimate) {
+      pass_on = [&](const reference::TimeEstimate& e) { on_estimate({e.seconds, e.voxels, e.is_cut_off}); };
+    }
+    const reference::Result result =
+        reference::extract(to_reference(mesh.prepared()), to_reference(options), goes_on, pass_on);
     if (result.interrupted) return Error{ErrorCode::kInterrupted, "interrupted"};
     return from_reference(result);
   };

@@ -67,8 +67,17 @@ struct Result {
   bool interrupted = false;
 };
 
+/// The time that an extraction will take, extrapolated from some of its voxels, which were chosen at random.
+struct TimeEstimate {
+  double seconds = 0;
+  int voxels = 0;           // of the sample
+  bool is_cut_off = false;  // the last voxel of the sample took too long, and was not finished
+};
+
 /// The method of Sections 2.3 to 2.4 as published, or the certified method; every ball of both passes check()
-/// (certificate.h). `progress` receives the completed share and returns false to stop.
-Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress = {});
+/// (certificate.h). `progress` receives the completed share and returns false to stop. `on_estimate` is called once in
+/// certified mode, after up to about a second of sampling, before the search.
+Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress = {},
+               const std::function<void(const TimeEstimate&)>& on_estimate = {});
 
 }  // namespace medial_vk::reference

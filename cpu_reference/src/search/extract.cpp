@@ -8,7 +8,8 @@ namespace medial_vk::reference {
 
 using Eigen::Vector3i;
 
-Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress) {
+Result extract(const Mesh& mesh, const Options& options, const std::function<bool(double)>& progress,
+               const std::function<void(const TimeEstimate&)>& on_estimate) {
   const Tree tree(mesh);
   const Grid grid(tree, options.resolution);
   Result result;
@@ -19,23 +20,26 @@ Result extract(const Mesh& mesh, const Options& options, const std::function<boo
   for (int level = 0; level < levels; ++level) {
     result.levels.push_back({std::ldexp(grid.cell_size(0), -level), 0, 0, 0, 0});
   }
+  const Vector3i n = grid.top_cells();
+  const double voxels_of_cell = std::ldexp(1.0, 3 * (grid.levels - 1));
+  Watch watch(progress, n.cast<double>().prod() * voxels_of_cell);
   const CellLoop loop = [&](const std::function<void(const Vector3i&)>& visit) {
-    const Vector3i n = grid.top_cells();
-    const double total = n.cast<double>().prod();
     double done = 0;
     for (int z = 0; z < n.z(); ++z) {
       for (int y = 0; y < n.y(); ++y) {
         for (int x = 0; x < n.x(); ++x) {
           visit({x, y, z});
-          if (progress && !progress(++done / total)) {
-            result.interrupted = true;
-            return;
-          }
+          watch.set(++done * voxels_of_cell);  // the cell may reach beyond the grid
+          result.interrupted = watch.stops();
+          if (result.interrupted) return;
         }
       }
     }
   };
-  (options.certified ? extract_certified : extract_thesis)(mesh, tree, grid, options, loop, result);
+  if (options.certified)
+    extract_certified(mesh, tree, grid, options, loop, watch, on_estimate, result);
+  else
+    extract_thesis(mesh, tree, grid, options, loop, result);
   sort_by_voxel(result.spheres);
   sort_by_voxel(result.undecided_voxels);
   return result;

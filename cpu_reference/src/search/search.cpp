@@ -24,13 +24,14 @@ constexpr int kLevelsAlongBoundary = 5;
 double safe_radius(const Tree& tree, double distance) { return std::max(0.0, distance - 2 * tree.rounding()); }
 
 VoxelSearch::VoxelSearch(const Tree& tree, const SpokeCones& cones, const Sides& sides, const Grid& grid,
-                         const Thresholds& thresholds, int extra_levels, Result& result)
+                         const Thresholds& thresholds, int extra_levels, Watch& watch, Result& result)
     : tree_(tree),
       cones_(cones),
       sides_(sides),
       grid_(grid),
       thresholds_(thresholds),
       extra_levels_(extra_levels),
+      watch_(watch),
       result_(result) {}
 
 Outcome VoxelSearch::run(const Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere) {
@@ -45,6 +46,7 @@ Outcome VoxelSearch::run(const Vector3i& voxel, Side where, const ContactList& p
 // Contacts -> outside? -> dismissed? -> aimed lines -> points beside a sheet -> parts.
 Outcome VoxelSearch::search(const Cell& cell, int depth, const ContactList& parent, Sphere& sphere) {
   LevelCount& count = result_.levels[grid_.levels - 1 + depth];
+  if (watch_.stops()) return Outcome::kUndecided;
   ++count.visited;
   const Box box = cube(cell.centre, cell.side);
   // Larger by epsilon, so that the list also holds the nearest points of the pushed balls of the growth test.

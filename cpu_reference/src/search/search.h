@@ -12,6 +12,7 @@
 #include "geometry/grid.h"
 #include "search/lines.h"
 #include "search/side.h"
+#include "search/watch.h"
 
 namespace medial_vk::reference {
 
@@ -27,9 +28,10 @@ struct Cell {
 class VoxelSearch {
  public:
   VoxelSearch(const Tree& tree, const SpokeCones& cones, const Sides& sides, const Grid& grid,
-              const Thresholds& thresholds, int extra_levels, Result& result);
+              const Thresholds& thresholds, int extra_levels, Watch& watch, Result& result);
 
-  /// Fills `sphere`, except for its flux, if a point is found. `parent` is the list of the cell above the voxel.
+  /// Fills `sphere`, except for its flux, if a point is found. `parent` is the list of the cell above the voxel. After
+  /// a stop, voxels are undecided.
   Outcome run(const Eigen::Vector3i& voxel, Side where, const ContactList& parent, Sphere& sphere);
 
   /// The result of the last run, if its outcome is kUndecided.
@@ -62,6 +64,7 @@ class VoxelSearch {
   const Grid& grid_;
   const Thresholds& thresholds_;
   int extra_levels_;
+  Watch& watch_;
   Result& result_;
   Eigen::Vector3i voxel_;
   Eigen::Vector3d lower_, upper_;  // of the voxel, slightly inside

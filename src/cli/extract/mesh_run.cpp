@@ -1,6 +1,7 @@
 #include "cli/extract/mesh_run.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <stop_token>
 #include <string_view>
@@ -109,8 +110,16 @@ Status MeshRun::analyse_mesh() {
     shared_.progress.update(stage, done);
     if (interrupted()) stop.request_stop();
   };
+  std::function<void(const TimeEstimate&)> on_estimate;
+  if (!options_.quiet) {
+    on_estimate = [&](const TimeEstimate& estimate) {
+      const std::string text = estimate_line(estimate);
+      shared_.progress.clear();
+      if (!text.empty()) print_message(text);
+    };
+  }
   const Extractor extractor =
-      options_.backend == Backend::kCpu ? reference_extractor() : device_extractor(*shared_.context);
+      options_.backend == Backend::kCpu ? reference_extractor(on_estimate) : device_extractor(*shared_.context);
   Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
   shared_.progress.clear();
   if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
