@@ -179,10 +179,35 @@ TEST_F(SpheresCommand, ARobotsOwnMeshesAreNotOverwritten) {
   EXPECT_EQ(read_file(path("part.obj")), before);
 }
 
-TEST_F(SpheresCommand, AnErrorNeedsAVolume) {
+/// A box without one of its faces.
+std::string open_box() {
   Mesh open = test::make_box({1, 1, 1});
   open.triangles.resize(open.triangles.size() - 2);
-  test::write_file(path("open.obj"), test::to_obj(open));
+  return test::to_obj(open);
+}
+
+TEST_F(SpheresCommand, TheErrorOfAnOpenMeshIsAnInterval) {
+  test::write_file(path("open.obj"), open_box());
+  const ToolResult result = run({"spheres", "open.obj", "--count", "3", "--report", "r.json", "--backend", "cpu"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::ContainsRegex(
+                              "error +[0-9.]+ to [0-9.]+ % of the volume is left uncovered; measured at random"));
+  const json report = json::parse(read_file(path("r.json")));
+  EXPECT_TRUE(report["volume_error"].is_null());
+  const json& part = report["parts"][0];
+  for (const json& interval : {report["volume_error_interval"], part["volume_error_interval"]}) {
+    EXPECT_LT(interval[0], interval[1]);
+    EXPECT_GT(interval[0], 0);
+    EXPECT_LT(interval[1], 1);
+  }
+  const double error =
+      part["measures"]["volume"]["uncovered"].get<double>() / part["measures"]["volume"]["solid"].get<double>();
+  EXPECT_LE(part["volume_error_interval"][0], error);
+  EXPECT_GE(part["volume_error_interval"][1], error);
+}
+
+TEST_F(SpheresCommand, AnErrorNeedsAVolume) {
+  test::write_file(path("open.obj"), open_box());
   for (const char* method : {"best", "source"}) {
     const ToolResult result = run({"spheres", "open.obj", "--error", "0.1", "--method", method, "--backend", "cpu"});
     EXPECT_EQ(result.exit_code, 2);

@@ -107,6 +107,10 @@ double WindingChange::change_within(const Point& p, double radius, double most) 
   return radius * slope / (4 * std::numbers::pi);
 }
 
+bool WindingChange::is_at_most(double most, const Point& p, double radius) const {
+  return edges_.empty() || (!too_many_ && change_within(p, radius, most) <= most);
+}
+
 double WindingChange::radius(const Point& p, double most, double least) const {
   if (too_many_) return 0;
   if (edges_.empty()) return std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// How far a winding number that is known beside one triangle holds beside its neighbours.
+// How far a winding number that is known at one point holds around it.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,8 @@ class WindingChange {
   /// A radius of at least `least` around `p` within which the change is at most `most`; 0: none is known. Precondition:
   /// `least` is positive.
   double radius(const Point& p, double most, double least) const;
+  /// True if the change within `radius` of `p` is known to be at most `most`. Both are positive.
+  bool is_at_most(double most, const Point& p, double radius) const;
 
  private:
   struct OpenEdge {

@@ -28,7 +28,10 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
       bvh_(std::move(bvh)),
       rounding_(distance_rounding(bvh_)),
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
-      winding_(std::make_unique<WindingTree>(*triangles_)) {}
+      winding_(std::make_unique<WindingTree>(*triangles_)) {
+  const Mesh& corners = mesh.prepared().mesh;
+  if (!mesh.prepared().report.closed) change_ = std::make_unique<WindingChange>(corners, MeshTopology(corners));
+}
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
@@ -39,13 +42,24 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
+// The error of the tree is at most 0.03, which suffices for the integer of a closed mesh, and for other meshes away
+// from 1/2.
+constexpr double kDoubt = 0.05;
+
 bool Solid::contains(const Point& p) const {
-  // The error of the tree is at most 0.03, which suffices for the integer of a closed mesh, and for other meshes away
-  // from 1/2.
-  constexpr double kDoubt = 0.05;
   const double winding = winding_->at(p);
   if (mesh().report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
   return exact_winding_number(mesh().mesh, p) >= 0.5;
+}
+
+SolidSide Solid::side_of_ball(const Point& centre, double radius) const {
+  if (distance(centre) <= radius + rounding()) return SolidSide::kUnknown;
+  const double winding = winding_->at(centre);
+  if (change_) {
+    const double most = std::fabs(winding - 0.5) - kDoubt;
+    if (most <= 0 || !change_->is_at_most(most, centre, radius)) return SolidSide::kUnknown;
+  }
+  return winding >= 0.5 ? SolidSide::kInside : SolidSide::kOutside;
 }
 
 double Solid::diagonal() const { return length(mesh().report.upper - mesh().report.lower); }

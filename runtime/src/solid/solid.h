@@ -8,11 +8,15 @@
 #include "medial_vk/mesh.h"
 #include "mesh/crossings/triangle_tree.h"
 #include "mesh/winding/winding_number.h"
+#include "mesh/winding_change.h"
 
 namespace medial_vk {
 
 /// Bound of the rounding error of distances computed by `bvh`.
 double distance_rounding(const Bvh& bvh);
+
+/// The side of the boundary on which all points of a set lie, if it is known that they lie on one.
+enum class SolidSide : std::uint8_t { kInside, kOutside, kUnknown };
 
 /// Queries may come from several threads at once.
 class Solid {
@@ -31,6 +35,9 @@ class Solid {
   /// True if the winding number is at least 1/2. Both results are possible for points closer to the boundary than
   /// rounding().
   bool contains(const Point& p) const;
+  /// The side of a ball. Known if the boundary does not meet the ball and, on an open mesh, the winding number cannot
+  /// pass 1/2 in it (WindingChange). `radius` is positive.
+  SolidSide side_of_ball(const Point& centre, double radius) const;
   /// Of the bounding box.
   double diagonal() const;
   /// True if the mesh bounds the solid and nothing else, so that its signed volume is the solid's. (It is closed, and
@@ -46,6 +53,7 @@ class Solid {
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;
+  std::unique_ptr<WindingChange> change_;  // null: the mesh is closed
 };
 
 }  // namespace medial_vk

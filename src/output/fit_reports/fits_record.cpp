@@ -1,5 +1,6 @@
 #include "output/fit_reports/fits_record.h"
 
+#include <cmath>
 #include <utility>
 
 namespace medial_vk {
@@ -55,20 +56,34 @@ std::size_t count_spheres(const FitsRecord& record) {
   return count;
 }
 
-std::optional<double> uncovered_share(const FittedSolid& solid, SphereContract contract) {
-  const bool known = contract == SphereContract::kInside && solid.solid_volume && solid.spheres_volume;
-  if (!known || !(*solid.solid_volume > 0)) return std::nullopt;
-  return 1 - *solid.spheres_volume / *solid.solid_volume;
+std::optional<double> volume_of(const FittedSolid& solid) {
+  if (solid.solid_volume) return solid.solid_volume;
+  if (solid.measures && solid.measures->volume.solid > 0) return solid.measures->volume.solid;
+  return std::nullopt;
 }
 
-std::optional<double> uncovered_share(const FitsRecord& record) {
-  double volume = 0, spheres = 0;
-  for (const FittedSolid& solid : record.solids) {
-    if (!uncovered_share(solid, record.spheres.contract)) return std::nullopt;
-    volume += *solid.solid_volume;
-    spheres += *solid.spheres_volume;
+std::optional<Share> uncovered_share(const FittedSolid& solid, SphereContract contract) {
+  const std::optional<double> volume = volume_of(solid);
+  if (contract != SphereContract::kInside || !volume || !(*volume > 0)) return std::nullopt;
+  if (solid.solid_volume) {
+    if (!solid.spheres_volume) return std::nullopt;
+    return Share{1 - *solid.spheres_volume / *volume, 0};
   }
-  return 1 - spheres / volume;
+  const VolumeError& sampled = solid.measures->volume;
+  return Share{sampled.uncovered / *volume, sampled.standard_error / *volume};
+}
+
+std::optional<Share> uncovered_share(const FitsRecord& record) {
+  double whole = 0, covered = 0, variance = 0;
+  for (const FittedSolid& solid : record.solids) {
+    const std::optional<Share> share = uncovered_share(solid, record.spheres.contract);
+    if (!share) return std::nullopt;
+    const double volume = *volume_of(solid), error = share->standard_error * volume;
+    whole += volume;
+    covered += solid.solid_volume ? *solid.spheres_volume : (1 - share->value) * volume;
+    variance += error * error;
+  }
+  return Share{1 - covered / whole, std::sqrt(variance) / whole};
 }
 
 }  // namespace medial_vk

@@ -28,8 +28,18 @@ Json goals_json(const FitsRecord& record) {
           {"resolution", given(record.spheres.resolution)}};
 }
 
+/// Null for a share that is an estimate.
+Json exact_json(const std::optional<Share>& share) {
+  return share && share->standard_error == 0 ? Json(share->value) : Json(nullptr);
+}
+
+Json interval_json(const std::optional<Share>& share) {
+  return share ? Json{share->lower(), share->upper()} : Json(nullptr);
+}
+
 Json solid_json(const FittedSolid& solid, SphereContract contract) {
   const ReachOut& reach = solid.reach.back();
+  const std::optional<Share> share = uncovered_share(solid, contract);
   Json counts = Json::array();
   for (const std::vector<Ball>& level : solid.levels) counts.push_back(level.size());
   return {{"link", solid.link},
@@ -44,7 +54,8 @@ Json solid_json(const FittedSolid& solid, SphereContract contract) {
           {"solid_volume", or_null(solid.solid_volume)},
           {"volume_of", solid.of_shape ? "shape" : "mesh"},
           {"spheres_volume", or_null(solid.spheres_volume)},
-          {"volume_error", or_null(uncovered_share(solid, contract))},
+          {"volume_error", exact_json(share)},
+          {"volume_error_interval", interval_json(share)},
           {"measures", solid.measures ? measures_json(*solid.measures) : Json(nullptr)},
           {"check", solid.check ? Json(solid.check->passed() ? "passed" : "failed") : Json(nullptr)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.least}, {"worst", reach.greatest}}},
@@ -73,7 +84,8 @@ std::string encode_fits_report(const FitsRecord& record) {
                {"device", record.device ? Json(record.device->name) : Json(nullptr)},
                {"goals", goals_json(record)},
                {"num_spheres", count_spheres(record)},
-               {"volume_error", or_null(uncovered_share(record))},
+               {"volume_error", exact_json(uncovered_share(record))},
+               {"volume_error_interval", interval_json(uncovered_share(record))},
                {"parts", solids},
                {"seconds", seconds}};
   if (!record.part.empty()) json["part"] = record.part;

@@ -31,14 +31,8 @@ double random_number(std::uint64_t seed, std::uint64_t number) {
 }
 
 /// The side of the boundary on which a box lies.
-enum class Side : std::uint8_t { kInside, kOutside, kBoth };
-
-/// Winding numbers of an open mesh may pass 1/2 anywhere.
-Side side_of(const Solid& solid, const Point& lower, const Point& size) {
-  if (!solid.mesh().report.closed) return Side::kBoth;
-  const Point centre = lower + 0.5 * size;
-  if (solid.distance(centre) <= 0.5 * length(size) + solid.rounding()) return Side::kBoth;
-  return solid.contains(centre) ? Side::kInside : Side::kOutside;
+SolidSide side_of(const Solid& solid, const Point& lower, const Point& size) {
+  return solid.side_of_ball(lower + 0.5 * size, 0.5 * length(size));
 }
 
 /// Two volumes, by two points in each cell of a grid: the squares of their differences add up to the variance. Most
@@ -102,9 +96,9 @@ class VolumeSampler {
       from[k] = kBlock * block[k];
       to[k] = std::min(from[k] + kBlock, count_[k]);
     }
-    const Side side = side_of(solid_, corner(from), corner(to) - corner(from));
+    const SolidSide side = side_of(solid_, corner(from), corner(to) - corner(from));
     Volumes sum;
-    if (side == Side::kOutside) return sum;
+    if (side == SolidSide::kOutside) return sum;
     for (std::size_t z = from[2]; z < to[2]; ++z) {
       for (std::size_t y = from[1]; y < to[1]; ++y) {
         threads.check();
@@ -114,16 +108,16 @@ class VolumeSampler {
     return sum;
   }
 
-  void add_cell(const Cell& cell, Side side, Volumes& sum) const {
+  void add_cell(const Cell& cell, SolidSide side, Volumes& sum) const {
     const Point lower = corner(cell);
-    if (side == Side::kBoth) side = side_of(solid_, lower, cell_);
-    if (side == Side::kOutside) return;
+    if (side == SolidSide::kUnknown) side = side_of(solid_, lower, cell_);
+    if (side == SolidSide::kOutside) return;
     const std::size_t number = cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]);
     std::array<bool, 2> in_solid, uncovered;
     for (std::size_t n = 0; n < 2; ++n) {
       Point at = lower;
       for (std::size_t k = 0; k < 3; ++k) at[k] += cell_[k] * random_number(seed_, 6 * number + 3 * n + k);
-      in_solid[n] = side == Side::kInside || solid_.contains(at);
+      in_solid[n] = side == SolidSide::kInside || solid_.contains(at);
       uncovered[n] = in_solid[n] && !balls_.holds(at);
     }
     const double volume = cell_[0] * cell_[1] * cell_[2];
