@@ -88,7 +88,7 @@ function run(report) {
 }
 
 function certificate(value) {
-  if (!value) return section('Check', element('p', 'Not asked for (--check).'));
+  if (!value) return section('Check', element('p', 'Not requested (--check).'));
   const verdict = value.passed ? 'Every ball satisfies its certificate.' : 'Some balls do not satisfy their certificate.';
   return section('Check', element('p', verdict), table(value.conditions));
 }

@@ -51,7 +51,7 @@ struct Analysis {
   CertificateReport certificate;
   std::uint64_t simplified = 0;  ///< Spheres left out by `simplify`.
 
-  /// The sheets of `spheres`; removed sheets keep their numbers and have no spheres.
+  /// The sheets of `spheres`, on request; removed sheets keep their numbers and have no spheres.
   std::optional<Sheets> sheets;
   /// The significance of balls and sheets in the union before any removal; `of_ball` and `areas` are by index into
   /// `spheres`.

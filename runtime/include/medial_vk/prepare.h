@@ -19,9 +19,9 @@ struct PrepareOptions {
 
 /// Merges equal vertices, drops degenerate and duplicate faces and unused vertices, makes the orientation of each
 /// component consistent (and outward, if the whole mesh is inside out), and determines which normals can be trusted.
-/// Faces that cross are cut along their crossings, and faces inside the solid are left out. Beside such a face, the
-/// winding number of all components is at least 1/2 on both sides, or that of all components but its own is
-/// (docs/theory.md, "The boundary of overlapping parts"). The vertices on crossings follow the others. Does not throw.
+/// Faces that cross are cut along their crossings, and faces inside the solid are left out. Beside such a face
+/// the winding number, of all components or of all but its own, is at least 1/2 on both sides (docs/theory.md, "The
+/// boundary of overlapping parts"). The vertices on crossings follow the others. Does not throw.
 /// Errors: kInvalidMesh (an index out of range, a coordinate that is not finite; nothing is left, or nothing is
 /// enclosed), kOutOfMemory.
 Result<PreparedMesh> prepare_mesh(Mesh mesh, const PrepareOptions& options = {});

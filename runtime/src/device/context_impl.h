@@ -87,7 +87,7 @@ class Context::Impl {
   std::map<ProgramKey, OwnedProgram> programs_;
 };
 
-/// The number of threads of a call, 0: that of the context, from its construction to its destruction.
+/// While it exists, the context uses the number of threads of a call; 0: its own.
 class ThreadsOfCall {
  public:
   ThreadsOfCall(ContextImpl& context, unsigned threads) : context_(context), before_(context.host_threads) {
