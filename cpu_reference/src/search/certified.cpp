@@ -201,6 +201,7 @@ void extract_certified(const Mesh& mesh, const Tree& tree, const Grid& grid, con
   Mesh careful = mesh;
   careful.trusted = cones.trusted();
   if (on_estimate) {
+    // With sides and counts of its own: the search finds the same with and without an estimate.
     Result unused = result;
     Sampling sampling(grid);
     Certified sampled(careful, tree, cones, grid, thresholds, options, sampling.watch(), unused);

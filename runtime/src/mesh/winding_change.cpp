@@ -107,7 +107,7 @@ double WindingChange::change_within(const Point& p, double radius, double most) 
   return radius * slope / (4 * std::numbers::pi);
 }
 
-bool WindingChange::is_at_most(double most, const Point& p, double radius) const {
+bool WindingChange::stays_within(const Point& p, double most, double radius) const {
   return edges_.empty() || (!too_many_ && change_within(p, radius, most) <= most);
 }
 

@@ -21,7 +21,7 @@ class WindingChange {
   /// `least` is positive.
   double radius(const Point& p, double most, double least) const;
   /// True if the change within `radius` of `p` is known to be at most `most`. Both are positive.
-  bool is_at_most(double most, const Point& p, double radius) const;
+  bool stays_within(const Point& p, double most, double radius) const;
 
  private:
   struct OpenEdge {

@@ -8,6 +8,13 @@
 #include "bvh/refined_tree.h"
 
 namespace medial_vk {
+namespace {
+
+// The error of the tree of winding numbers is at most 0.03, which suffices for the integer of a closed mesh, and for
+// other meshes away from 1/2.
+constexpr double kDoubt = 0.05;
+
+}  // namespace
 
 // The distance is the length of a difference of points that are themselves sums of at most three products: with
 // u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side.
@@ -42,10 +49,6 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
-// The error of the tree is at most 0.03, which suffices for the integer of a closed mesh, and for other meshes away
-// from 1/2.
-constexpr double kDoubt = 0.05;
-
 bool Solid::contains(const Point& p) const {
   const double winding = winding_->at(p);
   if (mesh().report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
@@ -57,7 +60,7 @@ SolidSide Solid::side_of_ball(const Point& centre, double radius) const {
   const double winding = winding_->at(centre);
   if (change_) {
     const double most = std::fabs(winding - 0.5) - kDoubt;
-    if (most <= 0 || !change_->is_at_most(most, centre, radius)) return SolidSide::kUnknown;
+    if (most <= 0 || !change_->stays_within(centre, most, radius)) return SolidSide::kUnknown;
   }
   return winding >= 0.5 ? SolidSide::kInside : SolidSide::kOutside;
 }

@@ -1,6 +1,7 @@
 // A prepared mesh as a solid that answers queries in double precision.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "medial_vk/bvh.h"

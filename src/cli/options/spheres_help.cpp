@@ -36,8 +36,9 @@ How many spheres (goals that are given together must all be met):
 
 What they guarantee:
       --contract WHAT   inside: no sphere reaches out of the solid (default);
-                        cover: all of the solid is covered, for safety; balanced:
-                        neither, the least volume between spheres and solid
+                        cover: all of the solid is covered, for safety;
+                        balanced: neither, the least volume between spheres and
+                        solid
       --method HOW      best: chosen and moved for the least volume uncovered, or
                         as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N

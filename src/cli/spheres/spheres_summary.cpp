@@ -105,7 +105,7 @@ std::optional<std::string> difference_text(SphereContract contract, const FitsRe
 
 std::string percent(const std::optional<Share>& share) {
   if (!share) return "-";
-  if (share->standard_error == 0) return fmt::format("{:.3g} %", 100 * share->value);
+  if (!share->is_estimate) return fmt::format("{:.3g} %", 100 * share->value);
   return fmt::format("{:.3g} to {:.3g} %", 100 * share->lower(), 100 * share->upper());
 }
 
@@ -169,10 +169,10 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
   text += line("contract", description_of(fit.contract));
   text += line("certified", certificate_text(fit.contract, record));
   if (const std::optional<Share> error = uncovered_share(record)) {
-    text += line("error", fmt::format("{} of the volume is left uncovered{}", percent(error),
-                                      error->standard_error > 0
-                                          ? "; measured at random points where a mesh is open or crosses itself"
-                                          : ""));
+    text += line(
+        "error",
+        fmt::format("{} of the volume is left uncovered{}", percent(error),
+                    error->is_estimate ? "; measured at random points where a mesh is open or crosses itself" : ""));
   }
   if (fit.contract != SphereContract::kInside) {
     const std::optional<std::string> difference = difference_text(fit.contract, record);

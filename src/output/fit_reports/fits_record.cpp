@@ -4,6 +4,16 @@
 #include <utility>
 
 namespace medial_vk {
+namespace {
+
+/// Of its shape, or of what its mesh encloses cleanly, or else an estimate (SphereMeasures).
+std::optional<double> volume_of(const FittedSolid& solid) {
+  if (solid.solid_volume) return solid.solid_volume;
+  if (solid.measures && solid.measures->volume.solid > 0) return solid.measures->volume.solid;
+  return std::nullopt;
+}
+
+}  // namespace
 
 const char* name_of(SphereContract contract) {
   constexpr const char* kNames[] = {"inside", "cover", "balanced"};
@@ -56,25 +66,20 @@ std::size_t count_spheres(const FitsRecord& record) {
   return count;
 }
 
-std::optional<double> volume_of(const FittedSolid& solid) {
-  if (solid.solid_volume) return solid.solid_volume;
-  if (solid.measures && solid.measures->volume.solid > 0) return solid.measures->volume.solid;
-  return std::nullopt;
-}
-
 std::optional<Share> uncovered_share(const FittedSolid& solid, SphereContract contract) {
   const std::optional<double> volume = volume_of(solid);
   if (contract != SphereContract::kInside || !volume || !(*volume > 0)) return std::nullopt;
   if (solid.solid_volume) {
     if (!solid.spheres_volume) return std::nullopt;
-    return Share{1 - *solid.spheres_volume / *volume, 0};
+    return Share{1 - *solid.spheres_volume / *volume, 0, false};
   }
   const VolumeError& sampled = solid.measures->volume;
-  return Share{sampled.uncovered / *volume, sampled.standard_error / *volume};
+  return Share{sampled.uncovered / *volume, sampled.standard_error / *volume, true};
 }
 
 std::optional<Share> uncovered_share(const FitsRecord& record) {
   double whole = 0, covered = 0, variance = 0;
+  bool is_estimate = false;
   for (const FittedSolid& solid : record.solids) {
     const std::optional<Share> share = uncovered_share(solid, record.spheres.contract);
     if (!share) return std::nullopt;
@@ -82,8 +87,9 @@ std::optional<Share> uncovered_share(const FitsRecord& record) {
     whole += volume;
     covered += solid.solid_volume ? *solid.spheres_volume : (1 - share->value) * volume;
     variance += error * error;
+    is_estimate = is_estimate || share->is_estimate;
   }
-  return Share{1 - covered / whole, std::sqrt(variance) / whole};
+  return Share{1 - covered / whole, std::sqrt(variance) / whole, is_estimate};
 }
 
 }  // namespace medial_vk

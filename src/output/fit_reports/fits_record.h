@@ -74,16 +74,15 @@ void take_fit(SphereFit fit, std::size_t count, FittedSolid& solid);
 /// The number of spheres of the last level of all solids.
 std::size_t count_spheres(const FitsRecord& record);
 /// A share of a volume: exact, or, where a mesh encloses no volume cleanly and is measured by winding numbers at random
-/// points, the interval of two standard errors around the estimate, which holds the share in 95 of 100 cases.
+/// points, an estimate. The interval of two standard errors around it contains the share in at least 95 of 100 cases.
 struct Share {
   double value = 0, standard_error = 0;
+  bool is_estimate = false;
 
   double lower() const { return std::max(0.0, value - 2 * standard_error); }
   double upper() const { return std::min(1.0, value + 2 * standard_error); }
 };
 
-/// The volume of a solid: of its shape, or of what its mesh encloses cleanly, or else an estimate (SphereMeasures).
-std::optional<double> volume_of(const FittedSolid& solid);
 /// The share of the volume that balls inside leave uncovered; none if a solid has no volume, or for other contracts.
 std::optional<Share> uncovered_share(const FittedSolid& solid, SphereContract contract);
 std::optional<Share> uncovered_share(const FitsRecord& record);

@@ -30,7 +30,7 @@ Json goals_json(const FitsRecord& record) {
 
 /// Null for a share that is an estimate.
 Json exact_json(const std::optional<Share>& share) {
-  return share && share->standard_error == 0 ? Json(share->value) : Json(nullptr);
+  return share && !share->is_estimate ? Json(share->value) : Json(nullptr);
 }
 
 Json interval_json(const std::optional<Share>& share) {

@@ -26,6 +26,7 @@ FittedSolid open(double volume, double uncovered, double standard_error) {
 
 TEST(UncoveredShare, OfAClosedMeshIsExact) {
   const Share share = uncovered_share(closed(4, 3), SphereContract::kInside).value();
+  EXPECT_FALSE(share.is_estimate);
   EXPECT_EQ(share.value, 0.25);
   EXPECT_EQ(share.lower(), 0.25);
   EXPECT_EQ(share.upper(), 0.25);
@@ -33,9 +34,14 @@ TEST(UncoveredShare, OfAClosedMeshIsExact) {
 
 TEST(UncoveredShare, OfAnOpenMeshIsAnInterval) {
   const Share share = uncovered_share(open(2, 0.5, 0.02), SphereContract::kInside).value();
+  EXPECT_TRUE(share.is_estimate);
   EXPECT_DOUBLE_EQ(share.lower(), 0.23);
   EXPECT_DOUBLE_EQ(share.upper(), 0.27);
   EXPECT_EQ(uncovered_share(open(2, 0.01, 0.02), SphereContract::kInside)->lower(), 0);
+}
+
+TEST(UncoveredShare, IsAnEstimateEvenWhereAllPointsAgree) {
+  EXPECT_TRUE(uncovered_share(open(2, 0, 0), SphereContract::kInside)->is_estimate);
 }
 
 TEST(UncoveredShare, OfARobotAddsVolumesAndVariances) {
@@ -45,6 +51,7 @@ TEST(UncoveredShare, OfARobotAddsVolumesAndVariances) {
   const Share share = uncovered_share(record).value();
   EXPECT_DOUBLE_EQ(share.value, 0.25);
   EXPECT_DOUBLE_EQ(share.standard_error, 0.05 / 8);
+  EXPECT_TRUE(share.is_estimate);
 }
 
 TEST(UncoveredShare, ThereIsNoneWithoutAVolumeOrForOtherContracts) {
