@@ -4,6 +4,9 @@
 # adds to TARGET a source that defines embedded_shaders() (runtime/src/device/embedded_shaders.h). No files: an empty list.
 # Those that include lanes.glsl are compiled a second time, with LOCKSTEP defined, as NAME_lockstep; and all that read
 # texel buffers once more, with STORAGE defined, as NAME_storage or NAME_lockstep_storage.
+#   medial_vk_embed_shaders(... CALLING name1 name2 ...)
+# In the variants of these files without LOCKSTEP, functions that return early remain functions that are called. These
+# variants are not frozen, since constants do not reach into such functions.
 #   medial_vk_embed_shaders(... FROZEN name1=8,false name2=64,0,8 ...)
 # Of these files, the variants for texel buffers are built again as NAME_with_8_0, NAME_lockstep_with_8_0: all
 # specialization constants, from 0 on, have these values (bools: false or true), and code that these make unreachable is
@@ -11,6 +14,22 @@
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# `spirv-opt -O` merges the returns of such functions, by a switch of one case around each body, and inlines them. With this,
+# the SPIR-V compiler of NVIDIA (driver 580) crashes in judge_pairs, at the loop over the pieces of a triangle. So these are
+# the passes of -O without merge-return.
+set(MEDIAL_VK_CALLING_PASSES
+  --wrap-opkill --eliminate-dead-branches --inline-entry-points-exhaustive --eliminate-dead-functions
+  --eliminate-dead-code-aggressive --private-to-local --eliminate-local-single-block --eliminate-local-single-store
+  --eliminate-dead-code-aggressive --scalar-replacement=100 --convert-local-access-chains
+  --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive --ssa-rewrite
+  --eliminate-dead-code-aggressive --ccp --eliminate-dead-code-aggressive --loop-unroll --eliminate-dead-branches
+  --redundancy-elimination --combine-access-chains --simplify-instructions --scalar-replacement=100
+  --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
+  --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
+  --eliminate-dead-branches --simplify-instructions --if-conversion --copy-propagate-arrays --reduce-load-size
+  --eliminate-dead-code-aggressive --merge-blocks --redundancy-elimination --eliminate-dead-branches --merge-blocks
+  --simplify-instructions)
 
 # Sets in the caller: the name of `variant` with the constants `values` (comma-separated), and flags of spirv-opt.
 function(_medial_vk_freeze variant values name_out flags_out)
@@ -30,8 +49,17 @@ function(_medial_vk_freeze variant values name_out flags_out)
       PARENT_SCOPE)
 endfunction()
 
+# Sets in the caller: the passes of spirv-opt for a variant of the shader `name`.
+function(_medial_vk_passes name variant calling passes_out)
+  if(name IN_LIST calling AND NOT variant MATCHES "_lockstep")
+    set(${passes_out} ${MEDIAL_VK_CALLING_PASSES} PARENT_SCOPE)
+  else()
+    set(${passes_out} -O PARENT_SCOPE)
+  endif()
+endfunction()
+
 function(medial_vk_embed_shaders target shared_dir)
-  cmake_parse_arguments(arg "" "" "FROZEN" ${ARGN})
+  cmake_parse_arguments(arg "" "" "CALLING;FROZEN" ${ARGN})
   set(names)
   foreach(source ${arg_UNPARSED_ARGUMENTS})
     get_filename_component(name ${source} NAME_WE)
@@ -40,10 +68,10 @@ function(medial_vk_embed_shaders target shared_dir)
     endif()
     list(APPEND names ${name})
   endforeach()
-  foreach(frozen ${arg_FROZEN})
-    string(REGEX REPLACE "=.*" "" name ${frozen})
+  foreach(named ${arg_CALLING} ${arg_FROZEN})
+    string(REGEX REPLACE "=.*" "" name ${named})
     if(NOT name IN_LIST names)
-      message(FATAL_ERROR "There is no shader ${name} to set constants of")
+      message(FATAL_ERROR "There is no shader ${name}")
     endif()
   endforeach()
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded)
@@ -72,10 +100,11 @@ function(medial_vk_embed_shaders target shared_dir)
       if(variant MATCHES "_storage$")
         list(APPEND defines -DSTORAGE)
       endif()
+      _medial_vk_passes(${name} ${variant} "${arg_CALLING}" passes)
       add_custom_command(OUTPUT ${spv}
         COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 ${defines} -I${shared_dir} -I${shared_dir}/types
                 -o ${spv}.raw ${source}
-        COMMAND ${SPIRV_OPT} -O ${spv}.raw -o ${spv}
+        COMMAND ${SPIRV_OPT} ${passes} ${spv}.raw -o ${spv}
         COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spv}
         BYPRODUCTS ${spv}.raw
         DEPENDS ${source} ${includes}
@@ -83,6 +112,9 @@ function(medial_vk_embed_shaders target shared_dir)
       list(APPEND spirv_files ${spv})
     endforeach()
     set(usual_variants ${name})
+    if(name IN_LIST arg_CALLING)
+      set(usual_variants)
+    endif()
     if(uses_lanes)
       list(APPEND usual_variants ${name}_lockstep)
     endif()

@@ -29,6 +29,7 @@ enum Code : std::uint32_t {
   kSpecConstant = 50,
   kFunction = 54,
   kFunctionEnd = 56,
+  kFunctionCall = 57,
   kVariable = 59,
   kLoad = 61,
   kDecorate = 71,
@@ -54,6 +55,7 @@ enum Code : std::uint32_t {
   kPhi = 245,
   kLoopMerge = 246,
   kLabel = 248,
+  kSwitch = 251,
   kFirstSubgroup = 333,
   kLastSubgroup = 366
 };

@@ -73,8 +73,6 @@ TEST_F(FrozenShadersTest, AreRequested) {
   const std::set<std::string> requested = names_requested(Internals::of(context), mesh_, options_);
   ASSERT_THAT(frozen_shaders(), testing::Not(testing::IsEmpty()));
   for (const EmbeddedShader& frozen : frozen_shaders()) {
-    // The other one of the two variants of kernels with lanes is for devices without lockstep.
-    if (frozen.name == "judge_pairs_with_8_0") continue;
     EXPECT_TRUE(requested.contains(std::string(frozen.name))) << frozen.name << " is never used";
   }
 }

@@ -343,6 +343,8 @@ CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std
 
 void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,
                                     std::uint32_t first, std::uint32_t limit) {
+  // Other drivers than llvmpipe get one program for all meshes, the one that was tried with NVIDIA's compiler.
+  const bool has_untrusted = mesh_->has_untrusted || !context_->is_llvmpipe;
   step.first_item = first;
   run(r,
       {"judge_pairs",
@@ -350,7 +352,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const 
         mesh_->storage_of(mesh_->triangle_links), mesh_->storage_of(mesh_->corner_cones), aims_.range(),
         winners_.range(), reasons_.range()},
        Reads::kLinks,
-       {mesh_->has_untrusted ? 1u : 0u},
+       {has_untrusted ? 1u : 0u},
        kEightLanes,
        Lanes::kEight},
       {gpu::kCells, kEightLanes, 1, first * kEightLanes, limit * kEightLanes}, step);
