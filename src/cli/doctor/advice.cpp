@@ -147,12 +147,17 @@ class Adviser {
   void about_nvidia() {
     const bool has_file = std::ranges::any_of(
         record_.drivers, [](const DriverRecord& driver) { return driver.file.find("nvidia") != std::string::npos; });
-    if (!record_.machine.container.empty()) {
-      say("The NVIDIA card is not usable in this container{}. It needs the NVIDIA Container Toolkit, and the "
-          "capability "
-          "\"graphics\": docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility ... The toolkit "
-          "then adds nvidia_icd.json and its libraries; the image must have the loader, libvulkan1.",
-          has_file ? "" : ", which has no driver file of NVIDIA");
+    const bool in_container = !record_.machine.container.empty();
+    if (in_container && has_file) {
+      say("NVIDIA's driver for Vulkan is in this container, but finds no device. The image lacks libraries that it "
+          "loads (Debian and Ubuntu: apt install libegl1 libgl1 libxext6), or the container lacks the capability "
+          "\"graphics\": docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility ... No display "
+          "and no X server is needed.");
+    } else if (in_container) {
+      say("The NVIDIA card is not usable in this container, which has no driver file of NVIDIA. It needs the NVIDIA "
+          "Container Toolkit, and the capability \"graphics\": docker run --gpus all -e "
+          "NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility ... The toolkit then adds nvidia_icd.json and its "
+          "libraries; the image must have libvulkan1, libegl1, libgl1 and libxext6.");
     } else if (!record_.machine.has_nvidia_kernel) {
       say("The kernel module of NVIDIA's driver is not loaded: install the driver of the card (Debian: nvidia-driver; "
           "Ubuntu: ubuntu-drivers install), then restart.");

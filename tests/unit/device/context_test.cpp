@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <type_traits>
@@ -196,13 +197,19 @@ TEST_F(ContextTest, ProgramErrorsNameTheShader) {
   EXPECT_FALSE(impl.program(key).ok());
 }
 
+/// The data of one program, written at another time: NVIDIA's driver does not always write equally many bytes.
+MATCHER_P(IsLike, written, "a cache of about as many bytes") {
+  const auto size = static_cast<double>(written.size());
+  return std::fabs(static_cast<double>(arg.size()) - size) < 0.01 * size;
+}
+
 TEST_F(ContextTest, PipelineCacheIsWrittenAndStaysTheSame) {
   const fs::path file = use_cache(options());
   ASSERT_FALSE(file.empty());
   const std::string written = contents(file);
   EXPECT_GT(written.size(), sizeof(VkPipelineCacheHeaderVersionOne));
   EXPECT_EQ(use_cache(options()), file);
-  EXPECT_EQ(contents(file).size(), written.size());
+  EXPECT_THAT(contents(file), IsLike(written));
 }
 
 TEST_F(ContextTest, PipelineCacheIsWrittenWhenProgramsAreClosed) {
@@ -214,7 +221,7 @@ TEST_F(ContextTest, PipelineCacheIsWrittenWhenProgramsAreClosed) {
   ASSERT_TRUE(Internals::of(context).program(test_program()).ok());
   context.close_programs();
   EXPECT_EQ(find_cache_file(), file);
-  EXPECT_EQ(contents(file).size(), written.size());
+  EXPECT_THAT(contents(file), IsLike(written));
   EXPECT_TRUE(Internals::of(context).program(test_program()).ok());
 }
 
@@ -230,7 +237,7 @@ TEST_F(ContextTest, DamagedPipelineCacheIsReplaced) {
                                  good.substr(0, good.size() / 2), good.substr(0, 24)}) {
     overwrite(file, bad);
     use_cache(options());
-    EXPECT_EQ(contents(file).size(), good.size()) << "after a file of " << bad.size() << " bytes";
+    EXPECT_THAT(contents(file), IsLike(good)) << "after a file of " << bad.size() << " bytes";
   }
 }
 
@@ -286,9 +293,15 @@ TEST_F(ContextTest, ReportsTheProgramsThatItMakes) {
   ProgramKey another = test_program();
   another.constants = {3, 0};
   ASSERT_TRUE(impl.make_programs({test_program(), another}).ok());
-  const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 2}, {1, 2}, {2, 2}};
+  std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 2}, {1, 2}, {2, 2}};
   EXPECT_EQ(reports, expected);
   ASSERT_TRUE(impl.make_programs({test_program(), another}).ok());
+  ASSERT_TRUE(impl.program(another).ok());
+  EXPECT_EQ(reports, expected);
+  // Queries make their programs one by one.
+  another.constants = {5, 0};
+  ASSERT_TRUE(impl.program(another).ok());
+  expected.insert(expected.end(), {{0, 1}, {1, 1}});
   EXPECT_EQ(reports, expected);
 }
 
