@@ -69,8 +69,8 @@ struct ContextOptions {
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
-  /// Called when an extraction or a job requires programs that the context does not have yet. Queries of scenes and
-  /// unions of balls compile their few programs without a report.
+  /// Called when a call requires programs that the context does not have yet: an extraction or a job for all of them,
+  /// queries of scenes and unions of balls for one after the other.
   ProgramsProgress programs_progress = nullptr;
 };
 

@@ -188,7 +188,9 @@ Result<OwnedProgram> Context::Impl::build_program(const ProgramKey& key) const {
 
 Result<const Program*> Context::Impl::program(const ProgramKey& key) {
   if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
+  ProgramsReport report(programs_progress, 1);
   Result<OwnedProgram> made = build_program(key);
+  report.add_one();
   if (!made.ok()) return made.error();
   return programs_.emplace(key, std::move(made.value())).first->second.get();
 }

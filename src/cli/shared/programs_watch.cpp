@@ -9,8 +9,6 @@
 namespace medial_vk::cli {
 namespace {
 
-constexpr unsigned kPatience = 60;  // seconds
-
 std::string too_slow;  // the message, made before a signal can come
 
 extern "C" void say_too_slow(int) {
@@ -25,7 +23,7 @@ void ProgramsWatch::set_device(const std::string& name) {
   too_slow = fmt::format(
       "\nmedial-vk: the driver of {} has been compiling for {} s and goes on. Ctrl-C ends this run; "
       "--list-devices shows other devices, --device chooses one, and --backend cpu needs none.\n",
-      name, kPatience);
+      name, patience_);
 }
 
 void ProgramsWatch::update(std::size_t made, std::size_t total, Progress& progress) {
@@ -34,7 +32,7 @@ void ProgramsWatch::update(std::size_t made, std::size_t total, Progress& progre
     end_if_interrupted();
     if (progress.is_requested()) {
       std::signal(SIGALRM, say_too_slow);
-      ::alarm(kPatience);
+      ::alarm(patience_);
     }
   }
   progress.update_count("programs", made, total);

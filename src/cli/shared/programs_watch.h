@@ -10,16 +10,19 @@
 
 namespace medial_vk::cli {
 
-/// A driver that compiles cannot be stopped, and no file is written yet, so the first signal ends the program. After a
-/// minute of compilation a message names the device, and the remedies.
+/// A driver that compiles cannot be stopped, and no file is written yet, so the first signal ends the program. After
+/// `patience` seconds of compilation a message names the device, and the remedies.
 class ProgramsWatch {
  public:
+  explicit ProgramsWatch(unsigned patience = 60) : patience_(patience) {}
+
   /// For the message; before the first update().
   void set_device(const std::string& name);
   /// ContextOptions::programs_progress.
   void update(std::size_t made, std::size_t total, Progress& progress);
 
  private:
+  unsigned patience_;
   std::optional<EndAtOnce> guard_;
 };
 
