@@ -1,6 +1,6 @@
 // OFF as written by Geomview and its successors: an optional keyword with prefixes for extra columns (COFF, NOFF,
 // STOFF, CNOFF, ...), three counts, vertices, faces. Further values (normals, colours) on the line of a vertex or a
-// face are skipped. nOFF names its dimension after the keyword.
+// face are skipped. nOFF names its dimension after the keyword. Numbers of binary files follow the line of the keyword.
 #include <fmt/format.h>
 
 #include "input/polygon_soup.h"
@@ -12,10 +12,12 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const std::string& name) : scanner_(bytes, '#', false), name_(name) {}
+  OffReader(std::string_view bytes, const std::string& name)
+      : bytes_(bytes), scanner_(bytes, '#', false), name_(name) {}
 
   Result<Mesh> read() {
     if (const Status status = read_counts(); !status) return status.error();
+    if (is_binary_) return read_binary_off(bytes_.substr(bytes_.size() - scanner_.bytes_left()), keyword_, name_);
     if (const Status status = read_vertices(); !status) return status.error();
     if (const Status status = read_faces(); !status) return status.error();
     return triangulate(std::move(soup_));
@@ -33,14 +35,18 @@ class OffReader {
   Status read_counts() {
     std::string_view word = next();
     if (word.ends_with("OFF") || word.ends_with("off")) {
-      const std::string_view keyword = word;
+      keyword_ = word;
       word = next();
-      const bool has_dimension = keyword.find('n') != std::string_view::npos;
-      if (keyword.find('4') != std::string_view::npos || (has_dimension && word != "3")) {
-        return error(fmt::format("{}: only three dimensions can be read", quoted(keyword)));
+      is_binary_ = word == "BINARY";
+      const bool has_dimension = keyword_.find('n') != std::string_view::npos;
+      if (keyword_.find('4') != std::string_view::npos || (has_dimension && word != "3")) {
+        return error(fmt::format("{}: only three dimensions can be read", quoted(keyword_)));
+      }
+      if (is_binary_) {
+        scanner_.next_line();
+        return {};
       }
       if (has_dimension) word = next();
-      if (word == "BINARY") return error("binary OFF is not read; use binary PLY");
     }
     for (std::uint64_t* count : {&vertices_, &faces_}) {
       std::int64_t value = 0;
@@ -107,8 +113,11 @@ class OffReader {
     return {};
   }
 
+  std::string_view bytes_;
   TextScanner scanner_;
   const std::string& name_;
+  std::string_view keyword_;
+  bool is_binary_ = false;
   std::uint64_t line_ = 1, vertices_ = 0, faces_ = 0;
   PolygonSoup soup_;
 };

@@ -13,6 +13,8 @@ namespace medial_vk {
 Result<Mesh> read_obj(std::string_view bytes, const std::string& name);
 Result<Mesh> read_ply(std::string_view bytes, const std::string& name);
 Result<Mesh> read_off(std::string_view bytes, const std::string& name);
+/// `bytes` begin after the line of the keyword, whose prefixes name the values of a vertex.
+Result<Mesh> read_binary_off(std::string_view bytes, std::string_view keyword, const std::string& name);
 Result<Mesh> read_ascii_stl(std::string_view bytes, const std::string& name);
 Result<Mesh> read_binary_stl(std::string_view bytes, const std::string& name);
 

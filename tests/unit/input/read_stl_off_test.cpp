@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <string>
 
 #include "read_text.h"
 #include "support/solids/mesh_files.h"
@@ -94,9 +98,68 @@ TEST(ReadOff, Messages) {
   EXPECT_THAT(message_of("OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", "a.off"),
               HasSubstr("a.off:4: coordinate \"inf\""));
   EXPECT_THAT(message_of("4OFF\n3 1 0\n", "a.off"), HasSubstr("only three dimensions"));
-  EXPECT_THAT(message_of("OFF BINARY\n", "a.off"), HasSubstr("binary OFF is not read"));
   EXPECT_THAT(message_of("OFF\n-3 1 0\n", "a.off"), HasSubstr("a.off:2: \"-3\" where a count"));
   EXPECT_EQ(message_of("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "a.off"), "a.off: no faces (3 vertices)");
+}
+
+/// Four bytes, the most significant first.
+std::string big_endian(std::uint32_t word) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(word >> shift & 255));
+  return bytes;
+}
+
+std::string integers(std::initializer_list<std::uint32_t> words) {
+  std::string bytes;
+  for (const std::uint32_t word : words) bytes += big_endian(word);
+  return bytes;
+}
+
+std::string floats(std::initializer_list<float> words) {
+  std::string bytes;
+  for (const float word : words) bytes += big_endian(std::bit_cast<std::uint32_t>(word));
+  return bytes;
+}
+
+/// A square, with `extra` after each vertex.
+std::string binary_off(const std::string& keyword, const std::string& extra) {
+  return keyword + " BINARY\n" + integers({4, 1, 0}) + floats({0, 0, 0}) + extra + floats({1, 0, 0}) + extra +
+         floats({1, 1, 0.5}) + extra + floats({0, 1, 0}) + extra + integers({4, 0, 1, 2, 3, 2}) + floats({0.5, 1});
+}
+
+TEST(ReadBinaryOff, Variants) {
+  const std::string normal = floats({0, 0, 1}), colour = floats({1, 0, 0, 1}), texture = floats({0.5, 0.5});
+  for (const std::string& bytes :
+       {binary_off("OFF", ""), binary_off("NOFF", normal), binary_off("COFF", colour),
+        binary_off("CNOFF", normal + colour), binary_off("STCNOFF", normal + colour + texture)}) {
+    const Mesh mesh = read_text(bytes, "a.off");
+    ASSERT_EQ(mesh.vertices.size(), 4u);
+    EXPECT_EQ(mesh.vertices[2], (Point{1, 1, 0.5}));
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+  }
+}
+
+TEST(ReadBinaryOff, Messages) {
+  const std::string whole = binary_off("OFF", "");
+  for (std::size_t size = 11; size < whole.size(); ++size) {  // every cut
+    EXPECT_NE(message_of(whole.substr(0, size), "a.off"), "") << size;
+  }
+  EXPECT_EQ(message_of("OFF BINARY\n", "a.off"), "a.off: file ends before the counts of vertices and faces");
+  EXPECT_THAT(message_of("4OFF BINARY\n", "a.off"), HasSubstr("only three dimensions"));
+  EXPECT_THAT(message_of("OFF BINARY\n" + integers({0xffffffff, 0xffffffff, 0}), "a.off"),
+              HasSubstr("more than the 0 bytes that follow can hold"));
+  std::string bytes = whole;
+  bytes.replace(bytes.size() - 16, 4, big_endian(4));  // the last corner
+  EXPECT_EQ(message_of(bytes, "a.off"), "a.off: face 0 uses vertex 4 of 4");
+  bytes = whole;
+  bytes.replace(bytes.size() - 32, 4, big_endian(9));
+  EXPECT_THAT(message_of(bytes, "a.off"), HasSubstr("face 0 declares 9 corners"));
+  bytes = whole;
+  bytes.replace(bytes.size() - 12, 4, big_endian(3));
+  EXPECT_THAT(message_of(bytes, "a.off"), HasSubstr("declares a colour of 3 numbers"));
+  bytes = whole;
+  bytes.replace(11 + 12 + 4, 4, big_endian(0x7fc00000));
+  EXPECT_EQ(message_of(bytes, "a.off"), "a.off: vertex 0 (byte 16 of the numbers) has nan");
 }
 
 }  // namespace
