@@ -64,7 +64,8 @@ struct ExtractionMeasurements {
 
 /// Measurements of the fit of one part.
 struct FitMeasurements {
-  double seconds = 0;  ///< Wall-clock time, without the distribution of balls among parts.
+  /// Wall-clock time, without the distribution of balls among parts. Parts that are fitted side by side share cores.
+  double seconds = 0;
 };
 
 }  // namespace medial_vk

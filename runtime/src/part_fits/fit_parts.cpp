@@ -8,8 +8,10 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <new>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -19,8 +21,10 @@
 #include "base/stopwatch.h"
 #include "part_fits/distribute_balls.h"
 #include "part_fits/kept_extractions.h"
+#include "part_fits/parts_progress.h"
 #include "part_fits/place_ball.h"
 #include "part_fits/resident_meshes.h"
+#include "part_fits/side_by_side.h"
 
 namespace medial_vk {
 namespace {
@@ -49,6 +53,14 @@ double enclosed_with_middle(const PreparedMesh& mesh) {
   return std::fabs(six_times) / 6;
 }
 
+/// The present knowledge about a part.
+struct PartState {
+  std::size_t count = 0;         // of its balls; 0: not known yet, or not prescribed
+  std::size_t curve_length = 0;  // that is required
+  NeedCurve curve;
+  Extractor extractor;  // while it is needed; else an empty function
+};
+
 class Fitting {
  public:
   Fitting(std::span<const Part> parts, const PartFitOptions& options, const MakeExtractor& make_extractor,
@@ -56,9 +68,9 @@ class Fitting {
       : parts_(parts),
         options_(options),
         make_extractor_(make_extractor),
-        progress_(progress),
+        progress_(progress, parts.size()),
         stop_(stop),
-        extractors_(parts.size()),
+        states_(parts.size()),
         fits_(parts.size()) {}
 
   Result<std::vector<PartFit>> run() {
@@ -68,18 +80,18 @@ class Fitting {
     if (options_.spheres.threads != 0 && options_.spheres.threads != options_.threads) {
       return Error{ErrorCode::kUsage, "`threads` of the spheres is neither 0 nor that of the parts"};
     }
-    options_.spheres.threads = options_.threads;
     for (const Part& part : parts_) {
       if (Status status = check(part); !status) return named(part, status.error());
     }
     const std::vector<Group> groups = make_groups();
     for (const Group& group : groups) {
       if (Status status = check(group); !status) return status.error();
-      for (const std::size_t part : group.parts) steps_ += parts_[part].ball ? 0 : group.parts.size() > 1 ? 2 : 1;
+      for (const std::size_t part : group.parts) states_[part].count = group.balls;
     }
-    for (const Group& group : groups) {
-      if (Status status = fit(group); !status) return status.error();
-    }
+    if (Status status = count_by_need(groups); !status) return status.error();
+    std::vector<std::size_t> all(parts_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (Status status = work_on(all, &Fitting::fit_part); !status) return status.error();
     align_levels();
     return std::move(fits_);
   }
@@ -130,88 +142,113 @@ class Fitting {
                              parts, group.balls)};
   }
 
-  Status fit(const Group& group) {
-    if (!shares() || group.parts.size() == 1) {
-      for (const std::size_t part : group.parts) {
-        if (Status status = fit_part(part, group.balls); !status) return status;
-      }
-      return {};
+  Status work_on(const std::vector<std::size_t>& numbers, Status (Fitting::*work)(std::size_t, unsigned)) {
+    const auto is_mesh = [&](std::size_t number) { return !parts_[number].ball; };
+    progress_.expect(static_cast<std::size_t>(std::ranges::count_if(numbers, is_mesh)));
+    return work_side_by_side(parts_, numbers, options_.threads,
+                             [&](std::size_t number, unsigned threads) { return (this->*work)(number, threads); });
+  }
+
+  /// Distributes the balls of each group that has several parts. Curves are computed for an equal share first, and
+  /// longer ones for parts that get more: in the end every curve has the required length, and the shares are those of
+  /// complete curves.
+  Status count_by_need(const std::vector<Group>& groups) {
+    if (!shares()) return {};
+    std::vector<std::size_t> curves;
+    for (const Group& group : groups) {
+      if (group.parts.size() == 1) continue;
+      for (const std::size_t part : group.parts) states_[part].curve_length = curve_length(equal_share(group));
+      curves.insert(curves.end(), group.parts.begin(), group.parts.end());
     }
-    Result<std::vector<std::size_t>> counts = counts_by_need(group);
-    if (!counts) return counts.error();
-    for (std::size_t i = 0; i < group.parts.size(); ++i) {
-      if (Status status = fit_part(group.parts[i], counts.value()[i]); !status) return status;
+    std::ranges::sort(curves);
+    while (!curves.empty()) {
+      if (Status status = work_on(curves, &Fitting::find_curve); !status) return status;
+      curves.clear();
+      for (const Group& group : groups) {
+        if (group.parts.size() > 1) distribute(group, curves);
+      }
+      std::ranges::sort(curves);
     }
     return {};
   }
 
-  /// Curves are computed for an equal share first, and longer ones for parts that get more: in the end every curve has
-  /// the required length, and the shares are those of complete curves.
-  Result<std::vector<std::size_t>> counts_by_need(const Group& group) {
+  std::size_t equal_share(const Group& group) const {
     const std::size_t balls = static_cast<std::size_t>(
         std::ranges::count_if(group.parts, [&](std::size_t part) { return parts_[part].ball.has_value(); }));
     const std::size_t others = group.parts.size() - balls;
-    const std::size_t equal = others == 0 ? 1 : std::max<std::size_t>(1, (group.balls - balls) / others);
-    std::vector<NeedCurve> curves(group.parts.size());
-    std::vector<std::size_t> lengths(group.parts.size(), curve_length(equal));
-    std::vector<std::size_t> counts(group.parts.size(), 0);
-    for (bool is_known = false; !is_known;) {
-      is_known = true;
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        if (counts[i] > 0 && is_long_enough(curves[i], counts[i])) continue;
-        if (counts[i] > 0) ++steps_;
-        lengths[i] = std::max(lengths[i], curve_length(counts[i]));
-        Result<NeedCurve> curve = curve_of(group.parts[i], lengths[i]);
-        if (!curve) return curve.error();
-        curves[i] = std::move(curve).value();
-      }
-      counts = distribute_balls(curves, group.balls);
-      for (std::size_t i = 0; i < curves.size(); ++i) is_known = is_known && is_long_enough(curves[i], counts[i]);
+    return others == 0 ? 1 : std::max<std::size_t>(1, (group.balls - balls) / others);
+  }
+
+  /// Adds the parts whose curves are too short for their new counts to `too_short`.
+  void distribute(const Group& group, std::vector<std::size_t>& too_short) {
+    std::vector<NeedCurve> curves;
+    for (const std::size_t part : group.parts) curves.push_back(states_[part].curve);
+    const std::vector<std::size_t> counts = distribute_balls(curves, group.balls);
+    for (std::size_t i = 0; i < group.parts.size(); ++i) {
+      PartState& state = states_[group.parts[i]];
+      state.count = counts[i];
+      if (is_long_enough(state)) continue;
+      state.curve_length = std::max(state.curve_length, curve_length(state.count));
+      too_short.push_back(group.parts[i]);
     }
-    return counts;
   }
 
   /// The sets of the source's method are not prefixes of each other: its curves are continued instead.
-  bool is_long_enough(const NeedCurve& curve, std::size_t count) const {
-    return curve.is_ball || curve.ends || options_.spheres.method == SphereMethod::kSource ||
-           curve.uncovered.size() >= curve_length(count);
+  bool is_long_enough(const PartState& state) const {
+    return state.curve.is_ball || state.curve.ends || options_.spheres.method == SphereMethod::kSource ||
+           state.curve.uncovered.size() >= curve_length(state.count);
   }
 
-  Result<NeedCurve> curve_of(std::size_t number, std::size_t count) {
+  Status find_curve(std::size_t number, unsigned threads) {
     const Part& part = parts_[number];
-    NeedCurve curve;
-    curve.is_ball = part.ball.has_value();
-    if (curve.is_ball) return curve;
-    SphereFitOptions options = options_.spheres;
-    options.count = count;
-    const Result<CoverageCurve> found =
-        measure_coverage_curve(*part.mesh, options, extractor_of(number), reporter(), stop_);
+    PartState& state = states_[number];
+    state.curve = {};
+    state.curve.is_ball = part.ball.has_value();
+    if (state.curve.is_ball) return {};
+    const Result<CoverageCurve> found = measure_coverage_curve(*part.mesh, fit_options(state.curve_length, threads),
+                                                               extractor_of(number), reporter(number), stop_);
     if (!found) return named(part, found.error());
-    ++done_;
+    progress_.finish(number);
     const double whole =
         part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh->prepared())));
-    for (const double covered : found.value().covered) curve.uncovered.push_back(whole - covered);
-    curve.ends = found.value().ends;
-    return curve;
+    for (const double covered : found.value().covered) state.curve.uncovered.push_back(whole - covered);
+    state.curve.ends = found.value().ends;
+    return {};
+  }
+
+  SphereFitOptions fit_options(std::size_t count, unsigned threads) const {
+    SphereFitOptions options = options_.spheres;
+    options.count = count;
+    options.threads = threads;
+    return options;
   }
 
   /// The curve of a part and its spheres share the extractor, and so its medial spheres.
   const Extractor& extractor_of(std::size_t number) {
-    if (!extractors_[number]) extractors_[number] = kept_extractions(make_extractor_());
-    return extractors_[number];
+    Extractor& extractor = states_[number].extractor;
+    if (!extractor) extractor = kept_extractions(in_turn());
+    return extractor;
   }
 
-  StageProgress reporter() const {
-    return [this](const char* stage, double done) {
-      const double share = (static_cast<double>(done_) + done) / static_cast<double>(steps_);
-      if (progress_) progress_(stage, std::min(1.0, share));
+  /// An extractor that waits for those of the other parts: extractors need not be safe for several threads, and an
+  /// extraction has the device and its memory to itself.
+  Extractor in_turn() {
+    const std::lock_guard lock(extractions_);
+    return [this, extractor = make_extractor_()](const auto&... arguments) {
+      const std::lock_guard lock(extractions_);
+      return extractor(arguments...);
     };
   }
 
-  Status fit_part(std::size_t number, std::size_t count) {
+  StageProgress reporter(std::size_t number) {
+    return [this, number](const char* stage, double done) { progress_.report(number, stage, done); };
+  }
+
+  Status fit_part(std::size_t number, unsigned threads) {
     const Part& part = parts_[number];
+    PartState& state = states_[number];
     PartFit& fit = fits_[number];
-    fit.count = count;
+    fit.count = state.count;
     if (part.ball) {
       fit.levels = {{placed(part, *part.ball)}};
       fit.reach = {{}};
@@ -221,15 +258,19 @@ class Fitting {
     }
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    SphereFitOptions options = options_.spheres;
-    options.count = count;
-    Result<SphereFit> fitted = fit_spheres(*part.mesh, options, extractor_of(number), reporter(), stop_);
+    Result<SphereFit> fitted =
+        fit_spheres(*part.mesh, fit_options(state.count, threads), extractor_of(number), reporter(number), stop_);
     if (!fitted) return named(part, fitted.error());
-    extractors_[number] = {};
-    ++done_;
+    release_extractor(number);
+    progress_.finish(number);
     take(part, std::move(fitted).value(), fit);
     fit.measurements.seconds = stopwatch.lap();
     return {};
+  }
+
+  void release_extractor(std::size_t number) {
+    const std::lock_guard lock(extractions_);
+    states_[number].extractor = {};
   }
 
   /// Bounds the loss or gain of radii where balls are moved to the frame of the link. Earlier measurements then
@@ -299,11 +340,11 @@ class Fitting {
   std::span<const Part> parts_;
   PartFitOptions options_;
   const MakeExtractor& make_extractor_;
-  const StageProgress& progress_;
+  PartsProgress progress_;
   const std::stop_token& stop_;
-  std::vector<Extractor> extractors_;  // by part, while it is needed; else empty functions
+  std::mutex extractions_;
+  std::vector<PartState> states_;
   std::vector<PartFit> fits_;
-  std::size_t steps_ = 0, done_ = 0;  // approximations
 };
 
 /// Converts exceptions to errors.

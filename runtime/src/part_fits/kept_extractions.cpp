@@ -11,11 +11,13 @@ Extractor kept_extractions(Extractor extractor) {
   return [extractor = std::move(extractor), kept = std::make_shared<Kept>()](
              const IndexedMesh& mesh, const ExtractionOptions& options, const ProgressCallback& progress,
              const std::stop_token& stop) -> Result<Extraction> {
+    ExtractionOptions key = options;
+    key.threads = 0;  // no result depends on it
     for (const auto& [of, extraction] : *kept) {
-      if (of == options) return extraction;
+      if (of == key) return extraction;
     }
     Result<Extraction> extraction = extractor(mesh, options, progress, stop);
-    if (extraction.ok()) kept->emplace_back(options, extraction.value());
+    if (extraction.ok()) kept->emplace_back(key, extraction.value());
     return extraction;
   };
 }

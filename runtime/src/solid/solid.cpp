@@ -14,6 +14,9 @@ namespace {
 // other meshes away from 1/2.
 constexpr double kDoubt = 0.05;
 
+// Of sums of angles, each with an error of some 2^-50: far more than twenty million of them have.
+constexpr double kSharp = 2e-8;
+
 }  // namespace
 
 // The distance is the length of a difference of points that are themselves sums of at most three products: with
@@ -37,7 +40,10 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
       winding_(std::make_unique<WindingTree>(*triangles_)) {
   const Mesh& corners = mesh.prepared().mesh;
-  if (!mesh.prepared().report.closed) change_ = std::make_unique<WindingChange>(corners, MeshTopology(corners));
+  if (mesh.prepared().report.closed) return;
+  const MeshTopology topology(corners);
+  change_ = std::make_unique<WindingChange>(corners, topology);
+  closure_ = std::make_unique<WindingClosure>(corners, topology);
 }
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
@@ -49,20 +55,27 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
-bool Solid::contains(const Point& p) const {
-  const double winding = winding_->at(p);
-  if (mesh().report.closed || std::fabs(winding - 0.5) > kDoubt) return winding >= 0.5;
-  return exact_winding_number(mesh().mesh, p) >= 0.5;
+double Solid::sharpened(const Point& p, double rough) const {
+  if (closure_->size() < mesh().mesh.triangles.size()) return closure_->sharpened(p, rough);
+  return exact_winding_number(mesh().mesh, p);
 }
 
-SolidSide Solid::side_of_ball(const Point& centre, double radius) const {
-  if (distance(centre) <= radius + rounding()) return SolidSide::kUnknown;
-  const double winding = winding_->at(centre);
-  if (change_) {
-    const double most = std::fabs(winding - 0.5) - kDoubt;
-    if (most <= 0 || !change_->stays_within(centre, most, radius)) return SolidSide::kUnknown;
-  }
-  return winding >= 0.5 ? SolidSide::kInside : SolidSide::kOutside;
+bool Solid::contains(const Point& p) const {
+  const double rough = winding_->at(p);
+  if (!closure_ || std::fabs(rough - 0.5) > kDoubt) return rough >= 0.5;
+  return sharpened(p, rough) >= 0.5;
+}
+
+SolidSide Solid::side_around(const Point& p, double radius) const {
+  const double rough = winding_->at(p);
+  const auto side = [](double number) { return number >= 0.5 ? SolidSide::kInside : SolidSide::kOutside; };
+  const auto holds = [&](double number, double error) {
+    const double most = std::fabs(number - 0.5) - error;
+    return most > 0 && change_->stays_within(p, most, radius);
+  };
+  if (!change_ || holds(rough, kDoubt)) return side(rough);
+  const double sharp = sharpened(p, rough);
+  return holds(sharp, kSharp) ? side(sharp) : SolidSide::kUnknown;
 }
 
 double Solid::diagonal() const { return length(mesh().report.upper - mesh().report.lower); }

@@ -10,6 +10,7 @@
 #include "mesh/crossings/triangle_tree.h"
 #include "mesh/winding/winding_number.h"
 #include "mesh/winding_change.h"
+#include "mesh/winding_closure.h"
 
 namespace medial_vk {
 
@@ -36,9 +37,16 @@ class Solid {
   /// True if the winding number is at least 1/2. Both results are possible for points closer to the boundary than
   /// rounding().
   bool contains(const Point& p) const;
-  /// The side of a ball. Known if the boundary does not meet the ball and, on an open mesh, the winding number cannot
-  /// pass 1/2 in it (WindingChange). `radius` is positive.
-  SolidSide side_of_ball(const Point& centre, double radius) const;
+  /// True if the boundary may meet the ball.
+  bool may_meet(const Point& centre, double radius) const { return distance(centre) <= radius + rounding(); }
+  /// The side of all points to which a path leads from `p`, within `radius` of it, that does not meet the boundary.
+  /// Known for a closed mesh, and on an open one if the winding number cannot pass 1/2 on such paths (WindingChange).
+  /// `radius` is positive.
+  SolidSide side_around(const Point& p, double radius) const;
+  /// The side of a ball that the boundary does not meet.
+  SolidSide side_of_ball(const Point& centre, double radius) const {
+    return may_meet(centre, radius) ? SolidSide::kUnknown : side_around(centre, radius);
+  }
   /// Of the bounding box.
   double diagonal() const;
   /// True if the mesh bounds the solid and nothing else, so that its signed volume is the solid's. (It is closed, and
@@ -48,13 +56,17 @@ class Solid {
 
  private:
   Solid(const IndexedMesh& mesh, Bvh bvh);
+  /// The winding number of an open mesh at `p`, with an error of at most kSharp. `rough` is that of the tree.
+  double sharpened(const Point& p, double rough) const;
 
   IndexedMesh mesh_;
   Bvh bvh_;
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;
-  std::unique_ptr<WindingChange> change_;  // null: the mesh is closed
+  // Null: the mesh is closed.
+  std::unique_ptr<WindingChange> change_;
+  std::unique_ptr<WindingClosure> closure_;
 };
 
 }  // namespace medial_vk

@@ -178,5 +178,20 @@ TEST(SmallestBall, OfKnownPoints) {
   for (const Point& p : sphere) EXPECT_LE(length(p - ball.centre), ball.radius);
 }
 
+// In the opening of a mesh nothing but the winding number tells where the solid ends.
+TEST(EnvelopeDistance, OfAnOpenSolidHasTheSameTolerance) {
+  Mesh mesh = make_sphere(1, 400);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.vertices[t[0]][2] > 0.6; });
+  const Case open(std::move(mesh));
+  ASSERT_FALSE(open.mesh.report.closed);
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::vector<Ball> balls = random_balls(4, seed, 0.1, 0.3);
+    for (Ball& ball : balls) ball.centre = 2 * ball.centre - Point{1, 1, 1};
+    const EnvelopeDistances d = measure_distances(*open.solid, envelope_of(balls)).value();
+    EXPECT_LE(d.solid_to_balls.upper - d.solid_to_balls.lower, 1.01e-3 * open.solid->diagonal()) << seed;
+    EXPECT_GE(d.solid_to_balls.upper, d.boundary_to_balls.lower) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace medial_vk

@@ -130,8 +130,10 @@ class Measure {
       const double reach = cube.reach();
       const double distance = tree_.nearest(cube.centre).distance;
       if (distance + reach <= known + limits_.tolerance) return {kNone, distance + reach};
-      const bool is_inside = solid_.contains(cube.centre);
-      if (!is_inside && solid_.mesh().report.closed && !solid_.bvh().any_within(cube.centre, reach + slack_)) return {};
+      SolidSide side = SolidSide::kUnknown;
+      if (!solid_.bvh().any_within(cube.centre, reach + slack_)) side = solid_.side_around(cube.centre, reach + slack_);
+      if (side == SolidSide::kOutside) return {};
+      const bool is_inside = side == SolidSide::kInside || solid_.contains(cube.centre);
       return {is_inside ? distance : kNone, distance + reach};
     };
     return rounded(bound_supremum(std::vector<Cube>{cube_around(report.lower, report.upper)}, lower, limits_, evaluate,

@@ -83,6 +83,8 @@ class VolumeSampler {
 
  private:
   using Cell = std::array<std::size_t, 3>;
+  static constexpr std::size_t kCellsOfBlock = kBlock * kBlock * kBlock;
+  using BlockSides = std::array<SolidSide, kCellsOfBlock>;  // by place()
 
   Point corner(const Cell& cell) const {
     Point at = lower_;
@@ -99,18 +101,60 @@ class VolumeSampler {
     const SolidSide side = side_of(solid_, corner(from), corner(to) - corner(from));
     Volumes sum;
     if (side == SolidSide::kOutside) return sum;
-    for (std::size_t z = from[2]; z < to[2]; ++z) {
-      for (std::size_t y = from[1]; y < to[1]; ++y) {
-        threads.check();
-        for (std::size_t x = from[0]; x < to[0]; ++x) add_cell({x, y, z}, side, sum);
-      }
-    }
+    threads.check();
+    BlockSides sides;
+    sides.fill(side);
+    if (side == SolidSide::kUnknown) find_sides(from, to, sides);
+    for_cells(from, to, [&](const Cell& cell) { add_cell(cell, sides[place(from, cell)], sum); });
     return sum;
   }
 
+  /// Cells that touch face to face, and whose balls the boundary does not meet, lie on one side: one of them is tested.
+  void find_sides(const Cell& from, const Cell& to, BlockSides& sides) const {
+    const double of_cell = 0.5 * length(cell_), of_block = length(corner(to) - corner(from)) + of_cell;
+    std::array<bool, kCellsOfBlock> is_free{};
+    for_cells(from, to, [&](const Cell& c) { is_free[place(from, c)] = !solid_.may_meet(middle(c), of_cell); });
+    for_cells(from, to, [&](const Cell& first) {
+      if (!is_free[place(from, first)] || sides[place(from, first)] != SolidSide::kUnknown) return;
+      const SolidSide side = solid_.side_around(middle(first), of_block);
+      if (side == SolidSide::kUnknown) {
+        sides[place(from, first)] = solid_.side_around(middle(first), of_cell);
+        return;
+      }
+      std::vector<Cell> waiting = {first};
+      while (!waiting.empty()) {
+        const Cell cell = waiting.back();
+        waiting.pop_back();
+        sides[place(from, cell)] = side;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          for (const bool up : {false, true}) {
+            if (up ? cell[axis] + 1 == to[axis] : cell[axis] == from[axis]) continue;
+            Cell next = cell;
+            next[axis] = up ? cell[axis] + 1 : cell[axis] - 1;
+            if (is_free[place(from, next)] && sides[place(from, next)] == SolidSide::kUnknown) waiting.push_back(next);
+          }
+        }
+      }
+    });
+  }
+
+  static std::size_t place(const Cell& from, const Cell& cell) {
+    return cell[0] - from[0] + kBlock * (cell[1] - from[1] + kBlock * (cell[2] - from[2]));
+  }
+
+  template <class Visit>
+  static void for_cells(const Cell& from, const Cell& to, Visit visit) {
+    for (std::size_t z = from[2]; z < to[2]; ++z) {
+      for (std::size_t y = from[1]; y < to[1]; ++y) {
+        for (std::size_t x = from[0]; x < to[0]; ++x) visit(Cell{x, y, z});
+      }
+    }
+  }
+
+  Point middle(const Cell& cell) const { return corner(cell) + 0.5 * cell_; }
+
   void add_cell(const Cell& cell, SolidSide side, Volumes& sum) const {
     const Point lower = corner(cell);
-    if (side == SolidSide::kUnknown) side = side_of(solid_, lower, cell_);
     if (side == SolidSide::kOutside) return;
     const std::size_t number = cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]);
     std::array<bool, 2> in_solid, uncovered;
