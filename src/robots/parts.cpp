@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <utility>
 
+#include "base/parallel.h"
 #include "input/text_scanner.h"
 #include "medial_vk/prepare.h"
 #include "scene_files/read_mesh_file.h"
@@ -22,12 +24,13 @@ std::string short_name(const std::string& uri) {
 }
 
 /// A mirror inverts the orientation of triangles; prepare_mesh() would restore it, but only if all agree.
-void scale_mesh(const Point& scale, Mesh& mesh) {
+Mesh scaled(Mesh mesh, const Point& scale) {
   for (Point& p : mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] *= scale[axis];
   }
-  if (scale[0] * scale[1] * scale[2] > 0) return;
+  if (scale[0] * scale[1] * scale[2] > 0) return mesh;
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
 }
 
 bool is_finite(const Mesh& mesh) {
@@ -35,93 +38,129 @@ bool is_finite(const Mesh& mesh) {
       mesh.vertices, [](const Point& p) { return std::ranges::all_of(p, [](double x) { return std::isfinite(x); }); });
 }
 
+/// A part that has the mesh of a geometry.
+struct Use {
+  std::size_t part;
+  const Link* link;
+  const Geometry* geometry;
+};
+
+/// A mesh, and its uses by scale: it is read once, and prepared and indexed once for each scale.
+struct MeshOfParts {
+  std::string file;  // empty: a primitive
+  std::vector<std::pair<Point, std::vector<Use>>> uses;
+};
+
+/// The error of the first part, in their order, that has one.
+struct FirstError {
+  std::size_t part = ~std::size_t{0};
+  Status status;
+};
+
 class PartLoader {
  public:
   PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name, const PrepareOptions& options)
       : side_(side), places_(places), name_(name), options_(options) {}
 
-  Status add(const Link& link, const std::vector<Geometry>& geometries) {
-    for (std::size_t i = 0; i < geometries.size(); ++i) {
+  /// After an error no further geometry is added.
+  void add(const Link& link, const std::vector<Geometry>& geometries) {
+    for (std::size_t i = 0; i < geometries.size() && first_.status; ++i) {
       const Geometry& geometry = geometries[i];
-      Part part;
-      PartOrigin origin;
+      Part& part = loaded_.parts.emplace_back();
+      PartOrigin& origin = loaded_.origins.emplace_back();
       part.link = link.name;
       part.pose = geometry.origin;
       part.name = geometry.kind == GeometryKind::kMesh ? short_name(geometry.mesh) : fmt::format("primitive{}", i);
-      if (Status status = fill(geometry, part, origin); !status) {
-        const Error& error = status.error();
-        const auto line = static_cast<std::uint64_t>(std::max(geometry.line, 0));
-        Error named = line_error(name_, line, fmt::format("link {}: {}", quoted(link.name), error.message));
-        named.code = error.code;
-        return named;
-      }
-      loaded.parts.push_back(std::move(part));
-      loaded.origins.push_back(std::move(origin));
+      const Use use = {loaded_.parts.size() - 1, &link, &geometry};
+      if (Status status = add(use, part, origin); !status) first_ = {use.part, named(use, status.error())};
     }
-    return {};
   }
 
-  RobotParts loaded;
+  /// Reads, prepares and indexes the meshes, several at a time.
+  Result<RobotParts> load() {
+    const unsigned threads = thread_count(options_.threads);
+    PrepareOptions options = options_;
+    options.threads =
+        std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(meshes_.size(), 1, threads)));
+    std::mutex mutex;
+    parallel_for(meshes_.size(), 1, threads, [&](std::size_t i) {
+      FirstError error = load(meshes_[i], options);
+      const std::lock_guard lock(mutex);
+      if (!error.status && error.part < first_.part) first_ = std::move(error);
+    });
+    if (!first_.status) return first_.status.error();
+    return std::move(loaded_);
+  }
 
  private:
-  Status fill(const Geometry& geometry, Part& part, PartOrigin& origin) {
+  /// The message names the line of the geometry and the link.
+  Error named(const Use& use, const Error& error) const {
+    const auto line = static_cast<std::uint64_t>(std::max(use.geometry->line, 0));
+    Error named = line_error(name_, line, fmt::format("link {}: {}", quoted(use.link->name), error.message));
+    named.code = error.code;
+    return named;
+  }
+
+  Status add(const Use& use, Part& part, PartOrigin& origin) {
+    const Geometry& geometry = *use.geometry;
+    if (geometry.kind == GeometryKind::kMesh) return add_file(use, origin);
+    part.volume = primitive_volume(geometry);
     if (geometry.kind == GeometryKind::kSphere) {
       part.ball = Ball{{0, 0, 0}, geometry.size[0]};
-      part.volume = primitive_volume(geometry);
       return {};
     }
-    if (geometry.kind == GeometryKind::kMesh) return fill_from_file(geometry, part, origin);
     origin.facet_share = facet_share(geometry.kind);
-    part.volume = primitive_volume(geometry);
-    return index(make_primitive(geometry, side_), part);
-  }
-
-  Status fill_from_file(const Geometry& geometry, Part& part, PartOrigin& origin) {
-    Result<const Mesh*> file = mesh_file(geometry.mesh, origin.file);
-    if (!file) return file.error();
-    const auto key = std::make_pair(origin.file, geometry.scale);
-    const auto known = indexed_.find(key);
-    if (known != indexed_.end()) {
-      part.mesh = known->second;
-      return {};
-    }
-    Mesh mesh = *file.value();
-    scale_mesh(geometry.scale, mesh);
-    if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
-    if (Status status = index(std::move(mesh), part); !status) return status;
-    indexed_.emplace(key, *part.mesh);
+    meshes_.push_back({{}, {{{1, 1, 1}, {use}}}});
     return {};
   }
 
-  Status index(Mesh mesh, Part& part) const {
-    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options_);
-    if (!prepared) {
-      return Error{prepared.error().code, fmt::format("{}: {}", quoted(part.name), prepared.error().message)};
-    }
-    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = options_.threads});
-    if (!indexed) return indexed.error();
-    part.mesh = std::move(indexed).value();
-    return {};
-  }
-
-  /// Sets `found` to its path.
-  Result<const Mesh*> mesh_file(const std::string& uri, std::string& found) {
-    const Result<std::string> path = find_mesh(uri, places_);
+  Status add_file(const Use& use, PartOrigin& origin) {
+    const Result<std::string> path = find_mesh(use.geometry->mesh, places_);
     if (!path) return path.error();
-    found = path.value();
-    const auto known = files_.find(path.value());
-    if (known != files_.end()) return &known->second;
-    Result<Mesh> mesh = read_mesh_file(path.value());
-    if (!mesh) return mesh.error();
-    return &files_.emplace(path.value(), std::move(mesh).value()).first->second;
+    origin.file = path.value();
+    const auto [known, is_new] = of_file_.emplace(path.value(), meshes_.size());
+    if (is_new) meshes_.push_back({path.value(), {}});
+    auto& uses = meshes_[known->second].uses;
+    const Point& scale = use.geometry->scale;
+    const auto same = std::ranges::find_if(uses, [&](const auto& of_scale) { return of_scale.first == scale; });
+    if (same == uses.end()) {
+      uses.push_back({scale, {use}});
+    } else {
+      same->second.push_back(use);
+    }
+    return {};
+  }
+
+  FirstError load(const MeshOfParts& mesh, const PrepareOptions& options) {
+    const Use& first = mesh.uses.front().second.front();
+    Mesh primitive;
+    if (mesh.file.empty()) primitive = make_primitive(*first.geometry, side_);
+    const Result<Mesh> read = mesh.file.empty() ? std::move(primitive) : read_mesh_file(mesh.file);
+    if (!read) return {first.part, named(first, read.error())};
+    for (const auto& [scale, uses] : mesh.uses) {
+      const Result<IndexedMesh> indexed =
+          index(scaled(read.value(), scale), loaded_.parts[uses.front().part].name, options);
+      if (!indexed) return {uses.front().part, named(uses.front(), indexed.error())};
+      for (const Use& use : uses) loaded_.parts[use.part].mesh = indexed.value();
+    }
+    return {};
+  }
+
+  static Result<IndexedMesh> index(Mesh mesh, const std::string& name, const PrepareOptions& options) {
+    if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
+    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options);
+    if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", quoted(name), prepared.error().message)};
+    return IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
   }
 
   FacetSide side_;
   const MeshPlaces& places_;
   const std::string& name_;
   const PrepareOptions& options_;
-  std::map<std::string, Mesh> files_;
-  std::map<std::pair<std::string, Point>, IndexedMesh> indexed_;  // by file and scale
+  RobotParts loaded_;
+  FirstError first_;
+  std::vector<MeshOfParts> meshes_;             // by their first uses
+  std::map<std::string, std::size_t> of_file_;  // indices of meshes_
 };
 
 }  // namespace
@@ -129,14 +168,13 @@ class PartLoader {
 Result<RobotParts> load_parts(const Robot& robot, bool visual, FacetSide side, const MeshPlaces& places,
                               const std::string& name, const PrepareOptions& options) {
   PartLoader loader(side, places, name, options);
-  for (const Link& link : robot.links) {
-    if (Status status = loader.add(link, visual ? link.visual : link.collision); !status) return status.error();
-  }
-  if (loader.loaded.parts.empty()) {
+  for (const Link& link : robot.links) loader.add(link, visual ? link.visual : link.collision);
+  Result<RobotParts> loaded = loader.load();
+  if (loaded.ok() && loaded.value().parts.empty()) {
     return file_error(name, fmt::format("no link has a <{}>; try {}", visual ? "visual" : "collision",
                                         visual ? "--collision" : "--visual"));
   }
-  return std::move(loader.loaded);
+  return loaded;
 }
 
 }  // namespace medial_vk

@@ -192,6 +192,29 @@ TEST_F(FitParts, ABallBesideItsOriginIsPlacedForTheContract) {
   }
 }
 
+TEST_F(FitParts, ResultsDoNotDependOnThreads) {
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  options_.total = 14;
+  std::vector<std::pair<Point, double>> before;
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    options_.threads = threads;
+    double last = 0;
+    const Result<std::vector<PartFit>> fits =
+        fit_parts(parts_, options_, reference_extractor(), [&](const char*, double done) { last = done; });
+    ASSERT_TRUE(fits.ok()) << fits.error().message;
+    EXPECT_GT(last, 0.9);
+    std::vector<std::pair<Point, double>> balls;
+    for (const PartFit& fit : fits.value()) {
+      for (const Ball& ball : fit.levels.back()) balls.emplace_back(ball.centre, ball.radius);
+    }
+    if (threads > 1) {
+      EXPECT_EQ(balls, before) << threads;
+    }
+    before = balls;
+  }
+}
+
 // The curve of a part and its spheres start from the same medial spheres.
 TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
   for (const SphereMethod method : {SphereMethod::kBest, SphereMethod::kSource}) {

@@ -111,9 +111,11 @@ class RobotFiles : public testing::Test {
     return file ? fs::weakly_canonical(file.value()).string() : file.error().message;
   }
 
-  Result<RobotParts> load(const Geometry& geometry) const {
+  Result<RobotParts> load(const Geometry& geometry) const { return load(std::vector{geometry}); }
+
+  Result<RobotParts> load(const std::vector<Geometry>& geometries) const {
     Robot robot;
-    robot.links.push_back({"link", {geometry}, {}});
+    robot.links.push_back({"link", geometries, {}});
     const Result<MeshPlaces> places = mesh_places(path("arm/urdf/arm.urdf"), {});
     return load_parts(robot, false, FacetSide::kInscribed, places.value(), "arm.urdf");
   }
@@ -159,6 +161,32 @@ TEST_F(RobotFiles, ScalesAreApplied) {
   EXPECT_EQ(part.mesh->prepared().report.upper, (Point{2, 0, 1.5}));
   EXPECT_NEAR(part.mesh->prepared().report.signed_volume, 6, 1e-12);
   EXPECT_FALSE(part.mesh->prepared().report.inside_out);
+}
+
+TEST_F(RobotFiles, AMeshIsPreparedOnceForEachScale) {
+  Geometry geometry, doubled;
+  geometry.mesh = doubled.mesh = "../meshes/box.obj";
+  doubled.scale = {2, 2, 2};
+  const Result<RobotParts> parts = load(std::vector{geometry, doubled, geometry});
+  ASSERT_TRUE(parts.ok()) << parts.error().message;
+  const std::vector<Part>& all = parts.value().parts;
+  EXPECT_EQ(&all[0].mesh->prepared(), &all[2].mesh->prepared());
+  EXPECT_EQ(all[0].mesh->prepared().report.upper, (Point{1, 2, 3}));
+  EXPECT_EQ(all[1].mesh->prepared().report.upper, (Point{2, 4, 6}));
+}
+
+// Meshes are read side by side; a file that does not exist is noticed before.
+TEST_F(RobotFiles, TheFirstFaultIsReported) {
+  write("arm/meshes/bad.obj", "v 1 2\n");
+  write("arm/meshes/worse.obj", "v 1\n");
+  std::vector<Geometry> geometries(5);
+  geometries[0].mesh = geometries[1].mesh = "../meshes/box.obj";
+  geometries[2].mesh = "../meshes/bad.obj";
+  geometries[3].mesh = "../meshes/worse.obj";
+  geometries[4].mesh = "../meshes/none.obj";
+  EXPECT_THAT(load(geometries).error().message, HasSubstr("bad.obj:1"));
+  std::swap(geometries[0], geometries[4]);
+  EXPECT_THAT(load(geometries).error().message, HasSubstr("none.obj"));
 }
 
 TEST_F(RobotFiles, ColladaIsReadInMetresAndInItsOwnAxes) {
