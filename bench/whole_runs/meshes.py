@@ -13,7 +13,9 @@ TURTLES = {"turtle-6k": 52, "turtle-24k": 104, "turtle-96k": 208, "turtle-1m": 6
 # Kind and triangles of meshes with what scans have (bench/scans/make_scan.cpp).
 SCANS = {"bust-24k": ("bust", 24_092), "bust-96k": ("bust", 95_936), "creature-6k": ("creature", 6_000),
          "creature-65k": ("creature", 65_000)}
-GENERATED = ["torus-16k", *TURTLES, *SCANS]
+# The triangles of figures of overlapping and open parts (bench/assemblies/make_figure.cpp), and what else they have.
+FIGURES = {"figure-124k": (124_000, []), "figure-124k-sheets": (124_000, ["sheets"])}
+GENERATED = ["torus-16k", *TURTLES, *SCANS, *FIGURES]
 EXTENSIONS = (".obj", ".ply", ".stl", ".off")
 
 
@@ -48,6 +50,10 @@ def make(name, folder, programs):
     elif name in SCANS:
         kind, triangles = SCANS[name]
         subprocess.run([programs / "bench_make_scan", kind, path, str(triangles)], check=True,
+                       stdout=subprocess.DEVNULL)
+    elif name in FIGURES:
+        triangles, rest = FIGURES[name]
+        subprocess.run([programs / "bench_make_figure", path, str(triangles), *rest], check=True,
                        stdout=subprocess.DEVNULL)
     else:
         raise SystemExit(f"there is no mesh named {name}; there are {', '.join(GENERATED)}")
