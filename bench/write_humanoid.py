@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes a humanoid robot of 22 links, a URDF with a binary STL file for each link, as robots are often exported:
-   bench/write_humanoid.py FOLDER [TRIANGLES]      (default: 3,900 of each link)
+"""Writes a humanoid robot of 22 links, a URDF with a binary STL file for each link:
+   bench/write_humanoid.py FOLDER [TRIANGLES]      (of each link, about; default: 3,900)
 Every link is a shell that is open where it meets the next link, bumpy, with ribs and a motor that cross it, screws that
 lie in it and a plate without thickness. So no mesh is closed, and many faces lie inside the solid."""
 import math
@@ -13,7 +13,8 @@ LINKS = [("pelvis", None, (.09, .13, .08), (0, 0, 0)),
          ("waist", "pelvis", (.06, .08, .06), (0, 0, .1)), ("torso", "waist", (.1, .16, .2), (0, 0, .22)),
          ("neck", "torso", (.04, .04, .05), (0, 0, .24)), ("head", "neck", (.09, .08, .12), (0, 0, .14))]
 # Half axes and the place on the parent, of the left side.
-LIMBS = [("shoulder", "torso", (.05, .06, .05), (0, .2, .15)), ("upper_arm", "shoulder", (.05, .05, .14), (0, .05, -.14)),
+LIMBS = [("shoulder", "torso", (.05, .06, .05), (0, .2, .15)),
+         ("upper_arm", "shoulder", (.05, .05, .14), (0, .05, -.14)),
          ("elbow", "upper_arm", (.04, .04, .05), (0, 0, -.16)), ("forearm", "elbow", (.04, .045, .13), (0, 0, -.15)),
          ("hand", "forearm", (.03, .05, .09), (0, 0, -.2)), ("thigh", "pelvis", (.08, .08, .2), (0, .1, -.24)),
          ("shin", "thigh", (.06, .06, .2), (0, 0, -.4)), ("foot", "shin", (.12, .05, .04), (.04, 0, -.24))]

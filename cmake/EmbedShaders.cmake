@@ -15,9 +15,9 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# `spirv-opt -O` merges the returns of such functions, by a switch of one case around each body, and inlines them. With this,
-# the SPIR-V compiler of NVIDIA (driver 580) crashes in judge_pairs, at the loop over the pieces of a triangle. So these are
-# the passes of -O without merge-return.
+# `spirv-opt -O` merges the returns of such functions, by a switch of one case around each body, and inlines them. With
+# this, the SPIR-V compiler of NVIDIA (driver 580) crashes in judge_pairs, at the end of one of its loops. So these are the
+# passes of -O of SPIRV-Tools 2023.1 without merge-return.
 set(MEDIAL_VK_CALLING_PASSES
   --wrap-opkill --eliminate-dead-branches --inline-entry-points-exhaustive --eliminate-dead-functions
   --eliminate-dead-code-aggressive --private-to-local --eliminate-local-single-block --eliminate-local-single-store

@@ -21,6 +21,12 @@ class BinaryOffReader {
   BinaryOffReader(std::string_view bytes, std::uint64_t floats, const std::string& name)
       : bytes_(bytes), floats_(floats), name_(name) {}
 
+  Status read_dimension() {
+    if (words_left() == 0) return error("file ends before its dimension");
+    const std::uint32_t dimension = next();
+    return dimension == 3 ? Status{} : error(fmt::format("{} dimensions: only three can be read", dimension));
+  }
+
   Result<Mesh> read() {
     if (const Status status = read_counts(); !status) return status.error();
     if (const Status status = read_vertices(); !status) return status.error();
@@ -54,6 +60,7 @@ class BinaryOffReader {
       return error(fmt::format("header declares {} vertices and {} faces, more than the {} bytes that follow can hold",
                                vertices_, faces_, bytes_.size() - at_));
     }
+    if (vertices_ > kMaxVertices) return error(fmt::format("{} vertices are too many", vertices_));
     return {};
   }
 
@@ -107,7 +114,11 @@ Result<Mesh> read_binary_off(std::string_view bytes, std::string_view keyword, c
   if (keyword.find('N') != std::string_view::npos) floats += 3;
   if (keyword.find('C') != std::string_view::npos) floats += 4;
   if (keyword.find("ST") != std::string_view::npos) floats += 2;
-  return BinaryOffReader(bytes, floats, name).read();
+  BinaryOffReader reader(bytes, floats, name);
+  if (keyword.find('n') != std::string_view::npos) {
+    if (const Status status = reader.read_dimension(); !status) return status.error();
+  }
+  return reader.read();
 }
 
 }  // namespace medial_vk

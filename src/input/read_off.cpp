@@ -39,7 +39,7 @@ class OffReader {
       word = next();
       is_binary_ = word == "BINARY";
       const bool has_dimension = keyword_.find('n') != std::string_view::npos;
-      if (keyword_.find('4') != std::string_view::npos || (has_dimension && word != "3")) {
+      if (keyword_.find('4') != std::string_view::npos || (has_dimension && !is_binary_ && word != "3")) {
         return error(fmt::format("{}: only three dimensions can be read", quoted(keyword_)));
       }
       if (is_binary_) {

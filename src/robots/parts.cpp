@@ -84,6 +84,10 @@ class PartLoader {
         std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(meshes_.size(), 1, threads)));
     std::mutex mutex;
     parallel_for(meshes_.size(), 1, threads, [&](std::size_t i) {
+      {
+        const std::lock_guard lock(mutex);
+        if (first_part(meshes_[i]) > first_.part) return;
+      }
       FirstError error = load(meshes_[i], options);
       const std::lock_guard lock(mutex);
       if (!error.status && error.part < first_.part) first_ = std::move(error);
@@ -93,6 +97,8 @@ class PartLoader {
   }
 
  private:
+  static std::size_t first_part(const MeshOfParts& mesh) { return mesh.uses.front().second.front().part; }
+
   /// The message names the line of the geometry and the link.
   Error named(const Use& use, const Error& error) const {
     const auto line = static_cast<std::uint64_t>(std::max(use.geometry->line, 0));
@@ -138,8 +144,12 @@ class PartLoader {
     const Result<Mesh> read = mesh.file.empty() ? std::move(primitive) : read_mesh_file(mesh.file);
     if (!read) return {first.part, named(first, read.error())};
     for (const auto& [scale, uses] : mesh.uses) {
-      const Result<IndexedMesh> indexed =
-          index(scaled(read.value(), scale), loaded_.parts[uses.front().part].name, options);
+      Mesh of_scale = scaled(read.value(), scale);
+      if (!mesh.file.empty() && !is_finite(of_scale)) {
+        return {uses.front().part,
+                named(uses.front(), {ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"})};
+      }
+      const Result<IndexedMesh> indexed = index(std::move(of_scale), loaded_.parts[uses.front().part].name, options);
       if (!indexed) return {uses.front().part, named(uses.front(), indexed.error())};
       for (const Use& use : uses) loaded_.parts[use.part].mesh = indexed.value();
     }
@@ -147,7 +157,6 @@ class PartLoader {
   }
 
   static Result<IndexedMesh> index(Mesh mesh, const std::string& name, const PrepareOptions& options) {
-    if (!is_finite(mesh)) return Error{ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options);
     if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", quoted(name), prepared.error().message)};
     return IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});

@@ -69,8 +69,9 @@ struct ContextOptions {
   /// Vulkan's source of host memory; null: the default of its driver. It must stay valid until the context is
   /// destroyed, and be callable from several threads at once (programs are compiled on `threads` threads).
   const VkAllocationCallbacks* allocation_callbacks = nullptr;
-  /// Called when a call requires programs that the context does not have yet: an extraction or a job for all of them,
-  /// queries of scenes and unions of balls for one after the other.
+  /// Called when a call requires programs that the context does not have yet: by an extraction or a job for all of
+  /// them, by queries of scenes and by unions of balls for each program. It may be called while a progress callback of
+  /// the same call runs on another thread.
   ProgramsProgress programs_progress = nullptr;
 };
 

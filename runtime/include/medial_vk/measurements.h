@@ -64,7 +64,8 @@ struct ExtractionMeasurements {
 
 /// Measurements of the fit of one part.
 struct FitMeasurements {
-  /// Wall-clock time, without the distribution of balls among parts. Parts that are fitted side by side share cores.
+  /// Wall-clock time, without the distribution of balls among parts. Parts that are fitted side by side share the
+  /// cores, and wait for each other's extractions.
   double seconds = 0;
 };
 

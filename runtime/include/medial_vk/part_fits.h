@@ -76,11 +76,12 @@ struct PartFit {
 /// With the method best, a larger number gives no part fewer balls and, with contract inside, no part a larger error.
 ///
 /// Up to `threads` parts are fitted side by side. `extractor` is called once for each part and ExtractionOptions, one
-/// call at a time but from any thread. `progress` is called with the stages of fit_spheres() and the finished share of
-/// all parts, likewise; a request to `stop` soon ends the call. Does not throw. Errors: those of fit_spheres(), with
-/// the names of link and part; kUsage (fewer balls than parts, both `count_per_link` and `total`, a part with neither
-/// mesh nor ball or with both, a pose that is no rigid motion, a radius or volume that is not positive and finite);
-/// kInvalidMesh (a part too far from the origin of its link for double precision).
+/// call at a time but from any thread. Extractions of parts among which balls are distributed are kept until these are
+/// fitted. `progress` is called with the stages of fit_spheres() and the finished share of all parts, one call at a
+/// time but from any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of fit_spheres(),
+/// with the names of link and part; kUsage (fewer balls than parts, both `count_per_link` and `total`, a part with
+/// neither mesh nor ball or with both, a pose that is no rigid motion, a radius or volume that is not positive and
+/// finite); kInvalidMesh (a part too far from the origin of its link for double precision).
 Result<std::vector<PartFit>> fit_parts(std::span<const Part> parts, const PartFitOptions& options,
                                        const Extractor& extractor, const StageProgress& progress = {},
                                        const std::stop_token& stop = {});

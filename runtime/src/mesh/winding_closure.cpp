@@ -8,7 +8,7 @@
 namespace medial_vk {
 
 WindingClosure::WindingClosure(const Mesh& mesh, const MeshTopology& topology) {
-  Point sum = {0, 0, 0};
+  Point sum = {0, 0, 0}, reach = {0, 0, 0};
   for (std::uint32_t edge = 0; edge < topology.edge_count(); ++edge) {
     const auto balance = static_cast<double>(balance_at(mesh, topology, edge));
     if (balance == 0) continue;
@@ -16,15 +16,20 @@ WindingClosure::WindingClosure(const Mesh& mesh, const MeshTopology& topology) {
     // Against the direction in which the mesh traverses the edge more often.
     triangles_.push_back({{balance > 0 ? to : from, balance > 0 ? from : to, {}}, std::fabs(balance)});
     sum = sum + 0.5 * (from + to);
+    reach = greatest(reach, greatest(from - to, to - from));
   }
-  const Point apex = (1.0 / static_cast<double>(std::max<std::size_t>(1, triangles_.size()))) * sum;
+  // Not in the mean of the edges: searches on symmetric meshes begin there.
+  const Point mean = (1.0 / static_cast<double>(std::max<std::size_t>(1, triangles_.size()))) * sum;
+  const Point apex = mean + Point{0.311 * reach[0], 0.173 * reach[1], 0.237 * reach[2]};
   for (Closing& triangle : triangles_) triangle.corners[2] = apex;
 }
 
-double WindingClosure::sharpened(const Point& p, double rough) const {
+std::optional<double> WindingClosure::sharpened(const Point& p, double rough, double doubt) const {
   CompensatedSum added;
   for (const Closing& triangle : triangles_) added.add(triangle.times * triangle_winding(triangle.corners, p));
-  return std::round(rough + added.value()) - added.value();
+  const double whole = rough + added.value(), integer = std::round(whole);
+  if (std::fabs(whole - integer) > doubt) return std::nullopt;
+  return integer - added.value();
 }
 
 }  // namespace medial_vk

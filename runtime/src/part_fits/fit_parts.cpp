@@ -55,7 +55,7 @@ double enclosed_with_middle(const PreparedMesh& mesh) {
 
 /// The present knowledge about a part.
 struct PartState {
-  std::size_t count = 0;         // of its balls; 0: not known yet, or not prescribed
+  std::size_t count = 0;         // of its balls, or of its group until they are distributed; 0: other goals give it
   std::size_t curve_length = 0;  // that is required
   NeedCurve curve;
   Extractor extractor;  // while it is needed; else an empty function
@@ -88,9 +88,10 @@ class Fitting {
       if (Status status = check(group); !status) return status.error();
       for (const std::size_t part : group.parts) states_[part].count = group.balls;
     }
-    if (Status status = count_by_need(groups); !status) return status.error();
     std::vector<std::size_t> all(parts_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
+    expect(all);
+    if (Status status = count_by_need(groups); !status) return status.error();
     if (Status status = work_on(all, &Fitting::fit_part); !status) return status.error();
     align_levels();
     return std::move(fits_);
@@ -142,9 +143,12 @@ class Fitting {
                              parts, group.balls)};
   }
 
-  Status work_on(const std::vector<std::size_t>& numbers, Status (Fitting::*work)(std::size_t, unsigned)) {
+  void expect(const std::vector<std::size_t>& numbers) {
     const auto is_mesh = [&](std::size_t number) { return !parts_[number].ball; };
     progress_.expect(static_cast<std::size_t>(std::ranges::count_if(numbers, is_mesh)));
+  }
+
+  Status work_on(const std::vector<std::size_t>& numbers, Status (Fitting::*work)(std::size_t, unsigned)) {
     return work_side_by_side(parts_, numbers, options_.threads,
                              [&](std::size_t number, unsigned threads) { return (this->*work)(number, threads); });
   }
@@ -162,6 +166,7 @@ class Fitting {
     }
     std::ranges::sort(curves);
     while (!curves.empty()) {
+      expect(curves);
       if (Status status = work_on(curves, &Fitting::find_curve); !status) return status;
       curves.clear();
       for (const Group& group : groups) {
@@ -231,13 +236,19 @@ class Fitting {
   }
 
   /// An extractor that waits for those of the other parts: extractors need not be safe for several threads, and an
-  /// extraction has the device and its memory to itself.
+  /// extraction has the device and its memory to itself. It has all threads, as the others mostly wait for it.
   Extractor in_turn() {
-    const std::lock_guard lock(extractions_);
-    return [this, extractor = make_extractor_()](const auto&... arguments) {
+    return [this, extractor = made_extractor()](const IndexedMesh& mesh, ExtractionOptions options,
+                                                const ProgressCallback& progress, const std::stop_token& stop) {
       const std::lock_guard lock(extractions_);
-      return extractor(arguments...);
+      options.threads = options_.threads;
+      return extractor(mesh, options, progress, stop);
     };
+  }
+
+  Extractor made_extractor() {
+    const std::lock_guard lock(extractions_);
+    return make_extractor_();
   }
 
   StageProgress reporter(std::size_t number) {

@@ -25,7 +25,9 @@ class PartsProgress {
     const std::lock_guard lock(mutex_);
     sum_ += done - shares_[part];
     shares_[part] = done;
-    if (callback_) callback_(stage, std::clamp(sum_ / static_cast<double>(std::max<std::size_t>(1, steps_)), 0.0, 1.0));
+    // A step may begin again, and further steps may be expected: the reported share never falls.
+    greatest_ = std::clamp(sum_ / static_cast<double>(std::max<std::size_t>(1, steps_)), greatest_, 1.0);
+    if (callback_) callback_(stage, greatest_);
   }
 
   /// Ends the present step of `part`.
@@ -40,6 +42,7 @@ class PartsProgress {
   std::mutex mutex_;
   std::size_t steps_ = 0;  // an approximation: curves may have to be continued
   double sum_ = 0;         // of finished steps and of shares_
+  double greatest_ = 0;    // share reported so far
   std::vector<double> shares_;
 };
 

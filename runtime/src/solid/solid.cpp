@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/point_ops.h"
@@ -14,8 +15,9 @@ namespace {
 // other meshes away from 1/2.
 constexpr double kDoubt = 0.05;
 
-// Of sums of angles, each with an error of some 2^-50: far more than twenty million of them have.
-constexpr double kSharp = 2e-8;
+// Above the rounding of a sum of millions of angles, each with an error of some 2^-50, or some 2^-50 over the distance
+// from an edge of its triangle as a share of its size where that is less than 1.
+constexpr double kSharp = 1e-6;
 
 }  // namespace
 
@@ -56,7 +58,9 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
 double Solid::sharpened(const Point& p, double rough) const {
-  if (closure_->size() < mesh().mesh.triangles.size()) return closure_->sharpened(p, rough);
+  if (closure_->size() < mesh().mesh.triangles.size()) {
+    if (const std::optional<double> sharp = closure_->sharpened(p, rough, kDoubt)) return *sharp;
+  }
   return exact_winding_number(mesh().mesh, p);
 }
 
@@ -74,6 +78,8 @@ SolidSide Solid::side_around(const Point& p, double radius) const {
     return most > 0 && change_->stays_within(p, most, radius);
   };
   if (!change_ || holds(rough, kDoubt)) return side(rough);
+  // No number that the rough one permits has a margin.
+  if (!change_->stays_within(p, std::fabs(rough - 0.5) + kDoubt, radius)) return SolidSide::kUnknown;
   const double sharp = sharpened(p, rough);
   return holds(sharp, kSharp) ? side(sharp) : SolidSide::kUnknown;
 }

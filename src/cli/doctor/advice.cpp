@@ -151,8 +151,8 @@ class Adviser {
     if (in_container && has_file) {
       say("NVIDIA's driver for Vulkan is in this container, but finds no device. The image lacks libraries that it "
           "loads (Debian and Ubuntu: apt install libegl1 libgl1 libxext6), or the container lacks the capability "
-          "\"graphics\": docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility ... No display "
-          "and no X server is needed.");
+          "\"graphics\": docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility ... "
+          "Neither a display nor an X server is needed.");
     } else if (in_container) {
       say("The NVIDIA card is not usable in this container, which has no driver file of NVIDIA. It needs the NVIDIA "
           "Container Toolkit, and the capability \"graphics\": docker run --gpus all -e "

@@ -48,6 +48,7 @@ void Progress::draw(const std::string& line) {
 }
 
 void Progress::update(const char* stage, double done) {
+  const std::lock_guard lock(mutex_);
   if (!drawing_) return;
   const Clock::time_point now = Clock::now();
   const bool new_stage = stage_ != stage;
@@ -60,10 +61,12 @@ void Progress::update(const char* stage, double done) {
 }
 
 void Progress::update_count(const char* stage, std::size_t done, std::size_t total) {
+  const std::lock_guard lock(mutex_);
   if (drawing_ && (done == 0 || Clock::now() - last_drawn_ >= kInterval)) draw(count_line(stage, done, total));
 }
 
 void Progress::clear() {
+  const std::lock_guard lock(mutex_);
   if (!visible_) return;
   std::fputs("\r\033[K", stderr);
   std::fflush(stderr);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <mutex>
 #include <string>
 
 namespace medial_vk::cli {
@@ -14,6 +15,7 @@ std::string progress_line(const std::string& stage, double done, double elapsed)
 /// "programs   [============            ] 12 of 29".
 std::string count_line(const std::string& stage, std::size_t done, std::size_t total);
 
+/// The functions may be called from any thread: programs are compiled while other parts of a robot are fitted.
 class Progress {
  public:
   /// Draws only if `requested` and standard error is a terminal.
@@ -36,6 +38,7 @@ class Progress {
 
   using Clock = std::chrono::steady_clock;
 
+  std::mutex mutex_;  // of all that follows
   bool requested_;
   bool drawing_;
   bool visible_ = false;

@@ -139,6 +139,12 @@ TEST(ReadBinaryOff, Variants) {
   }
 }
 
+TEST(ReadBinaryOff, TheDimensionIsANumberOfItsOwn) {
+  const std::string body = binary_off("OFF", "").substr(11);
+  EXPECT_EQ(read_text("nOFF BINARY\n" + integers({3}) + body, "a.off").triangles.size(), 2u);
+  EXPECT_EQ(message_of("nOFF BINARY\n" + integers({4}) + body, "a.off"), "a.off: 4 dimensions: only three can be read");
+}
+
 TEST(ReadBinaryOff, Messages) {
   const std::string whole = binary_off("OFF", "");
   for (std::size_t size = 11; size < whole.size(); ++size) {  // every cut

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -231,6 +232,26 @@ TEST_F(FitParts, ExtractsEachGridOfAPartOnce) {
     EXPECT_GE(runs.size(), 2u);
     for (const auto& [grid, count] : runs) EXPECT_EQ(count, 1) << grid.first << " at " << grid.second;
   }
+}
+
+TEST_F(FitParts, ExtractsOneAtATimeAndItsProgressNeverFalls) {
+  options_.total = 14;
+  options_.threads = 4;
+  std::atomic<int> extracting = 0;
+  const Extractor alone = [&, extractor = reference_extractor()](const auto&... arguments) {
+    EXPECT_EQ(extracting++, 0);
+    auto extraction = extractor(arguments...);
+    --extracting;
+    return extraction;
+  };
+  double last = 0;
+  const auto on_progress = [&](const char*, double done) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1);
+    last = done;
+  };
+  ASSERT_TRUE(fit_parts(parts_, options_, alone, on_progress).ok());
+  EXPECT_GT(last, 0.9);
 }
 
 TEST_F(FitParts, StopsOnRequest) {

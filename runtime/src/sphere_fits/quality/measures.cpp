@@ -109,7 +109,8 @@ class VolumeSampler {
     return sum;
   }
 
-  /// Cells that touch face to face, and whose balls the boundary does not meet, lie on one side: one of them is tested.
+  /// Of cells that touch face to face and whose balls the boundary does not meet, one is tested for all: paths in these
+  /// balls join them, within a radius that holds the block.
   void find_sides(const Cell& from, const Cell& to, BlockSides& sides) const {
     const double of_cell = 0.5 * length(cell_), of_block = length(corner(to) - corner(from)) + of_cell;
     std::array<bool, kCellsOfBlock> is_free{};
