@@ -104,7 +104,8 @@ function(medial_vk_embed_shaders target shared_dir)
       add_custom_command(OUTPUT ${spv}
         COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 ${defines} -I${shared_dir} -I${shared_dir}/types
                 -o ${spv}.raw ${source}
-        COMMAND ${SPIRV_OPT} ${passes} ${spv}.raw -o ${spv}
+        COMMAND ${CMAKE_COMMAND} -P ${PROJECT_SOURCE_DIR}/cmake/RunQuietly.cmake --
+                ${SPIRV_OPT} ${passes} ${spv}.raw -o ${spv}
         COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spv}
         BYPRODUCTS ${spv}.raw
         DEPENDS ${source} ${includes}
