@@ -1,6 +1,8 @@
 #include "mesh/winding_closure.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/point_ops.h"
 #include "mesh/winding/winding_number.h"

@@ -15,8 +15,8 @@ namespace {
 // other meshes away from 1/2.
 constexpr double kDoubt = 0.05;
 
-// Above the rounding of a sum of millions of angles, each with an error of some 2^-50, or some 2^-50 over the distance
-// from an edge of its triangle as a share of its size where that is less than 1.
+// Above the rounding of a sum of a million angles, each with an error of some 2^-50. The angle of a triangle has a
+// greater error next to one of its edges: at a distance of s times its size, some 2^-50 / s.
 constexpr double kSharp = 1e-6;
 
 }  // namespace
