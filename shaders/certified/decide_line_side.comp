@@ -11,6 +11,7 @@
 #include "tree/triangles.glsl"
 #include "tree/tree.glsl"
 #include "tree/winding.glsl"
+#include "tree/signed_crossings.glsl"
 
 layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) readonly buffer Lines { Line lines[]; };
@@ -33,7 +34,8 @@ bool is_inside_by_tree(vec3 point) {
 
 bool is_inside(vec3 point) {
   if (kIsOpen && step.open_edges > kMostOpenEdges) return is_inside_by_tree(point);
-  Winding w = exact_winding_number(winding_number(point, kRoughTolerance), closure_at(point, 0.0));
+  vec3 direction = direction_out(point);
+  Winding w = accurate_winding_number(point, direction, closure_at(point, 0.0, direction));
   return w.complete && w.number - 0.5 >= w.bound;
 }
 

@@ -12,6 +12,7 @@
 #include "tree/triangles.glsl"
 #include "tree/tree.glsl"
 #include "tree/winding.glsl"
+#include "tree/signed_crossings.glsl"
 
 layout(set = 0, binding = 7) readonly buffer OpenEdges { OpenEdge open_edges[]; };
 #include "certified/closure.glsl"

@@ -11,6 +11,7 @@
 #include "tree/triangles.glsl"
 #include "tree/tree.glsl"
 #include "tree/winding.glsl"
+#include "tree/signed_crossings.glsl"
 
 layout(set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(set = 0, binding = 3) buffer Cells { Cell cells[]; };
@@ -27,11 +28,12 @@ void main() {
   vec3 centre = cell_centre(uvec3(cell.x, cell.y, cell.z));
   if (length(vector_to_triangle(centre, load_triangle(cell.nearest))) <= 4.0 * step.slack) return;
   float radius = 3.0 * step.circumradius + step.slack;
-  Closure closure = closure_at(centre, radius);
+  vec3 direction = direction_out(centre);
+  Closure closure = closure_at(centre, radius, direction);
   float bent = length(closure.gradient) + 2e-3 * closure.slope + 2.0 * (radius + step.slack) * closure.bend;
   float change = step.circumradius * min(closure.slope, bent);
   if (!(change < kMostChange)) return;
-  Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
+  Winding w = accurate_winding_number(centre, direction, closure);
   COUNT_LONG(kNodeTestCount, tested_nodes);
   COUNT_TESTS(tested_triangles);
   if (!w.complete || w.bound > 0.1) return;

@@ -1,23 +1,49 @@
 #include "solid/solid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/point_ops.h"
 #include "bvh/refined_tree.h"
+#include "bvh/signed_crossings.h"
 
 namespace medial_vk {
 namespace {
 
-// The error of the tree of winding numbers is at most 0.03, which suffices for the integer of a closed mesh, and for
-// other meshes away from 1/2.
+// The error of a winding number by a tree is at most 0.03, which suffices away from 1/2.
 constexpr double kDoubt = 0.05;
 
 // Above the rounding of a sum of a million angles, each with an error of some 2^-50. The angle of a triangle has a
 // greater error next to one of its edges: at a distance of s times its size, some 2^-50 / s.
 constexpr double kSharp = 1e-6;
+
+// A ray that passes an edge passes none in most other directions.
+constexpr std::array<std::array<double, 2>, 4> kAcross = {
+    {{0.1373, 0.2917}, {-0.2339, 0.1713}, {0.3191, -0.1131}, {-0.0729, -0.3571}}};
+
+/// Mostly along the axis along which the box ends soonest.
+Point direction_out(const BvhBox& box, const Point& p, const std::array<double, 2>& across) {
+  std::size_t axis = 0;
+  double nearest = std::numeric_limits<double>::infinity(), along = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const bool up : {false, true}) {
+      const double left = up ? box.upper[k] - p[k] : p[k] - box.lower[k];
+      if (left >= nearest) continue;
+      nearest = left;
+      axis = k;
+      along = up ? 1 : -1;
+    }
+  }
+  Point direction;
+  direction[axis] = along;
+  direction[(axis + 1) % 3] = across[0];
+  direction[(axis + 2) % 3] = across[1];
+  return direction;
+}
 
 }  // namespace
 
@@ -40,48 +66,67 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
       bvh_(std::move(bvh)),
       rounding_(distance_rounding(bvh_)),
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
-      winding_(std::make_unique<WindingTree>(*triangles_)) {
-  const Mesh& corners = mesh.prepared().mesh;
-  if (mesh.prepared().report.closed) return;
-  const MeshTopology topology(corners);
-  change_ = std::make_unique<WindingChange>(corners, topology);
-  closure_ = std::make_unique<WindingClosure>(corners, topology);
-}
+      winding_(std::make_unique<WindingTree>(*triangles_)) {}
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
   Result<Bvh> bvh = refined_tree(mesh.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
-  return Solid(mesh, std::move(bvh).value());
+  Solid solid(mesh, std::move(bvh).value());
+  if (mesh.prepared().report.closed) return solid;
+  const Mesh& corners = mesh.prepared().mesh;
+  const MeshTopology topology(corners);
+  Result<std::unique_ptr<ClosingSurface>> closing = ClosingSurface::build(corners, topology);
+  if (!closing) return closing.error();
+  solid.closing_ = std::move(closing).value();
+  if (solid.closing_) solid.change_ = std::make_unique<WindingChange>(corners, topology);
+  return solid;
 }
 
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
-double Solid::sharpened(const Point& p, double rough) const {
-  if (closure_->size() < mesh().mesh.triangles.size()) {
-    if (const std::optional<double> sharp = closure_->sharpened(p, rough, kDoubt)) return *sharp;
+std::optional<std::int64_t> Solid::whole_number(const Point& p) const {
+  for (const auto& across : kAcross) {
+    const Point direction = direction_out(bvh_.nodes().front().box, p, across);
+    std::optional<std::int64_t> crossings = signed_crossings(bvh_, p, direction);
+    if (!crossings || !closing_) {
+      if (crossings) return crossings;
+      continue;
+    }
+    if (const auto closing = signed_crossings(closing_->bvh(), p, direction)) return *crossings + *closing;
   }
-  return exact_winding_number(mesh().mesh, p);
+  return std::nullopt;
+}
+
+double Solid::rough_number(const Point& p, const std::optional<std::int64_t>& whole) const {
+  return whole ? static_cast<double>(*whole) - closing_->rough_number(p) : winding_->at(p);
+}
+
+double Solid::sharp_number(const Point& p, const std::optional<std::int64_t>& whole) const {
+  return whole ? static_cast<double>(*whole) - closing_->number(p) : exact_winding_number(mesh().mesh, p);
 }
 
 bool Solid::contains(const Point& p) const {
-  const double rough = winding_->at(p);
-  if (!closure_ || std::fabs(rough - 0.5) > kDoubt) return rough >= 0.5;
-  return sharpened(p, rough) >= 0.5;
+  const std::optional<std::int64_t> whole = whole_number(p);
+  if (!closing_) return whole ? *whole > 0 : winding_->at(p) >= 0.5;
+  const double rough = rough_number(p, whole);
+  return (std::fabs(rough - 0.5) > kDoubt ? rough : sharp_number(p, whole)) >= 0.5;
 }
 
 SolidSide Solid::side_around(const Point& p, double radius) const {
-  const double rough = winding_->at(p);
-  const auto side = [](double number) { return number >= 0.5 ? SolidSide::kInside : SolidSide::kOutside; };
+  const auto side = [](bool is_inside) { return is_inside ? SolidSide::kInside : SolidSide::kOutside; };
+  if (!closing_) return side(contains(p));
   const auto holds = [&](double number, double error) {
     const double most = std::fabs(number - 0.5) - error;
     return most > 0 && change_->stays_within(p, most, radius);
   };
-  if (!change_ || holds(rough, kDoubt)) return side(rough);
+  const std::optional<std::int64_t> whole = whole_number(p);
+  const double rough = rough_number(p, whole);
+  if (holds(rough, kDoubt)) return side(rough >= 0.5);
   // No number that the rough one permits has a margin.
   if (!change_->stays_within(p, std::fabs(rough - 0.5) + kDoubt, radius)) return SolidSide::kUnknown;
-  const double sharp = sharpened(p, rough);
-  return holds(sharp, kSharp) ? side(sharp) : SolidSide::kUnknown;
+  const double sharp = sharp_number(p, whole);
+  return holds(sharp, kSharp) ? side(sharp >= 0.5) : SolidSide::kUnknown;
 }
 
 double Solid::diagonal() const { return length(mesh().report.upper - mesh().report.lower); }

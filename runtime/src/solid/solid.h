@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "medial_vk/bvh.h"
 #include "medial_vk/indexed_mesh.h"
@@ -10,7 +11,7 @@
 #include "mesh/crossings/triangle_tree.h"
 #include "mesh/winding/winding_number.h"
 #include "mesh/winding_change.h"
-#include "mesh/winding_closure.h"
+#include "solid/closing_surface.h"
 
 namespace medial_vk {
 
@@ -56,17 +57,22 @@ class Solid {
 
  private:
   Solid(const IndexedMesh& mesh, Bvh bvh);
-  /// The winding number of an open mesh at `p`, with an error of at most kSharp. `rough` is that of the tree.
-  double sharpened(const Point& p, double rough) const;
+  /// The winding number at `p` of the mesh with the triangles that close it, an integer, by rays. No value: each ray
+  /// passes an edge, or `p` lies on a triangle.
+  std::optional<std::int64_t> whole_number(const Point& p) const;
+  /// The winding number of an open mesh at `p`, with an error of at most kDoubt.
+  double rough_number(const Point& p, const std::optional<std::int64_t>& whole) const;
+  /// The same with an error of at most kSharp.
+  double sharp_number(const Point& p, const std::optional<std::int64_t>& whole) const;
 
   IndexedMesh mesh_;
   Bvh bvh_;
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;
-  // Null: the mesh is closed.
+  // Null: the mesh has no open edges.
   std::unique_ptr<WindingChange> change_;
-  std::unique_ptr<WindingClosure> closure_;
+  std::unique_ptr<ClosingSurface> closing_;
 };
 
 }  // namespace medial_vk

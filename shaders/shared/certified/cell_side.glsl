@@ -1,5 +1,4 @@
-// The side of the boundary on which a whole cell lies that does not meet it. Include winding.glsl and closure.glsl
-// before.
+// The side of the boundary on which a whole cell lies that does not meet it. Include closure.glsl before.
 //
 // On a closed mesh the winding number is constant on the ball. On an open mesh it changes no faster than the bound of
 // closure.glsl. For meshes with too many open edges for that bound, the winding number is only known to be harmonic on
@@ -44,8 +43,9 @@ uint side_of_cell(vec3 centre, float clearance) {
   if (clearance <= step.circumradius) return kSideUnknown;
   if (kIsOpen && step.open_edges > kMostOpenEdges) return side_by_harnack(centre, radius, clearance);
   bool tests_ball = clearance > radius;
-  Closure closure = closure_at(centre, tests_ball ? radius : step.circumradius);
-  Winding w = exact_winding_number(winding_number(centre, kRoughTolerance), closure);
+  vec3 direction = direction_out(centre);
+  Closure closure = closure_at(centre, tests_ball ? radius : step.circumradius, direction);
+  Winding w = accurate_winding_number(centre, direction, closure);
   if (!w.complete) return kSideUnknown;
   vec3 g = abs(closure.gradient);
   float in_cell = change_within(step.circumradius, step.half_side * (g.x + g.y + g.z), closure);

@@ -1,7 +1,8 @@
 // Winding numbers of open meshes, as accurate as float allows (docs/theory.md, "Outside"). The triangles between the
 // open edges of a mesh and their apexes close it, and the winding numbers of the closed mesh are whole. Those triangles
-// are few and are summed one by one. A rough winding number thus determines the whole one, from which the sum is
-// subtracted to obtain the number of the mesh itself. Include winding.glsl before, and declare `open_edges`.
+// are few and are summed one by one. A ray gives the whole number, or else a rough number determines it; the sum is
+// subtracted to obtain the number of the mesh itself. Include winding.glsl and signed_crossings.glsl before, and declare
+// `open_edges`.
 #ifndef MEDIAL_VK_CLOSURE_GLSL
 #define MEDIAL_VK_CLOSURE_GLSL
 
@@ -15,6 +16,7 @@ layout(constant_id = 1) const bool kIsOpen = true;
 
 struct Closure {
   float number;  // winding number of the triangles that close the mesh
+  Crossings crossings;  // of the ray with them
   float error;   // of it, up to a whole number
   float slope;   // bound of the change of the mesh's winding number per length, within the given radius
   vec3 gradient;  // of the number at the point, or its opposite
@@ -49,8 +51,8 @@ vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
 // most the integral of 1 / |x - l|^2 along the boundary. Its derivatives are at most the integral of 2 / |x - l|^3,
 // since the matrix of second derivatives of 1/|r| has the eigenvalues (1, 1, -2) / |r|^3. Of an edge at distance d that
 // is longer than pi d, or 2 d, no more than that length counts (docs/theory.md, "Outside").
-Closure closure_at(vec3 p, float radius) {
-  Closure sum = Closure(0.0, 0.0, 0.0, vec3(0.0), 0.0);
+Closure closure_at(vec3 p, float radius, vec3 direction) {
+  Closure sum = Closure(0.0, Crossings(0, true), 0.0, 0.0, vec3(0.0), 0.0);
   uint count = kIsOpen && step.open_edges <= kMostOpenEdges ? step.open_edges : 0u;
   for (uint i = 0u; i < count; ++i) {
     OpenEdge e = open_edges[i];
@@ -58,6 +60,7 @@ Closure closure_at(vec3 p, float radius) {
     sum.number += e.from.w * part.x;
     sum.error += e.from.w * part.y;
     vec3 edge = e.to.xyz - e.from.xyz, v = p - e.from.xyz;
+    add_crossing(direction, -v, edge, e.apex.xyz - e.from.xyz, int(e.from.w), sum.crossings);
     float squared = dot(edge, edge);
     float away = length(v - clamp(dot(v, edge) / max(squared, 1e-30), 0.0, 1.0) * edge);
     float gap = away - radius - step.slack, size = sqrt(squared), inverse = 1.0 / max(gap, 1e-10);
@@ -72,15 +75,23 @@ Closure closure_at(vec3 p, float radius) {
   return sum;
 }
 
-// The winding number of the mesh, from a rough one; `bound` is a large number if the two do not agree on a whole
-// number.
-Winding exact_winding_number(Winding rough, Closure closure) {
-  float all = rough.number + closure.number, whole = round(all);
-  bool agree = abs(all - whole) <= rough.bound + kSumRounding + closure.error;
-  return Winding(whole - closure.number, agree ? closure.error : 1e3, rough.complete);
-}
-
 // The error is below 1/4, so that an error of the sum by 1/2 is noticed.
 const float kRoughTolerance = 0.2;
+
+// The winding number of the mesh. `bound` is a large number if neither the ray nor a rough number determines the whole
+// one.
+Winding accurate_winding_number(vec3 p, vec3 direction, Closure closure) {
+  Crossings crossings = signed_crossings(p, direction);
+  float whole = float(crossings.sum + closure.crossings.sum), error = closure.error;
+  bool complete = true;
+  if (!crossings.known || !closure.crossings.known) {
+    Winding rough = winding_number(p, kRoughTolerance);
+    float all = rough.number + closure.number;
+    whole = round(all);
+    if (abs(all - whole) > rough.bound + kSumRounding + closure.error) error = 1e3;
+    complete = rough.complete;
+  }
+  return Winding(whole - closure.number, error, complete);
+}
 
 #endif
