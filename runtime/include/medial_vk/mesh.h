@@ -49,6 +49,7 @@ struct MeshReport {
   bool intersections_known = true;          ///< False if the test was cut short by its budget.
   std::uint64_t cut_faces = 0;              ///< Faces cut along their crossings with others.
   std::uint64_t inner_faces = 0;            ///< Faces left out, after the cut: the inside lies on both sides of them.
+  std::uint64_t outer_faces = 0;            ///< Faces of membranes outside the solid that were left out.
   std::uint64_t hidden_open_edges = 0;      ///< Of the given mesh, at holes inside other parts, which were filled.
   bool closed = false;                      ///< No open edge, orientation cancels on every edge.
   std::uint64_t faces_within = 0;           ///< Faces with the inside on both sides.

@@ -5,14 +5,13 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "mesh/mesh_topology.h"
 #include "mesh/surface_parts.h"
-#include "mesh/winding/winding_number.h"
+#include "mesh/winding/part_field.h"
 #include "mesh/winding_change.h"
 
 namespace medial_vk {
@@ -20,16 +19,21 @@ namespace {
 
 /// A patch lies inside if the winding number without itself is at least this beside every sample of it: 1/2 behind and
 /// in front, and a margin above the error of WindingTree.
-constexpr double kInside = 1.05;
+constexpr double kWithin = 1.05;
 /// Or if it and that of the other components are at least this: 1/2, and a margin for two values. It is lower than 1
 /// only where its own component is open; beside the wall of a cavity it is 1/2.
-constexpr double kInsideOthers = 0.6;
+constexpr double kWithinOthers = 0.6;
 
 /// Where all components are closed, a patch has one value, and its largest triangles are evaluated, which are the
 /// farthest from others. Where some are open, all triangles are, near their corners, too, but for those so thin that
 /// rounding decides their value.
 constexpr std::size_t kSamples = 64;
 constexpr double kThin = 0x1p-30;  // of the area of the largest triangle of the patch
+
+std::array<Point, 3> corners_of(const Mesh& mesh, std::uint32_t t) {
+  const Triangle& corners = mesh.triangles[t];
+  return {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+}
 
 double area(const std::array<Point, 3>& corners) {
   return length(cross(corners[1] - corners[0], corners[2] - corners[0])) / 2;
@@ -43,45 +47,12 @@ std::array<Point, 4> points_of(const std::array<Point, 3>& corners) {
   return points;
 }
 
-/// The winding numbers of one component.
-class ComponentField {
- public:
-  /// `triangles`: those of the component.
-  ComponentField(const Mesh& mesh, const std::vector<std::uint32_t>& triangles)
-      : part_(copy(mesh, triangles)), tree_(part_), winding_(tree_), position_of_(triangles.size()) {
-    for (std::uint32_t position = 0; position < tree_.order.size(); ++position)
-      position_of_[tree_.order[position]] = position;
-  }
-
-  /// Beside a point of its triangle with this number, without that triangle.
-  double beside(std::uint32_t number, const Point& p) const { return winding_.beside(position_of_[number], p); }
-
- private:
-  static Mesh copy(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    Mesh part;
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
-    for (const std::uint32_t t : triangles) {
-      Triangle corners = mesh.triangles[t];
-      for (std::uint32_t& v : corners) {
-        const auto [known, is_new] = numbers.try_emplace(v, static_cast<std::uint32_t>(part.vertices.size()));
-        if (is_new) part.vertices.push_back(mesh.vertices[v]);
-        v = known->second;
-      }
-      part.triangles.push_back(corners);
-    }
-    return part;
-  }
-
-  Mesh part_;
-  TriangleTree tree_;
-  WindingTree winding_;
-  std::vector<std::uint32_t> position_of_;
-};
+enum class Place : std::uint8_t { kBoundary, kInside, kOutside };
 
 class BoundaryFinder {
  public:
-  BoundaryFinder(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads)
-      : component_of_(component_of),
+  BoundaryFinder(CutMesh cut, const CutComponents& components, unsigned threads)
+      : components_(components),
         cut_(std::move(cut)),
         mesh_{std::move(cut_.vertices), std::move(cut_.triangles), 0, 0},
         topology_(mesh_),
@@ -90,22 +61,22 @@ class BoundaryFinder {
 
   /// By triangle of the cut: 1 if its patch lies inside and has a triangle from this one of the mesh on.
   std::vector<char> lie_inside(std::size_t first) {
-    find_inner_patches(first);
+    place_patches(first);
     std::vector<char> inside;
-    for (const std::uint32_t patch : parts_.patch_of) inside.push_back(is_inner_[patch]);
+    for (const std::uint32_t patch : parts_.patch_of) inside.push_back(place_[patch] == Place::kInside ? 1 : 0);
     return inside;
   }
 
   OuterBoundary run() {
-    find_inner_patches(0);
+    place_patches(0);
     restore_openings();
     OuterBoundary out;
     out.mesh.vertices = std::move(mesh_.vertices);
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_inner_[parts_.patch_of[t]]) {
-        ++out.inner_triangles;
-        continue;
-      }
+      const Place place = place_[parts_.patch_of[t]];
+      out.inner_triangles += place == Place::kInside;
+      out.outer_triangles += place == Place::kOutside;
+      if (place != Place::kBoundary) continue;
       out.mesh.triangles.push_back(mesh_.triangles[t]);
       out.source.push_back(cut_.source[t]);
     }
@@ -115,60 +86,69 @@ class BoundaryFinder {
 
  private:
   /// Of those that have a triangle from this one of the mesh on.
-  void find_inner_patches(std::size_t first) {
+  void place_patches(std::size_t first) {
+    is_closed_ = balance_everywhere();
     std::swap(mesh_.vertices, cut_.decided);
-    const TriangleTree tree(mesh_);
-    const WindingTree winding(tree);
-    find_component_fields();
+    find_fields();
+    const Mesh decided = mesh_;
     std::swap(mesh_.vertices, cut_.decided);
-    std::vector<std::vector<std::uint32_t>> positions(parts_.patches);  // in the tree
-    for (std::uint32_t position = 0; position < tree.order.size(); ++position)
-      positions[parts_.patch_of[tree.order[position]]].push_back(position);
-    const bool is_closed = balance_everywhere();
-    const WindingChange change(mesh_, topology_);
-    is_inner_.assign(parts_.patches, 0);
-    is_covered_.assign(mesh_.triangles.size(), 0);
+    std::vector<std::vector<std::uint32_t>> members(parts_.patches);
     std::vector<char> is_wanted(parts_.patches, 0);
-    for (std::size_t t = 0; t < cut_.source.size(); ++t) is_wanted[parts_.patch_of[t]] |= char{cut_.source[t] >= first};
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      members[parts_.patch_of[t]].push_back(t);
+      is_wanted[parts_.patch_of[t]] |= char{cut_.source[t] >= first};
+    }
+    const WindingChange change(mesh_, topology_);
+    place_.assign(parts_.patches, Place::kBoundary);
+    covered_.assign(mesh_.triangles.size(), Place::kBoundary);
     parallel_for(parts_.patches, 1, threads_, [&](std::size_t patch) {
-      if (is_wanted[patch] == 0) return;
-      std::vector<std::uint32_t>& samples = positions[patch];
-      const auto area_at = [&](std::uint32_t position) { return area(tree.corners[position]); };
-      std::ranges::sort(samples, std::greater<>(), area_at);
-      const double least = kThin * area_at(samples.front());
-      if (is_closed && samples.size() > kSamples) samples.resize(kSamples);
-      is_inner_[patch] = std::ranges::all_of(samples, [&](std::uint32_t position) {
-        return area_at(position) < least || lies_inside(position, is_closed, tree, winding, change);
-      });
+      if (is_wanted[patch] != 0) place_[patch] = place_of(std::move(members[patch]), decided, change);
     });
-    fields_.clear();
     for (std::size_t t = 0; t < cut_.uncut.size(); ++t) {
-      if (cut_.uncut[t]) is_inner_[parts_.patch_of[t]] = 0;
+      if (cut_.uncut[t]) place_[parts_.patch_of[t]] = Place::kBoundary;
     }
   }
 
-  /// Of the triangle at a position of the tree. The triangles around it for which the same follows are covered.
-  bool lies_inside(std::uint32_t position, bool is_closed, const TriangleTree& tree, const WindingTree& winding,
-                   const WindingChange& change) {
-    const std::uint32_t t = tree.order[position];
-    if (is_covered_[t]) return true;
-    const auto margin_at = [&](const Point& p) { return margin(t, p, winding.beside(position, p)); };
-    const std::array<Point, 4> points = points_of(tree.corners[position]);
-    const double at_centroid = margin_at(points[0]);
-    if (at_centroid < 0 || is_closed) return at_centroid >= 0;
+  /// Of a patch with these triangles.
+  Place place_of(std::vector<std::uint32_t> triangles, const Mesh& decided, const WindingChange& change) {
+    const auto area_of = [&](std::uint32_t t) { return area(corners_of(decided, t)); };
+    std::ranges::sort(triangles, [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(-area_of(a), a) < std::pair(-area_of(b), b);
+    });
+    const double least = kThin * area_of(triangles.front());
+    if (is_closed_ && triangles.size() > kSamples) triangles.resize(kSamples);
+    const auto all_lie = [&](Place place) {
+      return std::ranges::all_of(triangles, [&](std::uint32_t t) {
+        return area_of(t) < least || lies(place, t, corners_of(decided, t), change);
+      });
+    };
+    if (all_lie(Place::kInside)) return Place::kInside;
+    const bool may_go = is_membrane(triangles.front()) && !components_.keep_outer;
+    return may_go && all_lie(Place::kOutside) ? Place::kOutside : Place::kBoundary;
+  }
+
+  /// Of a triangle. The triangles around it for which the same follows are covered.
+  bool lies(Place place, std::uint32_t t, const std::array<Point, 3>& corners, const WindingChange& change) {
+    if (covered_[t] == place) return true;
+    const std::array<Point, 4> points = points_of(corners);
+    const double at_centroid = margin(place, t, points[0]);
+    if (at_centroid < 0 || is_closed_) return at_centroid >= 0;
     if (const double radius = change.radius(points[0], at_centroid, farthest_corner(t, points[0])); radius > 0) {
       visit_neighbours(mesh_, topology_, t, points[0], radius,
-                       [&](std::uint32_t other) { return std::exchange(is_covered_[other], 1) == 0; });
+                       [&](std::uint32_t other) { return std::exchange(covered_[other], place) != place; });
       return true;
     }
-    return std::all_of(points.begin() + 1, points.end(), [&](const Point& p) { return margin_at(p) >= 0; });
+    return std::all_of(points.begin() + 1, points.end(), [&](const Point& p) { return margin(place, t, p) >= 0; });
   }
 
-  /// By how much the winding numbers may change while a point of the triangle lies inside; negative if it does not.
-  /// `beside`: the winding number beside it. That of the other components changes by that of two fields.
-  double margin(std::uint32_t t, const Point& p, double beside) const {
-    if (beside >= kInside || beside < kInsideOthers) return beside - kInside;
-    return (std::min(beside, beside - fields_[component(t)]->beside(number_of_[t], p)) - kInsideOthers) / 2;
+  /// By how much the winding numbers may change while a point of the triangle lies there; negative if it does not. The
+  /// difference of two winding numbers changes by that of both.
+  double margin(Place place, std::uint32_t t, const Point& p) const {
+    if (place == Place::kOutside) return 1 - kWithinOthers - solid_field_->at(p);
+    if (is_membrane(t)) return solid_field_->at(p) - kWithinOthers;
+    const double beside = solid_field_->beside(number_in_solid_[t], p);
+    if (beside >= kWithin || beside < kWithinOthers || is_closed_) return beside - kWithin;
+    return (std::min(beside, beside - fields_[component(t)]->beside(number_of_[t], p)) - kWithinOthers) / 2;
   }
 
   double farthest_corner(std::uint32_t t, const Point& p) const {
@@ -177,10 +157,12 @@ class BoundaryFinder {
     return farthest;
   }
 
-  /// True if all triangles cancel at every edge.
+  /// True if all triangles, without membranes, cancel at every edge.
   bool balance_everywhere() const {
     for (std::uint32_t edge = 0; edge < topology_.edge_count(); ++edge) {
-      if (balance_at(mesh_, topology_, edge) != 0) return false;
+      int balance = 0;
+      for (const std::uint32_t t : topology_.triangles_of(edge)) balance += is_membrane(t) ? 0 : step_along(edge, t);
+      if (balance != 0) return false;
     }
     return true;
   }
@@ -190,63 +172,79 @@ class BoundaryFinder {
     return runs_upwards(mesh_.triangles[t], topology_.ends(edge)) ? 1 : -1;
   }
 
-  std::uint32_t component(std::uint32_t t) const { return component_of_[cut_.source[t]]; }
+  std::uint32_t component(std::uint32_t t) const { return components_.of_triangle[cut_.source[t]]; }
+  bool is_membrane(std::uint32_t t) const {
+    return !components_.is_membrane.empty() && components_.is_membrane[component(t)] != 0;
+  }
 
-  void find_component_fields() {
+  /// The winding numbers of all triangles without membranes, and, where the mesh is open, of each component.
+  void find_fields() {
+    std::vector<std::uint32_t> solid;
     std::vector<std::vector<std::uint32_t>> members;
+    number_in_solid_.resize(mesh_.triangles.size());
     number_of_.resize(mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (is_membrane(t)) continue;
+      number_in_solid_[t] = static_cast<std::uint32_t>(solid.size());
+      solid.push_back(t);
       members.resize(std::max<std::size_t>(members.size(), component(t) + 1));
       number_of_[t] = static_cast<std::uint32_t>(members[component(t)].size());
       members[component(t)].push_back(t);
     }
+    solid_field_ = std::make_unique<PartField>(mesh_, solid);
+    if (is_closed_) return;
     fields_.resize(members.size());
     parallel_for(members.size(), 1, threads_, [&](std::size_t i) {
-      if (!members[i].empty()) fields_[i] = std::make_unique<ComponentField>(mesh_, members[i]);
+      if (!members[i].empty()) fields_[i] = std::make_unique<PartField>(mesh_, members[i]);
     });
   }
 
   /// Restores the inner patches at each edge of the boundary that would lose its balance without them. Edges between
   /// inner patches lie inside, where a wall that ends does no harm.
   void restore_openings() {
-    const std::vector<char> were_inner = is_inner_;
+    const std::vector<Place> found = place_;
     for (std::uint32_t edge = 0; edge < topology_.edge_count(); ++edge) {
       int before = 0, after = 0;
-      std::size_t inner = 0;
+      std::size_t inner = 0, all = 0;
       const auto beside = topology_.triangles_of(edge);
       for (const std::uint32_t t : beside) {
-        const int step = step_along(edge, t);
-        before += step;
-        const bool is_inner = were_inner[parts_.patch_of[t]] != 0;
+        if (is_membrane(t)) continue;
+        ++all;
+        before += step_along(edge, t);
+        const bool is_inner = found[parts_.patch_of[t]] == Place::kInside;
         inner += is_inner;
-        if (!is_inner) after += step;
+        if (!is_inner) after += step_along(edge, t);
       }
-      if (inner == 0 || inner == beside.size() || std::abs(after) <= std::abs(before)) continue;
-      for (const std::uint32_t t : beside) is_inner_[parts_.patch_of[t]] = 0;
+      if (inner == 0 || inner == all || std::abs(after) <= std::abs(before)) continue;
+      for (const std::uint32_t t : beside) {
+        if (!is_membrane(t)) place_[parts_.patch_of[t]] = Place::kBoundary;
+      }
     }
   }
 
-  const std::vector<std::uint32_t>& component_of_;  // by triangle before the cut
+  const CutComponents& components_;
   CutMesh cut_;
   Mesh mesh_;
   MeshTopology topology_;
   SurfaceParts parts_;
   unsigned threads_;
-  std::vector<char> is_inner_;    // by patch
-  std::vector<char> is_covered_;  // by triangle: it lies inside as a neighbour does
-  std::vector<std::unique_ptr<ComponentField>> fields_;
-  std::vector<std::uint32_t> number_of_;  // by triangle: its number in its component
+  bool is_closed_ = false;      // without membranes
+  std::vector<Place> place_;    // by patch
+  std::vector<Place> covered_;  // by triangle: it lies there as a neighbour does
+  std::unique_ptr<PartField> solid_field_;
+  std::vector<std::unique_ptr<PartField>> fields_;  // by component
+  // By triangle: its number in these fields.
+  std::vector<std::uint32_t> number_in_solid_, number_of_;
 };
 
 }  // namespace
 
-std::vector<char> lie_inside(CutMesh cut, const std::vector<std::uint32_t>& component_of, std::size_t first,
-                             unsigned threads) {
-  return BoundaryFinder(std::move(cut), component_of, threads).lie_inside(first);
+std::vector<char> lie_inside(CutMesh cut, const CutComponents& components, std::size_t first, unsigned threads) {
+  return BoundaryFinder(std::move(cut), components, threads).lie_inside(first);
 }
 
-OuterBoundary leave_out_inner_patches(CutMesh cut, const std::vector<std::uint32_t>& component_of, unsigned threads) {
-  return BoundaryFinder(std::move(cut), component_of, threads).run();
+OuterBoundary leave_out_inner_patches(CutMesh cut, const CutComponents& components, unsigned threads) {
+  return BoundaryFinder(std::move(cut), components, threads).run();
 }
 
 }  // namespace medial_vk

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial_vk/mesh.h"
+#include "medial_vk/prepare.h"
 #include "mesh/crossings/self_intersections.h"
 #include "mesh/crossings/triangle_tree.h"
 #include "mesh/inner_patches.h"
@@ -12,8 +13,10 @@
 namespace medial_vk {
 
 /// Fills holes that lie inside other parts (Holes), cuts the mesh (cut_crossings()), leaves out the patches inside
-/// (leave_out_inner_patches(), for its parameters, too), and merges short edges on crossings (merge_short_edges()).
+/// (leave_out_inner_patches(), for its parameters, too) and membranes outside (find_membranes()), and merges short
+/// edges on crossings (merge_short_edges()).
 OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
-                                  const TriangleTree& tree, const SelfIntersections& intersections, unsigned threads);
+                                  const TriangleTree& tree, const SelfIntersections& intersections,
+                                  const PrepareOptions& options);
 
 }  // namespace medial_vk

@@ -27,6 +27,7 @@ void carry_over(const MeshReport& before, MeshReport& after) {
   after.reoriented_components += before.reoriented_components;
   after.cut_faces += before.cut_faces;
   after.inner_faces += before.inner_faces;
+  after.outer_faces += before.outer_faces;
   after.hidden_open_edges += before.hidden_open_edges;
   after.inside_out = after.inside_out || before.inside_out;
   std::vector<std::string> assumptions = before.assumptions;

@@ -119,6 +119,7 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
 void carry_over(const MeshReport& before, const OuterBoundary& boundary, MeshReport& report) {
   report.cut_faces = boundary.cut_triangles;
   report.inner_faces = boundary.inner_triangles;
+  report.outer_faces = boundary.outer_triangles;
   report.hidden_open_edges = boundary.hidden_open_edges;
   report.merged_vertices = before.merged_vertices;
   report.unused_vertices = before.unused_vertices;
@@ -150,10 +151,11 @@ Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options);
 /// Prepares the boundary of a prepared mesh, if it has inner triangles. No value: it has none.
 std::optional<Result<PreparedMesh>> prepare_boundary(const PreparedMesh& whole, const SurfaceParts& parts,
                                                      const TriangleTree& tree, const SelfIntersections& intersections,
-                                                     unsigned threads) {
-  OuterBoundary boundary = find_outer_boundary(whole.mesh, parts.component_of, tree, intersections, threads);
-  if (boundary.inner_triangles == 0 || boundary.mesh.triangles.empty()) return std::nullopt;
-  Result<PreparedMesh> prepared = prepare(std::move(boundary.mesh), {true, threads});
+                                                     const PrepareOptions& options) {
+  OuterBoundary boundary = find_outer_boundary(whole.mesh, parts.component_of, tree, intersections, options);
+  if (boundary.inner_triangles + boundary.outer_triangles == 0 || boundary.mesh.triangles.empty()) return std::nullopt;
+  Result<PreparedMesh> prepared =
+      prepare(std::move(boundary.mesh), {.keep_inner_faces = true, .threads = options.threads});
   if (!prepared) return std::nullopt;
   carry_over(whole.report, boundary, prepared.value().report);
   join_maps(whole, boundary, prepared.value());
@@ -206,7 +208,7 @@ Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options) {
   write_assumptions(report);
   const bool may_overlap = intersections.known && (intersections.count > 0 || report.faces_within > 0);
   if (may_overlap && !options.keep_inner_faces) {
-    if (auto boundary = prepare_boundary(prepared, parts, tree, intersections, threads)) return std::move(*boundary);
+    if (auto boundary = prepare_boundary(prepared, parts, tree, intersections, options)) return std::move(*boundary);
   }
   return prepared;
 }

@@ -28,6 +28,9 @@ void add_changes_of_boundary(MeshReport& r) {
     add(fmt::format("{} with the inside on both sides: left out, as they do not bound the solid.",
                     faces(r.inner_faces)));
   }
+  if (r.outer_faces > 0) {
+    add(fmt::format("{} outside the solid, of open parts that enclose nothing: left out.", faces(r.outer_faces)));
+  }
 }
 
 }  // namespace

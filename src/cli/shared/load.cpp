@@ -36,7 +36,8 @@ Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const De
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
   const unsigned threads = opening.threads_beside(mesh.triangles.size(), options.threads);
-  Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), {options.keep_inner_faces, threads});
+  Result<PreparedMesh> prepared =
+      prepare_mesh(std::move(mesh), {options.keep_inner_faces, options.keep_outer_faces, threads});
   if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", path, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
   return prepared;
@@ -44,7 +45,7 @@ Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const De
 
 Result<PreparedMesh> prepare_loaded(Mesh mesh, const Options& options, const DeviceOpening& opening,
                                     std::vector<StageTime>& times) {
-  const PrepareOptions prepare = {options.keep_inner_faces, options.threads};
+  const PrepareOptions prepare = {.keep_inner_faces = options.keep_inner_faces, .threads = options.threads};
   Result<PreparedMesh> prepared = prepare_loaded(std::move(mesh), options.mesh, opening, prepare, times);
   if (!prepared || options.perturb == 0) return prepared;
   const EndAtOnce guard;

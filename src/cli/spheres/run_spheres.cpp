@@ -68,7 +68,10 @@ class SpheresRun {
     return {};
   }
 
-  PrepareOptions prepare_options() const { return {options_.keep_inner_faces, options_.spheres.threads}; }
+  PrepareOptions prepare_options() const {
+    const bool keep_outer_faces = options_.spheres.contract != SphereContract::kInside;
+    return {options_.keep_inner_faces, keep_outer_faces, options_.spheres.threads};
+  }
 
   Status load_robot() {
     const EndAtOnce guard;

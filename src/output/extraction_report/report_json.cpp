@@ -54,6 +54,7 @@ Json mesh_json(const MeshReport& mesh, double longest_side) {
           {"inner_walls_dropped", mesh.inner_walls_dropped},
           {"cut_faces", mesh.cut_faces},
           {"inner_faces_left_out", mesh.inner_faces},
+          {"outer_faces_left_out", mesh.outer_faces},
           {"hidden_open_edges", mesh.hidden_open_edges},
           {"open_edges", mesh.open_edges},
           {"non_manifold_edges", mesh.non_manifold_edges},
