@@ -41,16 +41,35 @@ foreach(solid torus capsule pear oblate prolate triaxial)
   list(APPEND slow analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/${solid}_4x)
   list(APPEND full analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/${solid}_16x)
 endforeach()
-foreach(tier slow full)
-  foreach(name ${${tier}})
-    string(REGEX REPLACE "[.].*" "" folder "${name}")
-    set_tests_properties("${name}" PROPERTIES LABELS "${folder};${tier}")
-  endforeach()
+foreach(name ${full})
+  string(REGEX REPLACE "[.].*" "" folder "${name}")
+  set_tests_properties("${name}" PROPERTIES LABELS "${folder};full")
 endforeach()
-# Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit.
-set_tests_properties(faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers PROPERTIES
-  LABELS "faults;slow;sanitized_full")
-set_tests_properties(faults.PoorDevice.ReadsALargeMeshThroughStorageBuffers PROPERTIES LABELS "faults;sanitized_full")
+# Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit. Kills of
+# a run that writes points alone, and smaller meshes, pictures and fits, remain.
+set(sanitized_full
+  cli.Kills.LeaveWholeFilesOrNone/AllFiles
+  cli.SpheresCommand.BestGivesTheSameBytesOnAnyNumberOfThreads
+  faults.PictureFaults.OfMemory
+  faults.PoorDevice.ReadsALargeMeshThroughStorageBuffers
+  faults.PoorDevice.RefusesAMeshThatItCanReadNeitherWay
+  faults.PoorDevice.WithNoMoreThanWhatIsRequiredGivesTheSameAnswers)
+foreach(name ${sanitized_full})
+  string(REGEX REPLACE "[.].*" "" folder "${name}")
+  set_tests_properties("${name}" PROPERTIES LABELS "${folder};sanitized_full")
+endforeach()
+# One of three has the same label slow_N, for scripts/test --slow-part N.
+set(number 0)
+foreach(name ${slow})
+  string(REGEX REPLACE "[.].*" "" folder "${name}")
+  math(EXPR third "${number} % 3")
+  math(EXPR number "${number} + 1")
+  set(labels "${folder};slow;slow_${third}")
+  if("|${sanitized_full}|" MATCHES "[|;]${name}[|;]")
+    list(APPEND labels sanitized_full)
+  endif()
+  set_tests_properties("${name}" PROPERTIES LABELS "${labels}")
+endforeach()
 # Left out of every build under a sanitizer or with counters, where this test would take an hour and more.
 set_tests_properties(regression.LargeMesh.TheCircleInATorusOfFiveMillionTriangles PROPERTIES
   LABELS "regression;full;release_only")

@@ -24,8 +24,8 @@ struct PrepareOptions {
 /// component consistent (and outward, if the whole mesh is inside out), and determines which normals can be trusted.
 /// Faces that cross are cut along their crossings, and faces inside the solid, and of membranes also those outside, are
 /// left out. Beside a face inside the winding number, of all components or of all but its own, is at least 1/2 on both
-/// sides (docs/theory.md, "The boundary of overlapping parts"). The vertices on crossings follow the others. Does not throw.
-/// Errors: kInvalidMesh (an index out of range, a coordinate that is not finite; nothing is left, or nothing is
+/// sides (docs/theory.md, "The boundary of overlapping parts"). The vertices on crossings follow the others. Does not
+/// throw. Errors: kInvalidMesh (an index out of range, a coordinate that is not finite; nothing is left, or nothing is
 /// enclosed), kOutOfMemory.
 Result<PreparedMesh> prepare_mesh(Mesh mesh, const PrepareOptions& options = {});
 
