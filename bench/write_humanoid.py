@@ -87,6 +87,8 @@ def link_mesh(size, triangles, phase):
 
 
 def main():
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
     folder, triangles = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 3900
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     lines, count = ['<robot name="humanoid">'], 0

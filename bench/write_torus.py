@@ -6,6 +6,9 @@ import array
 import math
 import sys
 
+if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+    sys.exit(__doc__)
+
 # Around the tube and along the circle; two and a half times as many along, for triangles of even shape.
 triangles = int(sys.argv[2]) if len(sys.argv) > 2 else 5_000_000
 around = max(3, round(math.sqrt(triangles / 5)))

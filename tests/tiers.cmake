@@ -58,7 +58,7 @@ foreach(name ${sanitized_full})
   string(REGEX REPLACE "[.].*" "" folder "${name}")
   set_tests_properties("${name}" PROPERTIES LABELS "${folder};sanitized_full")
 endforeach()
-# One of three has the same label slow_N, for scripts/test --slow-part N.
+# One of three has the same label slow_N, for scripts/test --slow-part N. (ctest's scripts have no operator IN_LIST.)
 set(number 0)
 foreach(name ${slow})
   string(REGEX REPLACE "[.].*" "" folder "${name}")

@@ -21,7 +21,7 @@ class Context;
 /// The proved property of the balls (docs/theory.md, "Tight spheres").
 enum class SphereContract {
   kInside,    ///< No point of a ball lies outside the solid.
-  kCover,     ///< No point of the solid lies outside the balls.
+  kCover,     ///< No point of the mesh or the solid lies outside the balls (see PrepareOptions::keep_outer_faces).
   kBalanced,  ///< None; the volume between balls and solid, on both sides of the boundary, is kept small.
 };
 

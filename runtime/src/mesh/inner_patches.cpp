@@ -104,6 +104,8 @@ class BoundaryFinder {
     parallel_for(parts_.patches, 1, threads_, [&](std::size_t patch) {
       if (is_wanted[patch] != 0) place_[patch] = place_of(std::move(members[patch]), decided, change);
     });
+    solid_field_.reset();
+    fields_.clear();
     for (std::size_t t = 0; t < cut_.uncut.size(); ++t) {
       if (cut_.uncut[t]) place_[parts_.patch_of[t]] = Place::kBoundary;
     }

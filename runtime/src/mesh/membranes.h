@@ -1,4 +1,4 @@
-// Open parts of a mesh that enclose nothing.
+// Open, flat parts of a mesh, which enclose nothing.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,11 @@
 
 namespace medial_vk {
 
-/// The winding number of an open, flat surface is between -1/2 and 1/2, so it encloses nothing. Beside a triangle,
-/// without that triangle, it is 0. This is the greatest absolute value for a surface that counts as flat.
-constexpr double kFlat = 0.1;
-
-/// By component: 1 for a *membrane*, an open component that is flat and to whose triangles all flat components together
-/// add little. None if all are. Triangles are oriented as the sides were decided.
-std::vector<char> find_membranes(const Mesh& mesh, const std::vector<std::uint32_t>& component_of, unsigned threads);
+/// By component: 1 for a *membrane* (docs/theory.md, "Membranes"). It is open and has a triangle that crosses others.
+/// Beside the middles of its triangles its own winding number is about 0, that of all components of this kind is small,
+/// and the number of the rest is clearly that of the inside or of the outside. Triangles are oriented as the sides were
+/// decided. `crossed`: by triangle.
+std::vector<char> find_membranes(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
+                                 const std::vector<bool>& crossed, unsigned threads);
 
 }  // namespace medial_vk

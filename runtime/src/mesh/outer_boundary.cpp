@@ -1,4 +1,5 @@
-// Holes that lie inside are filled, crossings are cut, inner patches are left out, and short edges are merged.
+// Holes that lie inside are filled, crossings are cut, inner patches and membranes are left out, and short edges are
+// merged.
 #include "mesh/outer_boundary.h"
 
 #include <algorithm>
@@ -118,7 +119,8 @@ OuterBoundary find_outer_boundary(const Mesh& mesh, const std::vector<std::uint3
                                   const TriangleTree& tree, const SelfIntersections& intersections,
                                   const PrepareOptions& options) {
   const unsigned threads = options.threads;
-  const CutComponents components{component_of, find_membranes(mesh, component_of, threads), options.keep_outer_faces};
+  const CutComponents components{component_of, find_membranes(mesh, component_of, intersections.crossed, threads),
+                                 options.keep_outer_faces};
   std::optional<OuterBoundary> filled = find_boundary_with_fillings(mesh, components, tree, threads);
   OuterBoundary boundary =
       filled ? std::move(*filled)

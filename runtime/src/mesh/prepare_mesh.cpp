@@ -148,7 +148,7 @@ void join_maps(const PreparedMesh& before, const OuterBoundary& boundary, Prepar
 
 Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options);
 
-/// Prepares the boundary of a prepared mesh, if it has inner triangles. No value: it has none.
+/// Prepares the boundary of a prepared mesh, if it has triangles that do not bound the solid. No value: it has none.
 std::optional<Result<PreparedMesh>> prepare_boundary(const PreparedMesh& whole, const SurfaceParts& parts,
                                                      const TriangleTree& tree, const SelfIntersections& intersections,
                                                      const PrepareOptions& options) {

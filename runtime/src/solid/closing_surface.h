@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "medial_vk/bvh.h"
 #include "medial_vk/mesh.h"
@@ -16,6 +15,9 @@ namespace medial_vk {
 /// is an integer, that of both together, less that of these triangles, which are few (docs/theory.md, "Outside").
 class ClosingSurface {
  public:
+  ClosingSurface(const ClosingSurface&) = delete;  // winding_ refers to tree_
+  ClosingSurface& operator=(const ClosingSurface&) = delete;
+
   /// Null: the mesh has no open edges. Errors: kOutOfMemory.
   static Result<std::unique_ptr<ClosingSurface>> build(const Mesh& mesh, const MeshTopology& topology);
 

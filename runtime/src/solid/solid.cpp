@@ -88,11 +88,9 @@ double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p)
 std::optional<std::int64_t> Solid::whole_number(const Point& p) const {
   for (const auto& across : kAcross) {
     const Point direction = direction_out(bvh_.nodes().front().box, p, across);
-    std::optional<std::int64_t> crossings = signed_crossings(bvh_, p, direction);
-    if (!crossings || !closing_) {
-      if (crossings) return crossings;
-      continue;
-    }
+    const std::optional<std::int64_t> crossings = signed_crossings(bvh_, p, direction);
+    if (!crossings) continue;
+    if (!closing_) return crossings;
     if (const auto closing = signed_crossings(closing_->bvh(), p, direction)) return *crossings + *closing;
   }
   return std::nullopt;
@@ -103,7 +101,9 @@ double Solid::rough_number(const Point& p, const std::optional<std::int64_t>& wh
 }
 
 double Solid::sharp_number(const Point& p, const std::optional<std::int64_t>& whole) const {
-  return whole ? static_cast<double>(*whole) - closing_->number(p) : exact_winding_number(mesh().mesh, p);
+  const bool closing_is_small = closing_->size() < mesh().mesh.triangles.size();
+  return whole && closing_is_small ? static_cast<double>(*whole) - closing_->number(p)
+                                   : exact_winding_number(mesh().mesh, p);
 }
 
 bool Solid::contains(const Point& p) const {

@@ -15,9 +15,9 @@ const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 layout(constant_id = 1) const bool kIsOpen = true;
 
 struct Closure {
-  float number;  // winding number of the triangles that close the mesh
+  float number;         // winding number of the triangles that close the mesh
   Crossings crossings;  // of the ray with them
-  float error;   // of it, up to a whole number
+  float error;          // of the number, up to a whole number
   float slope;   // bound of the change of the mesh's winding number per length, within the given radius
   vec3 gradient;  // of the number at the point, or its opposite
   float bend;     // half of the greatest second derivative within the radius
@@ -33,9 +33,9 @@ vec3 gradient_of_edge(vec3 a, vec3 b) {
   return across * ((la + lb) * inverse / max(la * lb, 1e-30));
 }
 
-// The same as winding_of_triangle, with a bound of its error. In the triangle's plane the value is 0 or 1/2, and the
-// choice between +1/2 and -1/2 does not matter here; on an edge, where all accuracy is lost, the bound is as large as
-// the value.
+// The same as winding_of_triangle, with a bound of its error. In the triangle's plane the value is 0 or 1/2; whether +1/2
+// or -1/2 does not matter for a rough number, and a ray does not count there. On an edge, where all accuracy is lost, the
+// bound is as large as the value.
 vec2 winding_of_closing_triangle(vec3 p, OpenEdge e) {
   vec3 a = e.from.xyz - p, b = e.to.xyz - p, c = e.apex.xyz - p;
   float la = length(a), lb = length(b), lc = length(c), product = la * lb * lc;

@@ -36,8 +36,9 @@ Result<PreparedMesh> prepare_loaded(Mesh mesh, const std::string& path, const De
   if (interrupted()) return stopped();
   Stopwatch stopwatch;
   const unsigned threads = opening.threads_beside(mesh.triangles.size(), options.threads);
-  Result<PreparedMesh> prepared =
-      prepare_mesh(std::move(mesh), {options.keep_inner_faces, options.keep_outer_faces, threads});
+  Result<PreparedMesh> prepared = prepare_mesh(
+      std::move(mesh),
+      {.keep_inner_faces = options.keep_inner_faces, .threads = threads, .keep_outer_faces = options.keep_outer_faces});
   if (!prepared) return Error{prepared.error().code, fmt::format("{}: {}", path, prepared.error().message)};
   times.push_back({"prepare", stopwatch.lap()});
   return prepared;

@@ -69,8 +69,9 @@ class SpheresRun {
   }
 
   PrepareOptions prepare_options() const {
-    const bool keep_outer_faces = options_.spheres.contract != SphereContract::kInside;
-    return {options_.keep_inner_faces, keep_outer_faces, options_.spheres.threads};
+    return {.keep_inner_faces = options_.keep_inner_faces,
+            .threads = options_.spheres.threads,
+            .keep_outer_faces = options_.spheres.contract != SphereContract::kInside};
   }
 
   Status load_robot() {

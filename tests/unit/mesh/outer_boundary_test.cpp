@@ -245,6 +245,34 @@ TEST(OuterBoundary, SidesThatEncloseTogetherStay) {
   EXPECT_GT(exact_winding_number(prepared.mesh, {0.52, 0.52, 0.52}), 0.9);
 }
 
+/// A box without its upper face, which a small box crosses, and a lid this far above it.
+Mesh box_with_lid(double gap) {
+  Mesh box = make_box({1, 1, 1});
+  std::erase_if(box.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return box.vertices[v][2] == 1; });
+  });
+  Mesh lid;
+  lid.vertices = {{-0.1, -0.1, 1 + gap}, {1.1, -0.1, 1 + gap}, {1.1, 1.1, 1 + gap}, {-0.1, 1.1, 1 + gap}};
+  lid.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Mesh knob = moved(make_box({0.2, 0.23, 0.2}), {0.37, 0.41, 0.9 + gap});
+  return together(together(box, lid), knob);
+}
+
+// The lid is flat, but where it lies the winding number of the box alone is neither that of the inside nor of the
+// outside.
+TEST(OuterBoundary, ALidStays) {
+  const PreparedMesh prepared = prepare(box_with_lid(0.15));
+  EXPECT_EQ(prepared.report.outer_faces, 0u);
+  EXPECT_GT(exact_winding_number(prepared.mesh, {0.2, 0.2, 1}), 0.7);
+}
+
+TEST(OuterBoundary, APlateThatCrossesNothingStays) {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0.4, 0.3, 0.2}, {1, 1, 1}}};
+  const PreparedMesh prepared = prepare(together(mesh_of(boxes), plate(3, 0.8)));
+  EXPECT_EQ(prepared.report.outer_faces, 0u);
+  EXPECT_DOUBLE_EQ(prepared.report.upper[1], 3);
+}
+
 // Half of a sphere is open, but not flat.
 TEST(OuterBoundary, ABowlStays) {
   Mesh bowl = make_sphere(0.8, 1000);
@@ -349,6 +377,15 @@ TEST(OuterBoundary, MapsLeadToTheInput) {
       }
     }
   }
+}
+
+TEST(OuterBoundary, OfAPlateDoesNotDependOnThreads) {
+  const Mesh mesh =
+      together(mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{0.3, 0.42, 0.31}, {0.43, 0.8, 0.37}}}), plate(0.4, 0.8));
+  const PreparedMesh one = prepare_mesh(mesh, {.threads = 1}).value(),
+                     four = prepare_mesh(mesh, {.threads = 4}).value();
+  EXPECT_EQ(one.mesh.vertices, four.mesh.vertices);
+  EXPECT_EQ(one.mesh.triangles, four.mesh.triangles);
 }
 
 TEST(OuterBoundary, TheResultDoesNotDependOnThreads) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "bvh/signed_crossings.h"
@@ -60,6 +61,33 @@ TEST(ClosingSurface, MakesWindingNumbersWhole) {
   sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.3}};
   sheet.triangles = {{0, 1, 2}, {0, 1, 2}};
   expect_closed(sheet, 6);
+}
+
+// Rims of a thousand edges with waves, one above the other: long triangles in layers between each rim and its apex.
+TEST(ClosingSurface, OfWavyRimsHasTheErrorOfOtherMeshes) {
+  constexpr std::uint32_t kEdges = 1000, kRims = 8;
+  Mesh bands;
+  for (std::uint32_t rim = 0; rim < kRims; ++rim) {
+    const auto first = static_cast<std::uint32_t>(bands.vertices.size());
+    for (std::uint32_t i = 0; i < kEdges; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kEdges, radius = 0.8 + 0.1 * std::sin(31 * angle);
+      for (const double up : {0.0, 0.02})
+        bands.vertices.push_back(
+            {radius * std::cos(angle), radius * std::sin(angle), 0.1 * rim - 0.4 + up + 0.03 * std::sin(17 * angle)});
+    }
+    for (std::uint32_t i = 0; i < kEdges; ++i) {
+      const std::uint32_t a = first + 2 * i, b = first + 2 * ((i + 1) % kEdges);
+      bands.triangles.push_back({a, b, b + 1});
+      bands.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  const auto closing = ClosingSurface::build(bands, MeshTopology(bands)).value();
+  ASSERT_EQ(closing->size(), 2 * kEdges * kRims);
+  PointsInBox points;
+  for (int i = 0; i < 300; ++i) {
+    const Point p = points.next();
+    EXPECT_NEAR(closing->rough_number(p), closing->number(p), 0.03);
+  }
 }
 
 // Two copies of a box, one of them turned inside out, and a third: the sum of the parts.

@@ -14,6 +14,8 @@ namespace medial_vk {
 class PartField {
  public:
   PartField(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
+  PartField(const PartField&) = delete;  // winding_ refers to tree_
+  PartField& operator=(const PartField&) = delete;
 
   double at(const Point& p) const { return winding_.at(p); }
   /// Beside a point of this triangle of the part, without that triangle.
