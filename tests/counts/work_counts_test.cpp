@@ -1,5 +1,6 @@
 // How often the costly steps run: indices (Bvh::build()), uploads of a mesh, threads of the host. (The refined copy of
-// the tree that a fit makes per Solid searches for no splits of large nodes and is not counted.) The linker sends
+// the tree that a fit makes per Solid searches for no splits of large nodes and is not counted. A Solid of an open mesh
+// also builds a tree over the triangles that close it, which are another mesh.) The linker sends
 // calls of these functions through the counters below (tests/CMakeLists.txt, --wrap).
 #include <gtest/gtest.h>
 

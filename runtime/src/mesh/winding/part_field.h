@@ -10,7 +10,7 @@
 
 namespace medial_vk {
 
-/// A triangle of the part is named by its place in the list from which the part was made.
+/// A triangle of the part is named by its index in the list from which the part was made.
 class PartField {
  public:
   PartField(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);

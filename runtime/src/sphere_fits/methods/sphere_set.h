@@ -13,7 +13,7 @@
 namespace medial_vk {
 
 struct SphereSet {
-  /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (`--levels`).
+  /// In mesh units. Of balls inside, every prefix is a good set of its own size: the levels (SphereFitOptions::levels).
   std::vector<Ball> balls;
   /// Method best, contract inside: volume of the union after 1, 2, 3 ... balls, which is the same for every requested
   /// number. (Not that of the first balls here, as balls move while others are added.)

@@ -84,7 +84,7 @@ class VolumeSampler {
  private:
   using Cell = std::array<std::size_t, 3>;
   static constexpr std::size_t kCellsOfBlock = kBlock * kBlock * kBlock;
-  using BlockSides = std::array<SolidSide, kCellsOfBlock>;  // by place()
+  using BlockSides = std::array<SolidSide, kCellsOfBlock>;  // by index_in_block()
 
   Point corner(const Cell& cell) const {
     Point at = lower_;
@@ -105,7 +105,7 @@ class VolumeSampler {
     BlockSides sides;
     sides.fill(side);
     if (side == SolidSide::kUnknown) find_sides(from, to, sides);
-    for_cells(from, to, [&](const Cell& cell) { add_cell(cell, sides[place(from, cell)], sum); });
+    for_cells(from, to, [&](const Cell& cell) { add_cell(cell, sides[index_in_block(from, cell)], sum); });
     return sum;
   }
 
@@ -114,32 +114,34 @@ class VolumeSampler {
   void find_sides(const Cell& from, const Cell& to, BlockSides& sides) const {
     const double of_cell = 0.5 * length(cell_), of_block = length(corner(to) - corner(from)) + of_cell;
     std::array<bool, kCellsOfBlock> is_free{};
-    for_cells(from, to, [&](const Cell& c) { is_free[place(from, c)] = !solid_.may_meet(middle(c), of_cell); });
+    for_cells(from, to,
+              [&](const Cell& c) { is_free[index_in_block(from, c)] = !solid_.may_meet(middle(c), of_cell); });
     for_cells(from, to, [&](const Cell& first) {
-      if (!is_free[place(from, first)] || sides[place(from, first)] != SolidSide::kUnknown) return;
+      if (!is_free[index_in_block(from, first)] || sides[index_in_block(from, first)] != SolidSide::kUnknown) return;
       const SolidSide side = solid_.side_around(middle(first), of_block);
       if (side == SolidSide::kUnknown) {
-        sides[place(from, first)] = solid_.side_around(middle(first), of_cell);
+        sides[index_in_block(from, first)] = solid_.side_around(middle(first), of_cell);
         return;
       }
       std::vector<Cell> waiting = {first};
       while (!waiting.empty()) {
         const Cell cell = waiting.back();
         waiting.pop_back();
-        sides[place(from, cell)] = side;
+        sides[index_in_block(from, cell)] = side;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           for (const bool up : {false, true}) {
             if (up ? cell[axis] + 1 == to[axis] : cell[axis] == from[axis]) continue;
             Cell next = cell;
             next[axis] = up ? cell[axis] + 1 : cell[axis] - 1;
-            if (is_free[place(from, next)] && sides[place(from, next)] == SolidSide::kUnknown) waiting.push_back(next);
+            if (is_free[index_in_block(from, next)] && sides[index_in_block(from, next)] == SolidSide::kUnknown)
+              waiting.push_back(next);
           }
         }
       }
     });
   }
 
-  static std::size_t place(const Cell& from, const Cell& cell) {
+  static std::size_t index_in_block(const Cell& from, const Cell& cell) {
     return cell[0] - from[0] + kBlock * (cell[1] - from[1] + kBlock * (cell[2] - from[2]));
   }
 
