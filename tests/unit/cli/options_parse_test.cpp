@@ -48,7 +48,7 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.extraction.object_angle, 0.6);
   EXPECT_EQ(options.extraction.radius, 0.0);
   EXPECT_EQ(options.extraction.epsilon, 0.01);
-  EXPECT_EQ(options.extraction.extra_levels, 8u);
+  EXPECT_EQ(options.extraction.extra_levels, 6u);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
   EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty() && options.html.empty());
