@@ -35,12 +35,12 @@ std::vector<char> find_candidates(const Mesh& mesh, const std::vector<std::uint3
   return is_open;
 }
 
-/// True if the winding number of these triangles beside each of them is at most kFlat. Begins with a few of them, which
-/// suffice for most surfaces that are not flat.
+/// True if these are at most kMostFlat and their winding number beside each of them is at most kFlat. Begins with a few
+/// of them, which suffice for most surfaces that are not flat.
 bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, unsigned threads) {
+  if (triangles.size() > kMostFlat) return false;
   constexpr std::size_t kFew = 32;
   const PartField field(mesh, triangles);
-  if (triangles.size() > kMostFlat) return false;
   const auto bends = [&](std::uint32_t number) { return std::fabs(field.beside(number)) > kFlat; };
   const std::size_t step = triangles.size() / kFew + 1;
   for (std::size_t i = 0; i < triangles.size(); i += step) {
@@ -56,14 +56,17 @@ Point middle_of(const Mesh& mesh, std::uint32_t t) {
   return (1.0 / 3) * (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]);
 }
 
-/// Removes the components that bound something with others from the flat ones.
+/// Leaves only those flat components that bound nothing, alone or with others.
 void keep_those_that_bound_nothing(const Mesh& mesh, const std::vector<std::uint32_t>& component_of,
                                    std::vector<char>& is_membrane, unsigned threads) {
   std::vector<std::uint32_t> flat, others;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     (is_membrane[component_of[t]] != 0 ? flat : others).push_back(t);
-  if (flat.size() > kMostFlat || others.empty()) is_membrane.assign(is_membrane.size(), 0);
-  if (flat.size() > kMostFlat || others.empty() || flat.empty()) return;
+  if (flat.empty()) return;
+  if (flat.size() > kMostFlat || others.empty()) {
+    is_membrane.assign(is_membrane.size(), 0);
+    return;
+  }
   const PartField of_flat(mesh, flat), of_others(mesh, others);
   std::vector<char> bounds(flat.size(), 0);
   parallel_for(flat.size(), 64, threads, [&](std::size_t i) {

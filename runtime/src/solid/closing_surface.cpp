@@ -1,9 +1,9 @@
 #include "solid/closing_surface.h"
 
-#include <cstdlib>
 #include <map>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/connected_vertices.h"
 #include "base/point_ops.h"
@@ -28,21 +28,32 @@ struct Hole {
   }
 };
 
-Mesh close(const Mesh& mesh, const MeshTopology& topology) {
-  struct OpenEdge {
-    std::uint32_t edge;
-    std::int64_t balance;
-  };
+struct OpenEdge {
+  std::uint32_t from, to;  // against the direction in which the mesh traverses the edge more often
+  std::int64_t times;
+};
+
+std::vector<OpenEdge> find_open_edges(const Mesh& mesh, const MeshTopology& topology) {
   std::vector<OpenEdge> open;
-  ConnectedVertices connected;
   for (std::uint32_t edge = 0; edge < topology.edge_count(); ++edge) {
+    const auto& [low, high] = topology.ends(edge);
     const std::int64_t balance = balance_at(mesh, topology, edge);
-    if (balance == 0) continue;
-    open.push_back({edge, balance});
-    connected.connect(topology.ends(edge)[0], topology.ends(edge)[1]);
+    if (balance > 0) open.push_back({high, low, balance});
+    if (balance < 0) open.push_back({low, high, -balance});
   }
+  return open;
+}
+
+Mesh close(const Mesh& mesh, const std::vector<OpenEdge>& open) {
+  ConnectedVertices connected;
+  for (const OpenEdge& e : open) connected.connect(e.from, e.to);
+  std::map<std::uint32_t, Hole> holes;  // by root
+  for (const OpenEdge& e : open) holes[connected.root(e.from)].add(mesh.vertices[e.from], mesh.vertices[e.to]);
   Mesh closing;
-  std::map<std::uint32_t, Hole> holes;                         // by root
+  for (auto& [root, hole] : holes) {
+    hole.apex = static_cast<std::uint32_t>(closing.vertices.size());
+    closing.vertices.push_back(hole.apex_position());
+  }
   std::unordered_map<std::uint32_t, std::uint32_t> number_of;  // by vertex of the mesh
   const auto number = [&](std::uint32_t v) {
     const auto [known, is_new] = number_of.try_emplace(v, static_cast<std::uint32_t>(closing.vertices.size()));
@@ -50,19 +61,8 @@ Mesh close(const Mesh& mesh, const MeshTopology& topology) {
     return known->second;
   };
   for (const OpenEdge& e : open) {
-    const auto& [low, high] = topology.ends(e.edge);
-    holes[connected.root(low)].add(mesh.vertices[low], mesh.vertices[high]);
-  }
-  for (auto& [root, hole] : holes) {
-    hole.apex = static_cast<std::uint32_t>(closing.vertices.size());
-    closing.vertices.push_back(hole.apex_position());
-  }
-  for (const OpenEdge& e : open) {
-    const auto& [low, high] = topology.ends(e.edge);
-    // Against the direction in which the mesh traverses the edge more often.
-    const std::uint32_t from = number(e.balance > 0 ? high : low), to = number(e.balance > 0 ? low : high);
-    const std::uint32_t apex = holes[connected.root(low)].apex;
-    for (std::int64_t times = std::abs(e.balance); times > 0; --times) closing.triangles.push_back({from, to, apex});
+    const Triangle corners = {number(e.from), number(e.to), holes[connected.root(e.from)].apex};
+    closing.triangles.insert(closing.triangles.end(), static_cast<std::size_t>(e.times), corners);
   }
   return closing;
 }
@@ -73,7 +73,7 @@ ClosingSurface::ClosingSurface(Mesh mesh, Bvh bvh)
     : mesh_(std::move(mesh)), bvh_(std::move(bvh)), tree_(mesh_), winding_(tree_) {}
 
 Result<std::unique_ptr<ClosingSurface>> ClosingSurface::build(const Mesh& mesh, const MeshTopology& topology) {
-  Mesh closing = close(mesh, topology);
+  Mesh closing = close(mesh, find_open_edges(mesh, topology));
   if (closing.triangles.empty()) return std::unique_ptr<ClosingSurface>();
   Result<Bvh> bvh = Bvh::build({closing.vertices, closing.triangles, {}, false}, {4, 1});
   if (!bvh) return bvh.error();

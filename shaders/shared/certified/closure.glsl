@@ -18,9 +18,9 @@ struct Closure {
   float number;         // winding number of the triangles that close the mesh
   Crossings crossings;  // of the ray with them
   float error;          // of the number, up to a whole number
-  float slope;   // bound of the change of the mesh's winding number per length, within the given radius
-  vec3 gradient;  // of the number at the point, or its opposite
-  float bend;     // half of the greatest second derivative within the radius
+  float slope;          // bound of the change of the mesh's winding number per length, within the given radius
+  vec3 gradient;        // of the number at the point, or its opposite
+  float bend;           // half of the greatest second derivative within the radius
 };
 
 // The integral of r x dl / |r|^3 along an edge, where r goes from p to l: in closed form, without cancellation if the
