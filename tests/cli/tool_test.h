@@ -19,7 +19,7 @@ class ToolTest : public testing::Test {
 
   /// A short run on the CPU, with further arguments.
   ToolCall cpu_call(std::vector<std::string> arguments) const {
-    for (const char* argument : {"--backend", "cpu", "--resolution", "12"}) arguments.push_back(argument);
+    for (const char* argument : {"--backend", "cpu", "--resolution", "6"}) arguments.push_back(argument);
     return call(std::move(arguments));
   }
 
