@@ -126,7 +126,7 @@ class HollowSolid : public SphereCertificate {
 };
 
 TEST_F(HollowSolid, ItsCavityMayStay) {
-  const std::vector<Ball> balls = shell(16, 0.16);
+  const std::vector<Ball> balls = shell(8, 0.3);
   std::vector<Ball> inner = balls;
   for (const Ball& ball : balls)
     inner.push_back(
