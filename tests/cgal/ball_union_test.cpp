@@ -17,6 +17,7 @@
 #include "support/extraction.h"
 #include "support/solids/ball_families.h"
 #include "support/solids/solids.h"
+#include "support/source_folder.h"
 
 namespace medial_vk {
 namespace {
@@ -169,7 +170,7 @@ TEST(UnionByCgal, OfMedialBalls) {
 }
 
 TEST(UnionByCgal, OfMedialBallsOfModels) {
-  const std::filesystem::path folder = std::filesystem::path(MEDIAL_VK_SOURCE_DIR) / ".." / "shared" / "models";
+  const std::filesystem::path folder = test::source_folder() / ".." / "shared" / "models";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "there is no folder of models beside the source tree";
   for (const auto& [name, resolution] : {std::pair{"spot", 100.0}, {"homer", 60.0}, {"rocker-arm", 60.0}}) {
     Result<Mesh> mesh = read_mesh((folder / (std::string(name) + ".obj")).string());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "paths.h"
 #include "support/device/device.h"
 #include "tool_test.h"
 
@@ -50,7 +51,7 @@ class Doctor : public test::ToolTest {
 
   /// The driver that fails as `fault` says, in a file of its own.
   ToolCall faulty_call(const std::string& fault, std::vector<std::string> arguments = {}) const {
-    test::write_file(path("faulty.json"), driver_file(MEDIAL_VK_FAULTY_DRIVER));
+    test::write_file(path("faulty.json"), driver_file(test::faulty_driver_path()));
     ToolCall out = call(std::move(arguments), path("faulty.json"));
     out.environment["FAULTY_DRIVER"] = fault;
     return out;
@@ -282,7 +283,7 @@ TEST_F(Doctor, ASignalEndsItWhileADriverHangs) {
 // Debian's chromium brings it.
 TEST_F(Doctor, TwoDriversAtOnce) {
   MEDIAL_VK_SKIP_WITHOUT_LAVAPIPE();
-  const std::string swiftshader = MEDIAL_VK_SWIFTSHADER_ICD;
+  const std::string swiftshader = test::swiftshader_icd_path();
   if (!std::filesystem::exists(swiftshader)) GTEST_SKIP() << "there is no SwiftShader";
   ToolCall both = faulty_call("none", {"--report", "r.json", "--device", "SwiftShader"});
   both.environment["VK_DRIVER_FILES"] = path("faulty.json") + ":" + swiftshader;

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "paths.h"
 #include "support/scenes/scene_files.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "paths.h"
+
 namespace medial_vk::test {
 namespace {
 
@@ -36,7 +38,7 @@ void redirect(const std::string& path, int flags, int descriptor) {
   }
   std::vector<std::string> arguments = call.arguments;
   std::vector<char*> pointers;
-  std::string program = call.program.empty() ? MEDIAL_VK_BINARY : call.program;
+  std::string program = call.program.empty() ? tool_path() : call.program;
   pointers.push_back(program.data());
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -45,8 +47,6 @@ void redirect(const std::string& path, int flags, int descriptor) {
 }
 
 }  // namespace
-
-std::string tool_path() { return MEDIAL_VK_BINARY; }
 
 ScratchFolder::ScratchFolder() {
   std::string name = testing::TempDir() + "medial_vk_cli_XXXXXX";

@@ -28,8 +28,6 @@ class ScratchFolder {
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);
-/// The path of the tool as it was built.
-std::string tool_path();
 
 struct ToolResult {
   int exit_code = -1;  ///< 128 + signal if a signal killed it.

@@ -14,6 +14,7 @@
 #include "support/device/device.h"
 #include "support/solids/smooth_solids.h"
 #include "support/solids/solids.h"
+#include "support/source_folder.h"
 
 namespace medial_vk {
 namespace {
@@ -87,7 +88,7 @@ Picture on_cpu(const GoldenScene& scene) {
 }
 
 std::string golden_file(const GoldenScene& scene) {
-  return std::string(MEDIAL_VK_SOURCE_DIR) + "/tests/golden/" + scene.name + ".png";
+  return test::source_folder() / "tests" / "golden" / (scene.name + std::string(".png"));
 }
 
 Picture golden(const GoldenScene& scene) {

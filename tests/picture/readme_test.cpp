@@ -10,15 +10,14 @@
 
 #include "picture/perceptual.h"
 #include "picture/tolerance.h"
+#include "support/source_folder.h"
 
 namespace medial_vk {
 namespace {
 
-const std::string kSource = MEDIAL_VK_SOURCE_DIR;
-
 /// "medial-vk turtle.obj ..." as README.md shows it below the picture.
 std::string shown_command() {
-  std::ifstream file(kSource + "/README.md");
+  std::ifstream file(test::source_folder() / "README.md");
   std::stringstream text;
   text << file.rdbuf();
   std::string readme = text.str();
@@ -46,7 +45,7 @@ TEST(Readme, PictureIsCurrent) {
   if (status == 4) GTEST_SKIP() << "no Vulkan device";
   ASSERT_EQ(status, 0) << command;
   ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-  const Result<Picture> shown = test::read_png(kSource + "/docs/images/turtle.png");
+  const Result<Picture> shown = test::read_png(test::source_folder() / "docs" / "images" / "turtle.png");
   ASSERT_TRUE(shown.ok()) << shown.error().message;
   test::expect_same_look(drawn.value(), shown.value(), test::kOtherSamples);  // else: scripts/make-images
 }

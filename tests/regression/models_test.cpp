@@ -16,6 +16,7 @@
 #include "sheets/voxel_graph.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
+#include "support/source_folder.h"
 
 namespace medial_vk {
 namespace {
@@ -26,8 +27,7 @@ struct Model {
 };
 
 std::string file_of(const char* name) {
-  return (std::filesystem::path(MEDIAL_VK_SOURCE_DIR) / ".." / "shared" / "models" / (std::string(name) + ".obj"))
-      .string();
+  return (test::source_folder() / ".." / "shared" / "models" / (std::string(name) + ".obj")).string();
 }
 
 const char* const kNoModels = "there is no folder of models beside the source tree";

@@ -19,6 +19,7 @@
 #include "cli/options/options.h"
 #include "cli/options/spheres_options.h"
 #include "common/tool_errors.h"
+#include "support/source_folder.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 /// The text of all sources in a folder, each file with its name.
 std::vector<std::pair<std::string, std::string>> sources_in(const char* folder) {
   std::vector<std::pair<std::string, std::string>> out;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(MEDIAL_VK_SOURCE_DIR) / folder)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(test::source_folder() / folder)) {
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
     std::ifstream file(entry.path());
     out.emplace_back(entry.path().string(), std::string(std::istreambuf_iterator<char>(file), {}));

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <filesystem>
+
+namespace medial_vk::test {
+
+/// The root of the source tree.
+std::filesystem::path source_folder();
+
+}  // namespace medial_vk::test
