@@ -144,7 +144,7 @@ TEST_F(CommandLine, SameInputSameBytesInEveryForm) {
   EXPECT_TRUE(read_file(path("a.ply")) == read_file(path("b.ply")));
 
   const ToolResult streamed =
-      run_tool({{"-", "-o", "-", "--backend", "cpu", "--resolution", "12"}, path(""), small_part()});
+      run_tool({{"-", "-o", "-", "--backend", "cpu", "--resolution", "6"}, path(""), small_part()});
   EXPECT_EQ(streamed.exit_code, 0) << streamed.err;
   EXPECT_TRUE(streamed.out == read_file(path("a.ply")));
 
@@ -158,7 +158,7 @@ TEST_F(CommandLine, SameInputSameBytesInEveryForm) {
 }
 
 TEST_F(CommandLine, StandardInputHasItsOwnDefaultName) {
-  const ToolResult result = run_tool({{"-", "--backend", "cpu", "--resolution", "12"}, path(""), small_part()});
+  const ToolResult result = run_tool({{"-", "--backend", "cpu", "--resolution", "6"}, path(""), small_part()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj", "stdin.medial.ply"));
 }
@@ -175,7 +175,7 @@ TEST_F(CommandLine, CheckPassesAndPrintsItsTable) {
 TEST_F(CommandLine, ReportAndPicture) {
   const ToolResult result = run_cpu({"part.obj", "--report", "-", "--picture", "p.png"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["parameters"]["resolution"], 12);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["parameters"]["resolution"], 6);
   EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
 }
 
@@ -205,7 +205,9 @@ TEST_F(CommandLine, SheetsAreInPointsAndReport) {
 }
 
 TEST_F(CommandLine, VolumesOfBallsAndSheets) {
-  ASSERT_EQ(run_cpu({"part.obj", "--report", "r.json", "--ball-volumes", "b.csv", "--sheet-curve", "c.svg"}).exit_code,
+  ASSERT_EQ(run({"part.obj", "--backend", "cpu", "--resolution", "12", "--report", "r.json", "--ball-volumes", "b.csv",
+                 "--sheet-curve", "c.svg"})
+                .exit_code,
             0);
   const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
   double sum = 0;
