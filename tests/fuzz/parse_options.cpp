@@ -14,7 +14,7 @@ void require_in_range(const cli::Options& options) {
   require(p.object_angle > 0 && p.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
   require(p.radius >= 0 && p.radius <= 1, "--radius keeps its range");
   require(p.epsilon >= 1e-3 && p.epsilon <= 0.5, "--epsilon keeps its range");
-  require(p.extra_levels <= 8, "--extra-levels keeps its range");
+  require(p.extra_levels <= 10, "--extra-levels keeps its range");
   require(options.perturb >= 0 && options.perturb <= 0.1, "--perturb keeps its range");
   require(options.threads <= 1024, "--threads keeps its range");
   require(p.memory_budget == 0 || p.memory_budget >= 64u << 20, "--memory keeps its range");

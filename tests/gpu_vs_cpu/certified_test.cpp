@@ -73,10 +73,10 @@ void expect_explained(const Missing& missing, std::uint64_t undecided, std::size
 }
 
 // Sums over levels that a lost or doubled cell would break.
-void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_levels, bool closed) {
+void expect_consistent(const CertifiedExtraction& result, const ExtractionOptions& options, bool closed) {
   const ExtractionCounters& c = result.extraction.measurements.counters;
-  ASSERT_GT(c.levels.size(), extra_levels);
-  const std::size_t finest = c.levels.size() - 1 - extra_levels;
+  ASSERT_GT(c.levels.size(), options.extra_levels);
+  const std::size_t finest = c.levels.size() - 1 - options.extra_levels;
   std::uint64_t found = 0;
   for (std::size_t level = 0; level < c.levels.size(); ++level) {
     EXPECT_LE(c.levels[level].kept, c.levels[level].visited) << "level " << level;
@@ -109,9 +109,14 @@ void expect_consistent(const CertifiedExtraction& result, std::uint32_t extra_le
   EXPECT_EQ(found, c.found + result.certificate.rejected);
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_EQ(result.certificate.passed, result.extraction.spheres.size());
-  // Cells that are kept to the end belong to undecided voxels; where the boundary has no trusted normals, cells may be
-  // given up before, but none at the finest level.
-  const std::uint64_t left = closed ? c.levels.back().kept : c.levels[finest + 1].kept;
+  // A cell of each undecided voxel is kept at every level up to the one at which it is given up: the last one, or, of
+  // cells below 1/4096 of the longest side that hold at most points near a face or at the threshold, an earlier one.
+  // Where the boundary has no trusted normals, cells are given up even earlier, but none at the finest level.
+  std::size_t giving_up = finest;
+  for (double side = 1.0 / options.resolution; giving_up + 1 < c.levels.size() && side >= 1.0 / 4096; side /= 2) {
+    ++giving_up;
+  }
+  const std::uint64_t left = c.levels[closed ? giving_up : finest + 1].kept;
   EXPECT_LE(c.undecided, left + result.certificate.rejected);
 }
 
@@ -143,7 +148,7 @@ CertifiedExtraction expect_agreement_of_axis_aligned(Mesh solid, std::uint32_t r
     expect_explained(missing_from(reference, device.extraction, options), reference.measurements.counters.undecided,
                      points);
   }
-  expect_consistent(device, options.extra_levels, mesh.report.closed);
+  expect_consistent(device, options, mesh.report.closed);
   return device;
 }
 

@@ -18,7 +18,7 @@ struct Options {
   double object_angle = 0.6;                         // radians
   double radius = 0;                                 // fraction of the longest side, 0: off
   double epsilon = 0.01;                             // fraction of the voxel side
-  int extra_levels = 6;                              // certified: subdivision below the finest voxel
+  int extra_levels = 8;                              // certified: subdivision below the finest voxel
   bool narrow_features = true;                       // thesis: Section 2.4.3
   std::array<int, 4> samples = {400, 200, 100, 50};  // thesis
   // The object angle that a point above the radius threshold, if one is set, must have (never above object_angle).

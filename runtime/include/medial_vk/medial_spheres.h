@@ -35,7 +35,7 @@ struct ExtractionOptions {
   /// creases between the facets of a smooth solid, and by more across medial sheets.
   double deep_angle = 0.15;
   double epsilon = 0.01;           ///< Largest distance from a medial point, in voxel sides: [1e-3, 0.5].
-  std::uint32_t extra_levels = 6;  ///< Mode certified: levels of subdivision below the finest voxel, 0 to 10.
+  std::uint32_t extra_levels = 8;  ///< Mode certified: levels of subdivision below the finest voxel, 0 to 10.
   ThesisOptions thesis;            ///< Of mode thesis only.
   /// The device memory to stay below, in bytes. It includes the mesh and the staging memory of copies, but not the
   /// staging memory of moved vertices (ExtractionJob). At least a quarter of it is left for the search, so the total

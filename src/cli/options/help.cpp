@@ -75,7 +75,7 @@ What is looked for (lengths are fractions, so units do not matter):
       --mode MODE       certified: voxels are dismissed by proof (default)
                         thesis: the published search by sampled flux
       --extra-levels N  how often a difficult voxel is halved before it counts
-                        as undecided, 0 to 8 (default 6)
+                        as undecided, 0 to 10 (default 8)
       --simplify        drop points within E of another one in a voxel beside it
       --keep-inner-faces
                         take faces inside the solid, such as those of a part

@@ -49,7 +49,7 @@ void declare(CLI::App& app, Options& options) {
   add.real("--radius", {0, 1}, " of the longest side", extraction.radius);
   add.real("--epsilon", {1e-3, 0.5}, " of the voxel side", extraction.epsilon);
   add.choice<Mode>("--mode", {{"certified", Mode::kCertified}, {"thesis", Mode::kThesis}}, extraction.mode);
-  add.whole("--extra-levels", 0, 8, " levels", extraction.extra_levels);
+  add.whole("--extra-levels", 0, 10, " levels", extraction.extra_levels);
   add.flag("--simplify", options.simplify);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.real("--perturb", {0, 0.1}, " of the longest side", options.perturb);

@@ -48,7 +48,7 @@ TEST(Options, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(options.extraction.object_angle, 0.6);
   EXPECT_EQ(options.extraction.radius, 0.0);
   EXPECT_EQ(options.extraction.epsilon, 0.01);
-  EXPECT_EQ(options.extraction.extra_levels, 6u);
+  EXPECT_EQ(options.extraction.extra_levels, 8u);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_FALSE(options.ascii || options.simplify || options.check || options.quiet || options.verbose);
   EXPECT_TRUE(options.device.empty() && options.report.empty() && options.picture.empty() && options.html.empty());
@@ -282,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadValue{"--object-angle", "1.5708"}, BadValue{"--object-angle", "nan"},
                     BadValue{"--object-angle", "abc"}, BadValue{"--radius", "-0.1"}, BadValue{"--radius", "1.01"},
                     BadValue{"--epsilon", "0.0009"}, BadValue{"--epsilon", "0.51"}, BadValue{"--epsilon", "inf"},
-                    BadValue{"--mode", "fast"}, BadValue{"--backend", "cuda"}, BadValue{"--extra-levels", "9"},
+                    BadValue{"--mode", "fast"}, BadValue{"--backend", "cuda"}, BadValue{"--extra-levels", "11"},
                     BadValue{"--perturb", "0.2"}, BadValue{"--seed", "-1"}, BadValue{"--seed", "18446744073709551616"},
                     BadValue{"--memory", "63"}, BadValue{"--memory", "many"}, BadValue{"--memory", "2X"},
                     BadValue{"--threads", "-1"}, BadValue{"--picture", "p.jpg"}, BadValue{"--html", "p.png"},

@@ -175,7 +175,7 @@ TEST_F(ReferenceCertificate, ExtractionIsRepeatableOrderedAndInterruptible) {
     EXPECT_TRUE(a.z() < b.z() || (a.z() == b.z() && (a.y() < b.y() || (a.y() == b.y() && a.x() < b.x()))));
   }
   EXPECT_EQ(again.found, again.spheres.size());
-  EXPECT_EQ(again.levels.size(), 10u);  // four, and six extra
+  EXPECT_EQ(again.levels.size(), 12u);  // four, and eight extra
   double last = 0;
   const Result stopped = reference::extract(*mesh_, options(), [&](double done) {
     EXPECT_GE(done, last);
