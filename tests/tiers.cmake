@@ -45,10 +45,11 @@ foreach(name ${full})
   string(REGEX REPLACE "[.].*" "" folder "${name}")
   set_tests_properties("${name}" PROPERTIES LABELS "${folder};full")
 endforeach()
-# Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit. Kills of
-# a run that writes points alone, and smaller meshes, pictures and fits, remain.
+# Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit. A
+# process that is killed reports nothing to the sanitizers; smaller meshes, pictures and fits remain.
 set(sanitized_full
   cli.Kills.LeaveWholeFilesOrNone/AllFiles
+  cli.Kills.LeaveWholeFilesOrNone/Points
   cli.SpheresCommand.BestGivesTheSameBytesOnAnyNumberOfThreads
   faults.PictureFaults.OfMemory
   faults.PoorDevice.ReadsALargeMeshThroughStorageBuffers
