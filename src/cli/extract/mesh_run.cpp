@@ -1,7 +1,6 @@
 #include "cli/extract/mesh_run.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <stop_token>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "check_reports/check_sheets.h"
 #include "cli/extract/summary.h"
 #include "cli/shared/load.h"
+#include "cli/shared/reference_with_estimate.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
@@ -22,7 +22,6 @@
 #include "output/page/page.h"
 #include "output/picture/picture.h"
 #include "reference_bridge/check_balls.h"
-#include "reference_bridge/reference_extractor.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -110,16 +109,8 @@ Status MeshRun::analyse_mesh() {
     shared_.progress.update(stage, done);
     if (interrupted()) stop.request_stop();
   };
-  std::function<void(const TimeEstimate&)> on_estimate;
-  if (!options_.quiet) {
-    on_estimate = [&](const TimeEstimate& estimate) {
-      const std::string text = estimate_line(estimate);
-      shared_.progress.clear();
-      if (!text.empty()) print_message(text);
-    };
-  }
-  const Extractor extractor =
-      options_.backend == Backend::kCpu ? reference_extractor(on_estimate) : device_extractor(*shared_.context);
+  const Extractor extractor = options_.backend == Backend::kCpu ? reference_with_estimate(shared_.progress)
+                                                                : device_extractor(*shared_.context);
   Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
   shared_.progress.clear();
   if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "cli/terminal/numbers.h"
@@ -117,17 +116,6 @@ std::string opening(const RunRecord& record) {
                                        record.device ? memory_size(record.device->memory_bytes) : "memory"));
   }
   return text;
-}
-
-std::string estimate_line(const TimeEstimate& estimate) {
-  constexpr double kWorthALine = 10;
-  if (estimate.seconds < kWorthALine) return {};
-  const double unit = std::pow(10, std::floor(std::log10(estimate.seconds)) - 1);
-  const std::string time = duration(std::round(estimate.seconds / unit) * unit);
-  const auto voxels = static_cast<std::uint64_t>(estimate.voxels);
-  return line("estimate",
-              fmt::format("about {}{} on one thread, from {} chosen at random; a device is faster", time,
-                          estimate.is_cut_off ? ", or much more," : "", counted(voxels, "voxel", "voxels")));
 }
 
 std::string summary(const RunRecord& record, std::span<const OutputFile> files) {

@@ -6,14 +6,11 @@
 
 #include "output/atomic_files/atomic_file.h"
 #include "output/extraction_report/run_record.h"
-#include "reference_bridge/reference_extractor.h"
 
 namespace medial_vk::cli {
 
 /// One line before the work begins: the input, the method and the device.
 std::string opening(const RunRecord& record);
-/// A line with the time that the CPU reference will take, or nothing if it is short.
-std::string estimate_line(const TimeEstimate& estimate);
 /// A few aligned lines at the end, after `files` have been written.
 std::string summary(const RunRecord& record, std::span<const OutputFile> files);
 /// For -v: levels, seconds by the clock of the device, and the options that are not in the summary.

@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "cli/options/spheres_options.h"
 #include "cli/shared/load.h"
+#include "cli/shared/reference_with_estimate.h"
 #include "cli/shared/shared_of_run.h"
 #include "cli/spheres/spheres_summary.h"
 #include "cli/terminal/interrupt.h"
@@ -26,7 +27,6 @@
 #include "output/fit_reports/fits_report.h"
 #include "output/picture/picture.h"
 #include "reference_bridge/check_balls.h"
-#include "reference_bridge/reference_extractor.h"
 #include "robots/model/read_urdf.h"
 #include "robots/parts.h"
 #include "scene_files/part_names.h"
@@ -151,9 +151,9 @@ class SpheresRun {
   Status fit_robot(const StageProgress& on_progress, const std::stop_token& stop) {
     const PartFitOptions fit_options = {options_.spheres, options_.count_per_link, options_.total,
                                         options_.spheres.threads};
-    Result<std::vector<PartFit>> fits = shared_.context
-                                            ? fit_parts(parts_, fit_options, *shared_.context, on_progress, stop)
-                                            : fit_parts(parts_, fit_options, reference_extractor(), on_progress, stop);
+    Result<std::vector<PartFit>> fits =
+        shared_.context ? fit_parts(parts_, fit_options, *shared_.context, on_progress, stop)
+                        : fit_parts(parts_, fit_options, reference_with_estimate(shared_.progress), on_progress, stop);
     if (!fits) return fits.error();
     for (std::size_t i = 0; i < parts_.size(); ++i) take_fit(std::move(fits.value()[i]), record_.solids[i]);
     return {};
@@ -163,9 +163,9 @@ class SpheresRun {
     Stopwatch stopwatch;
     FittedSolid& solid = record_.solids.front();
     const SphereFitOptions& fit_options = options_.spheres;
-    Result<SphereFit> fit = shared_.context
-                                ? fit_spheres(*solid.mesh, fit_options, *shared_.context, on_progress, stop)
-                                : fit_spheres(*solid.mesh, fit_options, reference_extractor(), on_progress, stop);
+    Result<SphereFit> fit = shared_.context ? fit_spheres(*solid.mesh, fit_options, *shared_.context, on_progress, stop)
+                                            : fit_spheres(*solid.mesh, fit_options,
+                                                          reference_with_estimate(shared_.progress), on_progress, stop);
     if (!fit) return fit.error();
     take_fit(std::move(fit).value(), fit_options.count, solid);
     solid.seconds = stopwatch.lap();

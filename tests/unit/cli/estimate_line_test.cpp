@@ -1,7 +1,7 @@
 // The line with the time that the CPU reference will take.
 #include <gtest/gtest.h>
 
-#include "cli/extract/summary.h"
+#include "cli/shared/reference_with_estimate.h"
 
 namespace medial_vk::cli {
 namespace {
