@@ -22,6 +22,7 @@
 #include "medial_vk/pose.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/progress.h"
+#include "medial_vk/proximity.h"
 #include "medial_vk/result.h"
 #include "medial_vk/scene.h"
 #include "medial_vk/sheets.h"
