@@ -48,14 +48,14 @@ Point middle_of(std::span<const Ball> inside, std::span<const Ball> cover) {
 /// A pose with what the searches in two pairs of trees share.
 class Between {
  public:
-  Between(const BodyImpl& a, const BodyImpl& b, const Pose& pose) : a_(a), b_(b), pose_(pose) {
-    Pose centred = pose;
-    centred.shift = pose * b.centre - a.centre;
-    float_pose_ = FloatPose(centred);
-    distance_ = length(centred.shift);
-    // Of double: the shift between the centres, and the points of upper_bound(), which have coordinates of this size.
-    lengths_ = length(a.centre) + length(b.centre) + length(pose.shift);
-  }
+  Between(const BodyImpl& a, const BodyImpl& b, const Pose& pose)
+      : a_(a),
+        b_(b),
+        pose_(pose),
+        shift_(pose * b.centre - a.centre),
+        float_pose_({pose.rotation, shift_}),
+        distance_(length(shift_)),
+        lengths_(length(a.centre) + length(b.centre) + length(pose.shift)) {}
 
   /// No two balls of the trees are closer; `pair` becomes the closest, and is where the search starts.
   double lower_bound(const BallTree& a, const BallTree& b, BallPair& pair) const {
@@ -81,8 +81,10 @@ class Between {
   const BodyImpl& a_;
   const BodyImpl& b_;
   const Pose& pose_;
+  Point shift_;  // of the centre of b from that of a
   FloatPose float_pose_;
-  double distance_ = 0, lengths_ = 0;
+  double distance_;
+  double lengths_;  // bounds all lengths in double, whose errors are small shares of it
 };
 
 }  // namespace
