@@ -40,16 +40,23 @@ Point widest_direction(std::span<const Ball> balls, std::span<const std::uint32_
   return {axis.x(), axis.y(), axis.z()};
 }
 
-/// Reorders `chosen` so that its first half lies before its second along the widest direction; equal positions are
-/// ordered by index, so the result does not depend on the order before.
-void halve(std::span<const Ball> balls, std::span<std::uint32_t> chosen) {
+/// Appends `count` parts of `chosen` of nearly equal size to `parts`, by cuts across the widest directions. `chosen` is
+/// reordered; equal positions are ordered by index, so that the parts do not depend on the order before.
+void divide(std::span<const Ball> balls, std::span<std::uint32_t> chosen, std::size_t count,
+            std::vector<std::span<std::uint32_t>>& parts) {
+  if (count == 1) {
+    parts.push_back(chosen);
+    return;
+  }
   const Point axis = widest_direction(balls, chosen);
   const auto before = [&](std::uint32_t i, std::uint32_t j) {
     const double p = dot(axis, balls[i].centre), q = dot(axis, balls[j].centre);
     return p != q ? p < q : i < j;
   };
-  std::nth_element(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(chosen.size() / 2), chosen.end(),
-                   before);
+  const std::size_t first = count / 2, cut = chosen.size() * first / count;
+  std::nth_element(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(cut), chosen.end(), before);
+  divide(balls, chosen.first(cut), first, parts);
+  divide(balls, chosen.subspan(cut), count - first, parts);
 }
 
 /// A point near the centre of the smallest ball around the chosen balls (M. Badoiu and K. Clarkson, "Smaller core-sets
@@ -87,48 +94,34 @@ BallTree BallTree::build(std::span<const Ball> balls, const Point& centre) {
   }
   std::vector<std::uint32_t> all(balls.size());
   std::iota(all.begin(), all.end(), 0u);
-  tree.root_ball_ = tree.ball_around(balls, all);
-  tree.build_node(balls, all);
-  const auto reach_of = [](const FloatBall& ball) { return (length(point_of(ball)) + ball.radius) * kUp; };
-  tree.reach_ = reach_of(tree.root_ball_);
+  tree.build_node(balls, all, ball_tree_levels(balls.size()));
   for (const BallNode& node : tree.nodes_) {
-    for (std::size_t k = 0; k < BallNode::kWidth; ++k) tree.reach_ = std::max(tree.reach_, reach_of(node.ball(k)));
+    for (std::size_t k = 0; k < node.count; ++k) {
+      const Point middle = {node.centre[0][k], node.centre[1][k], node.centre[2][k]};
+      tree.reach_ = std::max(tree.reach_, (length(middle) + node.radius[k]) * kUp);
+    }
   }
   return tree;
 }
 
-/// Eight parts by halving three times; each has at most an eighth of the balls, rounded up.
-std::uint32_t BallTree::build_node(std::span<const Ball> balls, std::span<std::uint32_t> of_node) {
+/// With as few parts as a tree of so many levels allows, so that places are used. Precondition: at most 8^levels balls.
+std::uint32_t BallTree::build_node(std::span<const Ball> balls, std::span<std::uint32_t> of_node, std::size_t levels) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  std::vector<std::span<std::uint32_t>> parts = {of_node};
-  if (of_node.size() > BallNode::kWidth) {
-    for (int round = 0; round < 3; ++round) {
-      std::vector<std::span<std::uint32_t>> halves;
-      for (const std::span<std::uint32_t> part : parts) {
-        halve(balls, part);
-        halves.push_back(part.first(part.size() / 2));
-        halves.push_back(part.subspan(part.size() / 2));
-      }
-      parts = std::move(halves);
-    }
-  } else {
-    parts.clear();
-    for (std::size_t k = 0; k < of_node.size(); ++k) parts.push_back(of_node.subspan(k, 1));
-  }
-  for (std::size_t k = 0; k < BallNode::kWidth; ++k) {
-    FloatBall ball = {{0, 0, 0}, -3e38f};
-    std::uint32_t below = 0;
-    if (k < parts.size() && !parts[k].empty()) {
-      const bool is_leaf = parts[k].size() == 1;
-      ball = is_leaf ? leaves_[parts[k].front()] : ball_around(balls, parts[k]);
-      below = is_leaf ? kLeaf | parts[k].front() : build_node(balls, parts[k]);
-    }
-    BallNode& node = nodes_[index];  // build_node() may have moved it
+  const std::size_t most_below = std::size_t{1} << (3 * (levels - 1));  // 8^(levels - 1)
+  std::vector<std::span<std::uint32_t>> parts;
+  divide(balls, of_node, (of_node.size() + most_below - 1) / most_below, parts);
+  BallNode node;
+  node.radius.fill(-3e38f);
+  node.is_lowest = levels == 1;
+  for (const std::span<std::uint32_t> part : parts) {
+    const std::uint32_t k = node.count++;
+    const FloatBall ball = node.is_lowest ? leaves_[part.front()] : ball_around(balls, part);
     for (std::size_t axis = 0; axis < 3; ++axis) node.centre[axis][k] = ball.centre[axis];
     node.radius[k] = ball.radius;
-    node.below[k] = below;
+    node.below[k] = node.is_lowest ? part.front() : build_node(balls, part, levels - 1);
   }
+  nodes_[index] = node;
   return index;
 }
 

@@ -1,111 +1,153 @@
 #include "proximity/closest_balls.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <utility>
 
-#if defined(__GNUC__) || defined(__clang__)
-#define MEDIAL_VK_INLINE inline __attribute__((always_inline))
-#else
-#define MEDIAL_VK_INLINE inline
-#endif
+#include "proximity/eight_floats.h"
 
 namespace medial_vk {
 namespace {
 
-constexpr float kFarther = 1e30f;  // than any two balls, and less than the separation to an unused place
+constexpr float kFarther = 1e30f;  // than any two balls, and less than the separation of an unused place
 constexpr std::size_t kWidth = BallNode::kWidth;
 
-bool is_leaf(std::uint32_t below) { return (below & BallTree::kLeaf) != 0; }
-
-/// Two balls, one of each tree, whose parts may hold a closer pair. Each centre is in the frame of its own tree.
+/// Two nodes, one of each tree, below which there may be a closer pair.
 struct Task {
   float separation;
-  std::uint32_t below_a, below_b;
-  FloatBall a, b;
+  std::uint32_t node_a, node_b;
 };
 
-MEDIAL_VK_INLINE float separation_of(const FloatBall& a, const std::array<float, 3>& centre_b, float radius_b) {
-  const float x = a.centre[0] - centre_b[0], y = a.centre[1] - centre_b[1], z = a.centre[2] - centre_b[2];
-  return std::sqrt(x * x + y * y + z * z) - (a.radius + radius_b);
-}
-
-/// The separations between a ball and the eight of a node, in the frame of the node.
-MEDIAL_VK_INLINE void separations_from(const BallNode& node, const std::array<float, 3>& centre, float radius,
-                                       std::array<float, kWidth>& separations) {
-  for (std::size_t k = 0; k < kWidth; ++k) {
-    const float x = node.centre[0][k] - centre[0], y = node.centre[1][k] - centre[1], z = node.centre[2][k] - centre[2];
-    separations[k] = std::sqrt(x * x + y * y + z * z) - (node.radius[k] + radius);
-  }
-}
-
-/// Depth first, the closest part of each division first: the first descent gives a bound for all that follows.
+/// Depth first, and of the pairs of a division the closest first: the first descent gives a bound for all that follows.
 class Search {
  public:
   Search(const BallTree& a, const BallTree& b, const FloatPose& pose, const BallPair& start, float enough)
       : a_(a), b_(b), pose_(pose), enough_(enough) {
-    if (start.a < a.size() && start.b < b.size()) {
-      const FloatBall& other = b.leaf(start.b);
-      best_ = {separation_of(a.leaf(start.a), pose.to_a(other.centre), other.radius), start};
-    }
+    if (start.a >= a.size() || start.b >= b.size()) return;
+    const FloatBall &of_a = a.leaf(start.a), &of_b = b.leaf(start.b);
+    const std::array<float, 3> centre = pose.to_a(of_b.centre);
+    const float x = of_a.centre[0] - centre[0], y = of_a.centre[1] - centre[1], z = of_a.centre[2] - centre[2];
+    best_ = {std::sqrt(x * x + y * y + z * z) - (of_a.radius + of_b.radius), start};
   }
 
   MEDIAL_VK_INLINE ClosestBalls run() {
-    tasks_[0] = {-kFarther, 0, 0, a_.root_ball(), b_.root_ball()};
+    if (best_.separation == kFarther) dive();
+    tasks_[0] = {-kFarther, 0, 0};
     count_ = 1;
     while (count_ > 0 && best_.separation > enough_) {
       const Task task = tasks_[--count_];
-      if (task.separation < best_.separation) divide(task);
+      if (task.separation < best_.separation) compare(task);
     }
     return best_;
   }
 
  private:
-  /// The larger ball is replaced by its parts.
-  MEDIAL_VK_INLINE void divide(const Task& task) {
-    if (is_leaf(task.below_b) || (!is_leaf(task.below_a) && task.a.radius >= task.b.radius)) {
-      divide_into<true>(task, a_.node(task.below_a), pose_.to_a(task.b.centre), task.b.radius, task.below_b);
-    } else {
-      divide_into<false>(task, b_.node(task.below_b), pose_.to_b(task.a.centre), task.a.radius, task.below_a);
+  /// The centres of a node's balls in the frame of a.
+  struct Centres {
+    std::array<std::array<float, kWidth>, 3> of;
+  };
+
+  MEDIAL_VK_INLINE Centres in_frame_of_a(const BallNode& b) const {
+    const EightFloats x = load(b.centre[0]), y = load(b.centre[1]), z = load(b.centre[2]);
+    Centres centres;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<float, 3>& row = pose_.rows[i];
+      centres.of[i] = stored(row[0] * x + row[1] * y + row[2] * z + pose_.shift[i]);
     }
+    return centres;
   }
 
-  template <bool kOfA>
-  MEDIAL_VK_INLINE void divide_into(const Task& task, const BallNode& node, const std::array<float, 3>& centre,
-                                    float radius, std::uint32_t below_other) {
-    alignas(32) std::array<float, kWidth> separations;
-    separations_from(node, centre, radius, separations);
-    std::array<std::uint32_t, kWidth> order;
-    std::size_t found = 0;
-    const bool other_is_leaf = is_leaf(below_other);
-    for (std::uint32_t k = 0; k < kWidth; ++k) {
-      if (!(separations[k] < best_.separation)) continue;
-      if (other_is_leaf && is_leaf(node.below[k])) {
-        const std::uint32_t mine = node.below[k] & ~BallTree::kLeaf, others = below_other & ~BallTree::kLeaf;
-        best_ = {separations[k], kOfA ? BallPair{mine, others} : BallPair{others, mine}};
-        continue;
+  /// From the eight balls of a node of a to ball `j` of a node of b.
+  MEDIAL_VK_INLINE static EightFloats squared_distances(const BallNode& a, const Centres& centres, std::size_t j) {
+    const EightFloats x = load(a.centre[0]) - centres.of[0][j], y = load(a.centre[1]) - centres.of[1][j],
+                      z = load(a.centre[2]) - centres.of[2][j];
+    return x * x + y * y + z * z;
+  }
+
+  /// Straight down to two balls, by way of the closest two of each division, for a first bound.
+  MEDIAL_VK_INLINE void dive() {
+    std::uint32_t node_a = 0, node_b = 0;
+    while (true) {
+      const BallNode &a = a_.node(node_a), &b = b_.node(node_b);
+      const Centres centres = in_frame_of_a(b);
+      EightFloats least = kFarther - EightFloats{};
+      EightInts with{};
+      for (std::uint32_t j = 0; j < b.count; ++j) {
+        const EightFloats separations = square_root(squared_distances(a, centres, j)) - (load(a.radius) + b.radius[j]);
+        const EightInts is_less = separations < least;
+        least = select(is_less, separations, least);
+        with = (is_less & static_cast<std::int32_t>(j)) | (~is_less & with);
       }
-      std::size_t place = found++;
-      for (; place > 0 && separations[order[place - 1]] < separations[k]; --place) order[place] = order[place - 1];
-      order[place] = k;
-    }
-    for (std::size_t i = 0; i < found; ++i) {
-      const std::uint32_t k = order[i];
-      if (!(separations[k] < best_.separation)) continue;
-      tasks_[count_++] = kOfA ? Task{separations[k], node.below[k], task.below_b, node.ball(k), task.b}
-                              : Task{separations[k], task.below_a, node.below[k], task.a, node.ball(k)};
+      std::size_t k = 0;
+      for (std::size_t i = 1; i < kWidth; ++i) k = least[i] < least[k] ? i : k;
+      const std::uint32_t below_a = a.below[k], below_b = b.below[with[k]];
+      if (a.is_lowest && b.is_lowest) {
+        best_ = {least[k], {below_a, below_b}};
+        return;
+      }
+      if (!a.is_lowest) node_a = below_a;
+      if (!b.is_lowest) node_b = below_b;
     }
   }
 
-  /// A division replaces a task by up to eight, and two trees have so many levels together.
-  static constexpr std::size_t kMostTasks = 1 + (kWidth - 1) * 2 * ball_tree_levels(kMostBodyBalls);
+  /// All balls of one node with all of the other one, eight pairs at a time; square roots are left to closer pairs.
+  MEDIAL_VK_INLINE void compare(const Task& task) {
+    const BallNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
+    const Centres centres = in_frame_of_a(b);
+    const EightFloats reach_a = load(a.radius) + best_.separation;
+    std::uint64_t closer = 0;  // bit 8 j + k: ball k of a and ball j of b
+    for (std::uint32_t j = 0; j < kWidth; ++j) {
+      const EightFloats reach = reach_a + b.radius[j];
+      const EightInts is_closer = (squared_distances(a, centres, j) < reach * reach) & (reach > 0);
+      closer |= std::uint64_t{bits_of(is_closer)} << (kWidth * j);
+    }
+    first_ = count_;
+    for (; closer != 0; closer &= closer - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(closer));
+      const std::uint32_t k = bit % kWidth, j = bit / kWidth;
+      const float x = a.centre[0][k] - centres.of[0][j], y = a.centre[1][k] - centres.of[1][j],
+                  z = a.centre[2][k] - centres.of[2][j];
+      take(std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]), task, a, k, b, j);
+    }
+  }
+
+  /// A pair that was closer than the best so far when its nodes were compared.
+  MEDIAL_VK_INLINE void take(float separation, const Task& task, const BallNode& a, std::uint32_t k, const BallNode& b,
+                             std::uint32_t j) {
+    if (a.is_lowest && b.is_lowest) {
+      if (separation < best_.separation) best_ = {separation, {a.below[k], b.below[j]}};
+      return;
+    }
+    const Task below = {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j]};
+    if (a.is_lowest == b.is_lowest || !repeats(below)) push(below);
+  }
+
+  /// A node of the lowest level is not replaced, so several of its balls may give the same task: the closest one does.
+  MEDIAL_VK_INLINE bool repeats(const Task& task) {
+    std::size_t place = first_;
+    while (place < count_ && (tasks_[place].node_a != task.node_a || tasks_[place].node_b != task.node_b)) ++place;
+    if (place == count_) return false;
+    if (tasks_[place].separation <= task.separation) return true;
+    for (--count_; place < count_; ++place) tasks_[place] = tasks_[place + 1];
+    return false;
+  }
+
+  /// The tasks of one division are in the order of decreasing separation.
+  MEDIAL_VK_INLINE void push(const Task& task) {
+    std::size_t place = count_++;
+    for (; place > first_ && tasks_[place - 1].separation < task.separation; --place) tasks_[place] = tasks_[place - 1];
+    tasks_[place] = task;
+  }
+
+  /// A division replaces a task by up to 64, and two trees have so many levels.
+  static constexpr std::size_t kMostTasks = 1 + (kWidth * kWidth - 1) * 2 * ball_tree_levels(kMostBodyBalls);
 
   const BallTree& a_;
   const BallTree& b_;
   const FloatPose& pose_;
   float enough_;
   ClosestBalls best_ = {kFarther, {}};
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, first_ = 0;
   std::array<Task, kMostTasks> tasks_;
 };
 
@@ -125,10 +167,7 @@ ClosestBalls search(const BallTree& a, const BallTree& b, const FloatPose& pose,
 
 FloatPose::FloatPose(const Pose& pose) {
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      rows[i][j] = static_cast<float>(pose.rotation[i][j]);
-      columns[j][i] = rows[i][j];
-    }
+    for (std::size_t j = 0; j < 3; ++j) rows[i][j] = static_cast<float>(pose.rotation[i][j]);
     shift[i] = static_cast<float>(pose.shift[i]);
   }
 }

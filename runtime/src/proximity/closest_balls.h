@@ -11,22 +11,14 @@ namespace medial_vk {
 
 /// A pose between the frames of two trees, whose origins are the centres of their bodies.
 struct FloatPose {
-  std::array<std::array<float, 3>, 3> rows;     ///< Of the rotation from b to a.
-  std::array<std::array<float, 3>, 3> columns;  ///< The rows of its inverse.
+  std::array<std::array<float, 3>, 3> rows;  ///< Of the rotation.
   std::array<float, 3> shift;
 
-  FloatPose() = default;
   explicit FloatPose(const Pose& pose);
 
   std::array<float, 3> to_a(const std::array<float, 3>& p) const {
     std::array<float, 3> out;
     for (std::size_t i = 0; i < 3; ++i) out[i] = rows[i][0] * p[0] + rows[i][1] * p[1] + rows[i][2] * p[2] + shift[i];
-    return out;
-  }
-  std::array<float, 3> to_b(const std::array<float, 3>& p) const {
-    const std::array<float, 3> d = {p[0] - shift[0], p[1] - shift[1], p[2] - shift[2]};
-    std::array<float, 3> out;
-    for (std::size_t i = 0; i < 3; ++i) out[i] = columns[i][0] * d[0] + columns[i][1] * d[1] + columns[i][2] * d[2];
     return out;
   }
 };
@@ -39,15 +31,15 @@ struct ClosestBalls {
 
 /// Computed separations are within this of the real ones between the balls of the trees, if `distance` is that of the
 /// frames' origins. Let M be the sum of the two reaches and `distance`, which bounds every length below, and u = 2^-24.
-/// A centre in the other frame costs, in each coordinate, one rounding of the entries of the rotation and of the shift
-/// and four of products and sums: 5.1 u times a length of M, the product of a row with a vector at most. In the other
-/// direction the subtraction of the shift comes first: 2 u M and 4.1 u M. The vector so has an error of
-/// sqrt(3) 5.1 u M < 9 u M, or (2 + sqrt(3) 5.1) u M < 11 u M; its difference to the other centre u M more; its length
-/// 4 u M; the sum of the radii and the last difference 2 u M: 18 u M. A rotation with rows that are perpendicular and
-/// of unit length to within 1e-12, as the inverse of its transpose, adds less than u M. A square that underflows has an
-/// error of 2^-150, and a length one of 2^-74.
+/// A centre in the other frame costs, in each coordinate, one rounding of the entries of the rotation and of the shift,
+/// and four of products and sums: 5.1 u times a row's product with a vector and the shift, at most M. The vector so has
+/// an error of sqrt(3) 5.1 u M < 9 u M, its difference to the other centre one of u M more, its length 4 u M more, and
+/// the sum of the radii and the last difference 2 u M more: 16 u M. A comparison of squares, of a distance and of a sum
+/// of a separation and two radii, in the place of a square root has no more roundings. Rows that are perpendicular unit
+/// vectors to within 1e-12 only add less than u M. A square that underflows has an error of 2^-150, and a length one of
+/// 2^-74.
 inline double separation_error(const BallTree& a, const BallTree& b, double distance) {
-  return 20 * 0x1p-24 * (a.reach() + b.reach() + distance) + 0x1p-70;
+  return 18 * 0x1p-24 * (a.reach() + b.reach() + distance) + 0x1p-70;
 }
 
 /// The closest two balls, by computed separations, or, once a computed separation is at most `enough`, some two with

@@ -1,0 +1,50 @@
+// Eight floats at a time, by the vector types of gcc and clang: each operation is one instruction where the processor
+// has such, and several elsewhere.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// Functions for all processors become part of functions for some.
+#define MEDIAL_VK_INLINE inline __attribute__((always_inline))
+
+namespace medial_vk {
+
+using EightFloats = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));  // of a comparison: -1 for true, 0 for false
+
+MEDIAL_VK_INLINE EightFloats load(const std::array<float, 8>& values) {
+  EightFloats floats;
+  std::memcpy(&floats, values.data(), sizeof floats);
+  return floats;
+}
+
+MEDIAL_VK_INLINE std::array<float, 8> stored(const EightFloats& floats) {
+  std::array<float, 8> values;
+  std::memcpy(values.data(), &floats, sizeof floats);
+  return values;
+}
+
+MEDIAL_VK_INLINE EightFloats square_root(const EightFloats& floats) {
+  std::array<float, 8> values = stored(floats);
+  for (float& value : values) value = std::sqrt(value);
+  return load(values);
+}
+
+MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& yes, const EightFloats& no) {
+  return reinterpret_cast<EightFloats>((where & reinterpret_cast<EightInts>(yes)) |
+                                       (~where & reinterpret_cast<EightInts>(no)));
+}
+
+/// Bit k is set where place k is true.
+MEDIAL_VK_INLINE std::uint32_t bits_of(const EightInts& where) {
+  const EightInts bits = where & EightInts{1, 2, 4, 8, 16, 32, 64, 128};
+  std::array<std::uint64_t, 4> pairs;
+  std::memcpy(pairs.data(), &bits, sizeof bits);
+  const std::uint64_t all = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+  return static_cast<std::uint32_t>(all | all >> 32);
+}
+
+}  // namespace medial_vk
