@@ -1,6 +1,6 @@
 # cmake -P PrecompileHeaders.cmake -- COMMAND ...: runs the command, and if it precompiles headers, writes a digest of the
-# preprocessed headers beside its output, FILE.sum. ccache hashes that file in the place of FILE (CCACHE_PCH_EXTSUM), which
-# has the paths of its build and so differs in every folder.
+# preprocessed headers beside its output, FILE.sum. With CCACHE_PCH_EXTSUM ccache hashes FILE.sum in the place of FILE:
+# FILE has the paths of its build, and so differs in every folder.
 set(command)
 set(preprocess)
 set(output)

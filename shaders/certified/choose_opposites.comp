@@ -4,7 +4,6 @@
 // vertex, with the same direction at the opposite. Most require no query. A sample nearest to the interior of a face is
 // not a fan. A sample whose opposite lies on the segment to its nearest point is a fan, since all points of that
 // segment have the same nearest point. The opposites of the other samples are queried, in groups.
-#include "lanes/angles.glsl"
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

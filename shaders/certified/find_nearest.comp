@@ -7,7 +7,6 @@
 // Points of a line read only the contacts that find_line_ends.comp has left for it, and samples those that
 // mark_samples.comp has left for their group. The grown ends of a line decide whether it has found a point. Lists
 // longer than kEntriesPerRound take several rounds; each continues from the result of the previous one.
-#include "lanes/angles.glsl"
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

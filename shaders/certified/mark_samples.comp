@@ -4,7 +4,6 @@
 // Determines the contacts of a found voxel that may be the nearest triangle of a sample of its flux: a mask of the list
 // for each of the eight groups of samples (docs/theory.md, "Samples"). One lane for each group. Lists longer than
 // kEntriesPerRound take several rounds.
-#include "lanes/angles.glsl"
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"

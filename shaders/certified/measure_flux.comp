@@ -3,7 +3,6 @@
 // Average outward flux of the gradient of the distance transform (equation 2.4) through the sphere around a voxel: the
 // sum of choose_opposites.comp, and the samples whose queried opposites show that they are not two-sided fans
 // (Definition 2.4).
-#include "lanes/angles.glsl"
 #include "certified/step.glsl"
 #include "certified/flux_samples.glsl"
 #define TRIANGLE_STORAGE_BINDING 0

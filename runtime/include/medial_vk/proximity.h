@@ -24,7 +24,8 @@ class Body {
  public:
   /// Either set may be empty: without `inside` there are no upper bounds, without `cover` no lower ones. Centres and
   /// radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond 1e18. Copies the balls.
-  /// Time: n log n. Errors: kUsage (names the ball), kOutOfMemory.
+  /// Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two empty sets, and for more
+  /// than kMostBodyBalls), kOutOfMemory.
   static Result<Body> create(std::span<const Ball> inside, std::span<const Ball> cover);
 
   std::span<const Ball> inside() const;
@@ -53,30 +54,36 @@ enum class Collision {
   kUndecided,  ///< The balls do not decide it.
 };
 
-/// An interval that contains the distance between two solids: 0 if they have a point in common, even where one holds
-/// the other.
+/// An interval that contains the distance between two solids. That distance is 0 if they have a point in common, even
+/// where one holds the other.
 struct DistanceBounds {
   double lower = 0;                                        ///< Proved by the covers.
   double upper = std::numeric_limits<double>::infinity();  ///< Proved by the balls inside.
-  /// The pairs of balls that give the two bounds; no pair where a set is empty.
-  BallPair cover, inside;
+  /// The balls of the covers, and those inside, that give the two bounds; no pair where a set is empty.
+  BallPair cover_pair, inside_pair;
 
   Collision collision() const {
     return lower > 0 ? Collision::kFree : upper == 0 ? Collision::kHit : Collision::kUndecided;
   }
 };
 
+struct DistanceOptions {
+  unsigned threads = 0;  ///< 0: one per core. The result does not depend on it.
+};
+
 /// Bounds of the distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`. The
-/// bounds include all rounding errors: they hold if the balls inside are inside and the covers cover. `start` may be
-/// the result of an earlier query of the same two bodies; the search then begins with its pairs, and is faster if the
-/// pose has changed little. Without it, or with indices that the bodies do not have, the result may only differ in
-/// which of several pairs of equal distance, up to rounding, it names. Allocates nothing. Preconditions: finite numbers
-/// in `pose`, and rows of its rotation that are perpendicular unit vectors to within 1e-12.
+/// bounds include all rounding errors: they hold if the balls inside are inside and the covers cover. They are within
+/// 3e-6 M of the distances of the sets, where M is the distance of the bodies' middles plus the size of both. `start`
+/// may be the result of an earlier query of the same two bodies: the search then begins with its pairs, and is faster
+/// if the pose has changed little. A start may change the bounds within that accuracy, and which of nearly equal pairs
+/// is named; indices that the bodies do not have are ignored. Allocates nothing. Preconditions: rows of the rotation
+/// that are perpendicular unit vectors to within 1e-12. Where a number of the shift is beyond 1e18, or none, the bounds
+/// are 0 and infinity.
 DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, const DistanceBounds& start = {});
 
-/// The same for every pose, on `threads` threads (0: one per core); each search starts from the result before it.
-/// Precondition: `bounds` has the size of `poses`.
+/// The same for every pose; most searches start from the result before them. Precondition: `bounds` has the size of
+/// `poses`.
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,
-                     unsigned threads = 0);
+                     const DistanceOptions& options = {});
 
 }  // namespace medial_vk

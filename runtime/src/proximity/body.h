@@ -4,14 +4,14 @@
 
 #include "base/internals.h"
 #include "medial_vk/proximity.h"
-#include "proximity/ball_tree.h"
+#include "proximity/body_tree.h"
 
 namespace medial_vk {
 
 struct Body::Impl {
   Point centre = {0, 0, 0};  ///< The origin of the trees' frame.
   std::vector<Ball> inside, cover;
-  BallTree inside_tree, cover_tree;
+  BodyTree inside_tree, cover_tree;
 };
 
 using BodyImpl = Internals::ImplOf<Body>::Type;

@@ -9,8 +9,8 @@
 namespace medial_vk {
 namespace {
 
-constexpr float kFarther = 1e30f;  // than any two balls, and less than the separation of an unused place
-constexpr std::size_t kWidth = BallNode::kWidth;
+constexpr float kFarther = 1e30f;  // More than any separation of two balls, and less than that of an unused slot.
+constexpr std::size_t kWidth = BodyNode::kWidth;
 
 /// Two nodes, one of each tree, below which there may be a closer pair.
 struct Task {
@@ -18,10 +18,10 @@ struct Task {
   std::uint32_t node_a, node_b;
 };
 
-/// Depth first, and of the pairs of a division the closest first: the first descent gives a bound for all that follows.
+/// Depth first, and of the pairs of a division the closest first.
 class Search {
  public:
-  Search(const BallTree& a, const BallTree& b, const FloatPose& pose, const BallPair& start, float enough)
+  Search(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start, float enough)
       : a_(a), b_(b), pose_(pose), enough_(enough) {
     if (start.a >= a.size() || start.b >= b.size()) return;
     const FloatBall &of_a = a.leaf(start.a), &of_b = b.leaf(start.b);
@@ -47,7 +47,7 @@ class Search {
     std::array<std::array<float, kWidth>, 3> of;
   };
 
-  MEDIAL_VK_INLINE Centres in_frame_of_a(const BallNode& b) const {
+  MEDIAL_VK_INLINE Centres in_frame_of_a(const BodyNode& b) const {
     const EightFloats x = load(b.centre[0]), y = load(b.centre[1]), z = load(b.centre[2]);
     Centres centres;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ class Search {
   }
 
   /// From the eight balls of a node of a to ball `j` of a node of b.
-  MEDIAL_VK_INLINE static EightFloats squared_distances(const BallNode& a, const Centres& centres, std::size_t j) {
+  MEDIAL_VK_INLINE static EightFloats squared_distances(const BodyNode& a, const Centres& centres, std::size_t j) {
     const EightFloats x = load(a.centre[0]) - centres.of[0][j], y = load(a.centre[1]) - centres.of[1][j],
                       z = load(a.centre[2]) - centres.of[2][j];
     return x * x + y * y + z * z;
@@ -68,7 +68,7 @@ class Search {
   MEDIAL_VK_INLINE void dive() {
     std::uint32_t node_a = 0, node_b = 0;
     while (true) {
-      const BallNode &a = a_.node(node_a), &b = b_.node(node_b);
+      const BodyNode &a = a_.node(node_a), &b = b_.node(node_b);
       const Centres centres = in_frame_of_a(b);
       EightFloats least = kFarther - EightFloats{};
       EightInts with{};
@@ -92,7 +92,7 @@ class Search {
 
   /// All balls of one node with all of the other one, eight pairs at a time; square roots are left to closer pairs.
   MEDIAL_VK_INLINE void compare(const Task& task) {
-    const BallNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
+    const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
     const Centres centres = in_frame_of_a(b);
     const EightFloats reach_a = load(a.radius) + best_.separation;
     std::uint64_t closer = 0;  // bit 8 j + k: ball k of a and ball j of b
@@ -112,7 +112,7 @@ class Search {
   }
 
   /// A pair that was closer than the best so far when its nodes were compared.
-  MEDIAL_VK_INLINE void take(float separation, const Task& task, const BallNode& a, std::uint32_t k, const BallNode& b,
+  MEDIAL_VK_INLINE void take(float separation, const Task& task, const BodyNode& a, std::uint32_t k, const BodyNode& b,
                              std::uint32_t j) {
     if (a.is_lowest && b.is_lowest) {
       if (separation < best_.separation) best_ = {separation, {a.below[k], b.below[j]}};
@@ -124,26 +124,26 @@ class Search {
 
   /// A node of the lowest level is not replaced, so several of its balls may give the same task: the closest one does.
   MEDIAL_VK_INLINE bool repeats(const Task& task) {
-    std::size_t place = first_;
-    while (place < count_ && (tasks_[place].node_a != task.node_a || tasks_[place].node_b != task.node_b)) ++place;
-    if (place == count_) return false;
-    if (tasks_[place].separation <= task.separation) return true;
-    for (--count_; place < count_; ++place) tasks_[place] = tasks_[place + 1];
+    std::size_t slot = first_;
+    while (slot < count_ && (tasks_[slot].node_a != task.node_a || tasks_[slot].node_b != task.node_b)) ++slot;
+    if (slot == count_) return false;
+    if (tasks_[slot].separation <= task.separation) return true;
+    for (--count_; slot < count_; ++slot) tasks_[slot] = tasks_[slot + 1];
     return false;
   }
 
   /// The tasks of one division are in the order of decreasing separation.
   MEDIAL_VK_INLINE void push(const Task& task) {
-    std::size_t place = count_++;
-    for (; place > first_ && tasks_[place - 1].separation < task.separation; --place) tasks_[place] = tasks_[place - 1];
-    tasks_[place] = task;
+    std::size_t slot = count_++;
+    for (; slot > first_ && tasks_[slot - 1].separation < task.separation; --slot) tasks_[slot] = tasks_[slot - 1];
+    tasks_[slot] = task;
   }
 
-  /// A division replaces a task by up to 64, and two trees have so many levels.
-  static constexpr std::size_t kMostTasks = 1 + (kWidth * kWidth - 1) * 2 * ball_tree_levels(kMostBodyBalls);
+  /// A comparison replaces a task by up to 64, at most once for each level of both trees.
+  static constexpr std::size_t kMostTasks = 1 + (kWidth * kWidth - 1) * 2 * body_tree_levels(kMostBodyBalls);
 
-  const BallTree& a_;
-  const BallTree& b_;
+  const BodyTree& a_;
+  const BodyTree& b_;
   const FloatPose& pose_;
   float enough_;
   ClosestBalls best_ = {kFarther, {}};
@@ -152,14 +152,14 @@ class Search {
 };
 
 #if defined(__x86_64__) && defined(__GNUC__)
-__attribute__((target("avx2"))) ClosestBalls search_with_avx2(const BallTree& a, const BallTree& b,
+__attribute__((target("avx2"))) ClosestBalls search_with_avx2(const BodyTree& a, const BodyTree& b,
                                                               const FloatPose& pose, const BallPair& start,
                                                               float enough) {
   return Search(a, b, pose, start, enough).run();
 }
 #endif
 
-ClosestBalls search(const BallTree& a, const BallTree& b, const FloatPose& pose, const BallPair& start, float enough) {
+ClosestBalls search(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start, float enough) {
   return Search(a, b, pose, start, enough).run();
 }
 
@@ -172,11 +172,10 @@ FloatPose::FloatPose(const Pose& pose) {
   }
 }
 
-ClosestBalls closest_balls(const BallTree& a, const BallTree& b, const FloatPose& pose, const BallPair& start,
+ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start,
                            float enough) {
 #if defined(__x86_64__) && defined(__GNUC__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") > 0;
-  if (has_avx2) return search_with_avx2(a, b, pose, start, enough);
+  if (__builtin_cpu_supports("avx2")) return search_with_avx2(a, b, pose, start, enough);
 #endif
   return search(a, b, pose, start, enough);
 }

@@ -1,5 +1,5 @@
-// Eight floats at a time, by the vector types of gcc and clang: each operation is one instruction where the processor
-// has such, and several elsewhere.
+// Eight floats at a time, by the vector types of gcc and clang: one instruction where the processor has one for eight
+// floats, and several elsewhere.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-// Functions for all processors become part of functions for some.
+// Inlined into a function for processors with AVX2, a function is compiled for these.
 #define MEDIAL_VK_INLINE inline __attribute__((always_inline))
 
 namespace medial_vk {
@@ -38,7 +38,7 @@ MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& y
                                        (~where & reinterpret_cast<EightInts>(no)));
 }
 
-/// Bit k is set where place k is true.
+/// Bit k is set if element k is true.
 MEDIAL_VK_INLINE std::uint32_t bits_of(const EightInts& where) {
   const EightInts bits = where & EightInts{1, 2, 4, 8, 16, 32, 64, 128};
   std::array<std::uint64_t, 4> pairs;

@@ -19,7 +19,7 @@ constexpr double kLargest = 1e18;  // squares of sums of three are floats
 
 Status check(std::span<const Ball> balls, const char* set) {
   if (balls.size() > kMostBodyBalls) {
-    return Error{ErrorCode::kUsage, fmt::format("`{}` has {} balls, more than {}", set, balls.size(), kMostBodyBalls)};
+    return Error{ErrorCode::kUsage, fmt::format("{} has {} balls, more than {}", set, balls.size(), kMostBodyBalls)};
   }
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const auto& [centre, radius] = balls[i];
@@ -28,7 +28,7 @@ Status check(std::span<const Ball> balls, const char* set) {
     if (is_good) continue;
     return Error{
         ErrorCode::kUsage,
-        fmt::format("ball {} of `{}` is not finite, has a negative radius or reaches beyond {:g}", i, set, kLargest)};
+        fmt::format("ball {} of {} is not finite, has a negative radius or reaches beyond {:g}", i, set, kLargest)};
   }
   return {};
 }
@@ -53,12 +53,15 @@ class Between {
         b_(b),
         pose_(pose),
         shift_(pose * b.centre - a.centre),
-        float_pose_({pose.rotation, shift_}),
         distance_(length(shift_)),
-        lengths_(length(a.centre) + length(b.centre) + length(pose.shift)) {}
+        lengths_(length(a.centre) + length(b.centre) + length(pose.shift)),
+        float_pose_(is_in_range() ? Pose{pose.rotation, shift_} : Pose{}) {}
+
+  /// False where squares of lengths may be too large for float.
+  bool is_in_range() const { return distance_ <= 4 * kLargest && lengths_ <= 8 * kLargest; }
 
   /// No two balls of the trees are closer; `pair` becomes the closest, and is where the search starts.
-  double lower_bound(const BallTree& a, const BallTree& b, BallPair& pair) const {
+  double lower_bound(const BodyTree& a, const BodyTree& b, BallPair& pair) const {
     const ClosestBalls found = closest_balls(a, b, float_pose_, pair, 0.0f);
     pair = found.balls;
     return std::max(0.0, (found.separation - separation_error(a, b, distance_) - 0x1p-48 * lengths_) * (1 - 0x1p-50));
@@ -66,14 +69,14 @@ class Between {
 
   /// Two balls of the sets are as close; `pair` as above. The search may end at two that overlap by more than all
   /// errors.
-  double upper_bound(const BallTree& a, const BallTree& b, BallPair& pair) const {
+  double upper_bound(const BodyTree& a, const BodyTree& b, BallPair& pair) const {
     const double error = separation_error(a, b, distance_);
     pair = closest_balls(a, b, float_pose_, pair, static_cast<float>(-4 * error - 0x1p-46 * lengths_)).balls;
     const Ball &ball_a = a_.inside[pair.a], &ball_b = b_.inside[pair.b];
     const Point away = ball_a.centre - pose_ * ball_b.centre;
     // Eleven roundings of sums of at most this; a rotation that is one to within 1e-12 may also shrink the ball.
     const double size = length(ball_a.centre) + length(ball_b.centre) + length(pose_.shift) + ball_a.radius;
-    const double separation = length(away) - ball_a.radius - ball_b.radius;
+    const double separation = std::hypot(away[0], away[1], away[2]) - ball_a.radius - ball_b.radius;  // no underflow
     return std::max(0.0, separation + 0x1p-48 * size + 4e-12 * ball_b.radius);
   }
 
@@ -82,24 +85,24 @@ class Between {
   const BodyImpl& b_;
   const Pose& pose_;
   Point shift_;  // of the centre of b from that of a
-  FloatPose float_pose_;
   double distance_;
   double lengths_;  // bounds all lengths in double, whose errors are small shares of it
+  FloatPose float_pose_;
 };
 
 }  // namespace
 
 Result<Body> Body::create(std::span<const Ball> inside, std::span<const Ball> cover) {
   if (inside.empty() && cover.empty()) return Error{ErrorCode::kUsage, "a body needs balls `inside` or a `cover`"};
-  if (Status status = check(inside, "inside"); !status) return status.error();
-  if (Status status = check(cover, "cover"); !status) return status.error();
+  if (Status status = check(inside, "`inside`"); !status) return status.error();
+  if (Status status = check(cover, "`cover`"); !status) return status.error();
   return catch_out_of_memory("indexing the balls of a body", [&]() -> Result<Body> {
     const auto impl = std::make_shared<Impl>();
     impl->centre = middle_of(inside, cover);
     impl->inside.assign(inside.begin(), inside.end());
     impl->cover.assign(cover.begin(), cover.end());
-    impl->inside_tree = BallTree::build(inside, impl->centre);
-    impl->cover_tree = BallTree::build(cover, impl->centre);
+    impl->inside_tree = BodyTree::build(inside, impl->centre);
+    impl->cover_tree = BodyTree::build(cover, impl->centre);
     return Body(impl);
   });
 }
@@ -111,21 +114,22 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
   const BodyImpl &in_a = Internals::of(a), &in_b = Internals::of(b);
   const Between between(in_a, in_b, pose);
   DistanceBounds bounds;
+  if (!between.is_in_range()) return bounds;
   if (!in_a.cover_tree.is_empty() && !in_b.cover_tree.is_empty()) {
-    bounds.cover = start.cover;
-    bounds.lower = between.lower_bound(in_a.cover_tree, in_b.cover_tree, bounds.cover);
+    bounds.cover_pair = start.cover_pair;
+    bounds.lower = between.lower_bound(in_a.cover_tree, in_b.cover_tree, bounds.cover_pair);
   }
   if (!in_a.inside_tree.is_empty() && !in_b.inside_tree.is_empty()) {
-    bounds.inside = start.inside;
-    bounds.upper = between.upper_bound(in_a.inside_tree, in_b.inside_tree, bounds.inside);
+    bounds.inside_pair = start.inside_pair;
+    bounds.upper = between.upper_bound(in_a.inside_tree, in_b.inside_tree, bounds.inside_pair);
   }
   return bounds;
 }
 
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,
-                     unsigned threads) {
+                     const DistanceOptions& options) {
   constexpr std::size_t kBlock = 256;
-  parallel_blocks(poses.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(poses.size(), kBlock, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       bounds[i] = distance_bounds(a, b, poses[i], i > begin ? bounds[i - 1] : DistanceBounds{});
     }

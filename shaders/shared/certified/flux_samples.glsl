@@ -1,5 +1,5 @@
 // The points at which the flux through the sphere around a found voxel is sampled, with the voxel's side as radius, and
-// definitions that the kernels of the flux share. Include "lanes/angles.glsl" and "step.glsl" before.
+// definitions that the kernels of the flux share. Include "step.glsl" before.
 #ifndef MEDIAL_VK_FLUX_SAMPLES_GLSL
 #define MEDIAL_VK_FLUX_SAMPLES_GLSL
 
@@ -8,14 +8,13 @@ const float kSameDirection = 1.0 - 1e-6;  // cosine; directions are accurate to 
 vec3 voxel_centre(FoundPoint p) { return (vec3(p.voxel_x, p.voxel_y, p.voxel_z) + 0.5) * step.voxel_size; }
 
 // The source's spiral (its [102]) advances the azimuth by 3.6 / sqrt(N (1 - h^2)), a sum without a closed form; the
-// golden angle, 0.381966 turns, spreads the points as evenly. Half the azimuth is at most a right angle: GLSL's sine and
-// cosine have no bounded error beyond half a turn.
+// golden angle, 0.381966 turns, spreads the points as evenly. The azimuth is reduced to half a turn to both sides, where
+// GLSL's sine and cosine have an error of at most 2^-11; beyond that it is not bounded.
 vec3 spiral_direction(uint k) {
-  float h = (2.0 * float(k) + 1.0) / float(kFluxSamples) - 1.0;
-  float half_azimuth = 3.1415927 * (fract(float(k) * 0.381966 + 0.5) - 0.5);
-  float s = sine(half_azimuth), c = cosine(abs(half_azimuth));
+  float h = float(k) * (2.0 / float(kFluxSamples)) + (1.0 / float(kFluxSamples) - 1.0);
+  float azimuth = 6.2831853 * fract(float(k) * 0.381966 + 0.5) - 3.1415927;
   float r = sqrt(1.0 - h * h);
-  return vec3(r * (1.0 - 2.0 * s * s), r * 2.0 * s * c, h);
+  return vec3(r * cos(azimuth), r * sin(azimuth), h);
 }
 
 // The centre of the voxel and its sample k.

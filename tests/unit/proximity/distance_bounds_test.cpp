@@ -60,18 +60,18 @@ std::vector<Ball> cloud(Random& random, std::size_t count, const Point& middle, 
 
 /// A bound is this share of M at most away from the distance of the sets: 2 E = 36 * 2^-24 M of closest_balls.h, and
 /// less than 8 * 2^-24 M by which two balls grow when they are rounded.
-constexpr double kWidth = 44 * 0x1p-24;
+constexpr double kAccuracy = 44 * 0x1p-24;
 
 /// `size` is at least M, the sum of the distance of the bodies' centres and of their reaches.
 void expect_bounds(const DistanceBounds& bounds, const Body& a, const Body& b, const Pose& pose, double size) {
   const double cover = least_separation(a.cover(), b.cover(), pose),
                inside = least_separation(a.inside(), b.inside(), pose);
   EXPECT_LE(bounds.lower, cover);
-  EXPECT_GE(bounds.lower, cover - kWidth * size);
+  EXPECT_GE(bounds.lower, cover - kAccuracy * size);
   EXPECT_GE(bounds.upper, inside);
-  EXPECT_LE(bounds.upper, inside + kWidth * size);
+  EXPECT_LE(bounds.upper, inside + kAccuracy * size);
   if (inside > 0) {
-    EXPECT_LE(separation_of(bounds.inside, a.inside(), b.inside(), pose), bounds.upper);
+    EXPECT_LE(separation_of(bounds.inside_pair, a.inside(), b.inside(), pose), bounds.upper);
   }
 }
 
@@ -117,19 +117,19 @@ TEST(DistanceBounds, ANearbyStartChangesNothing) {
     last = distance_bounds(a, b, pose, last);
     expect_bounds(last, a, b, pose, 10);
     const DistanceBounds fresh = distance_bounds(a, b, pose);
-    EXPECT_NEAR(last.lower, fresh.lower, 10 * kWidth);
-    EXPECT_NEAR(last.upper, fresh.upper, 10 * kWidth);
+    EXPECT_NEAR(last.lower, fresh.lower, 10 * kAccuracy);
+    EXPECT_NEAR(last.upper, fresh.upper, 10 * kAccuracy);
   }
 }
 
 TEST(DistanceBounds, AStartOfOtherBodiesIsIgnored) {
   const Body a = body({{{0, 0, 0}, 1}}, {{{0, 0, 0}, 1}}), b = body({{{0, 0, 0}, 2}}, {{{0, 0, 0}, 2}});
   DistanceBounds start;
-  start.cover = {17, 0};
-  start.inside = {0, 99};
+  start.cover_pair = {17, 0};
+  start.inside_pair = {0, 99};
   const DistanceBounds bounds = distance_bounds(a, b, make_pose({10, 0, 0}, {0, 0, 0}), start);
-  EXPECT_EQ(bounds.inside, (BallPair{0, 0}));
-  EXPECT_EQ(bounds.cover, (BallPair{0, 0}));
+  EXPECT_EQ(bounds.inside_pair, (BallPair{0, 0}));
+  EXPECT_EQ(bounds.cover_pair, (BallPair{0, 0}));
   EXPECT_NEAR(bounds.upper, 7, 1e-5);
 }
 
@@ -159,7 +159,7 @@ TEST(DistanceBounds, WithoutASetThereIsNoBoundOfItsKind) {
   EXPECT_NEAR(distance_bounds(inside_only, inside_only, pose).upper, 3, 1e-5);
   EXPECT_NEAR(distance_bounds(cover_only, cover_only, pose).lower, 3, 1e-5);
   EXPECT_EQ(distance_bounds(cover_only, cover_only, pose).upper, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(distance_bounds(inside_only, cover_only, pose).inside, BallPair{});
+  EXPECT_EQ(distance_bounds(inside_only, cover_only, pose).inside_pair, BallPair{});
 }
 
 // Of two bodies that are equal, and of bodies far from the origins of their frames and from each other.
@@ -182,14 +182,48 @@ TEST(DistanceBounds, OfEqualBallsAndPoints) {
   EXPECT_EQ(distance_bounds(b, b, Pose{}).collision(), Collision::kHit);
 }
 
+// A ball around equal balls must not be closer to others than they are: every pair of them would be compared.
+TEST(DistanceBounds, OfHundredThousandEqualBallsTakeNoTime) {
+  const std::vector<Ball> same(100000, Ball{{1, 2, 3}, 0.1});
+  const Body a = body(same, same);
+  const Pose pose = make_pose({5, 0.3, 0.1}, {0.5, 0.6, 0.7});
+  const DistanceBounds bounds = distance_bounds(a, a, pose);
+  const double exact = length(Point{1, 2, 3} - pose * Point{1, 2, 3}) - 0.2;
+  EXPECT_LE(bounds.lower, exact);
+  EXPECT_GE(bounds.upper, exact);
+  EXPECT_NEAR(bounds.lower, bounds.upper, 20 * kAccuracy);
+}
+
+TEST(DistanceBounds, OfTheLargestBallsAndShifts) {
+  const std::vector<Ball> largest = {{{9e17, -9e17, 9e17}, 1e17}, {{-9e17, 9e17, -9e17}, 1e17}};
+  const Body a = body(largest, largest), b = body({{{0, 0, 0}, 1}}, {{{0, 0, 0}, 1}});
+  Random random(6);
+  for (const Pose& pose : {any_pose(random, {1e18, -1e18, 1e18}), any_pose(random, {0, 0, 1}), Pose{}}) {
+    expect_bounds(distance_bounds(a, a, pose), a, a, pose, 1e19);
+    expect_bounds(distance_bounds(a, b, pose), a, b, pose, 1e19);
+  }
+  for (const double beyond : {1e20, 1e60, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    const DistanceBounds bounds = distance_bounds(b, b, make_pose({beyond, 0, 0}, {1, 2, 3}));
+    EXPECT_EQ(bounds.lower, 0);
+    EXPECT_EQ(bounds.upper, std::numeric_limits<double>::infinity());
+  }
+}
+
+// Their squared distance is no double.
+TEST(DistanceBounds, OfPointsThatHardlyDiffer) {
+  const Body a = body({{{0, 0, 0}, 0}}, {{{0, 0, 0}, 0}}), b = body({{{1e-170, 0, 0}, 0}}, {{{1e-170, 0, 0}, 0}});
+  EXPECT_EQ(distance_bounds(a, b, Pose{}).collision(), Collision::kUndecided);
+  EXPECT_EQ(distance_bounds(a, a, Pose{}).collision(), Collision::kHit);
+}
+
 TEST(DistanceBounds, OfManyPosesAreThoseOfEachOnAnyNumberOfThreads) {
   Random random(4);
   const Body a = body(cloud(random, 100, {0, 0, 0}, 1), cloud(random, 90, {0, 0, 0}, 1));
   std::vector<Pose> poses;
   for (int i = 0; i < 1000; ++i) poses.push_back(any_pose(random, point_in_cube(random, 3)));
   std::vector<DistanceBounds> one(poses.size()), four(poses.size());
-  distance_bounds(a, a, poses, one, 1);
-  distance_bounds(a, a, poses, four, 4);
+  distance_bounds(a, a, poses, one, {.threads = 1});
+  distance_bounds(a, a, poses, four, {.threads = 4});
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(one[i].lower, four[i].lower);
     EXPECT_EQ(one[i].upper, four[i].upper);

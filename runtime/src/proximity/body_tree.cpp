@@ -1,4 +1,4 @@
-#include "proximity/ball_tree.h"
+#include "proximity/body_tree.h"
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -81,8 +81,8 @@ Point middle_of(std::span<const Ball> balls, std::span<const std::uint32_t> chos
 
 }  // namespace
 
-BallTree BallTree::build(std::span<const Ball> balls, const Point& centre) {
-  BallTree tree;
+BodyTree BodyTree::build(std::span<const Ball> balls, const Point& centre) {
+  BodyTree tree;
   tree.centre_ = centre;
   if (balls.empty()) return tree;
   tree.leaves_.reserve(balls.size());
@@ -94,8 +94,8 @@ BallTree BallTree::build(std::span<const Ball> balls, const Point& centre) {
   }
   std::vector<std::uint32_t> all(balls.size());
   std::iota(all.begin(), all.end(), 0u);
-  tree.build_node(balls, all, ball_tree_levels(balls.size()));
-  for (const BallNode& node : tree.nodes_) {
+  tree.build_node(balls, all, body_tree_levels(balls.size()));
+  for (const BodyNode& node : tree.nodes_) {
     for (std::size_t k = 0; k < node.count; ++k) {
       const Point middle = {node.centre[0][k], node.centre[1][k], node.centre[2][k]};
       tree.reach_ = std::max(tree.reach_, (length(middle) + node.radius[k]) * kUp);
@@ -104,14 +104,15 @@ BallTree BallTree::build(std::span<const Ball> balls, const Point& centre) {
   return tree;
 }
 
-/// With as few parts as a tree of so many levels allows, so that places are used. Precondition: at most 8^levels balls.
-std::uint32_t BallTree::build_node(std::span<const Ball> balls, std::span<std::uint32_t> of_node, std::size_t levels) {
+/// Divides the balls into as few parts as a tree of so many levels allows, so that few slots are unused. Precondition:
+/// at most 8^levels balls.
+std::uint32_t BodyTree::build_node(std::span<const Ball> balls, std::span<std::uint32_t> of_node, std::size_t levels) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
   const std::size_t most_below = std::size_t{1} << (3 * (levels - 1));  // 8^(levels - 1)
   std::vector<std::span<std::uint32_t>> parts;
   divide(balls, of_node, (of_node.size() + most_below - 1) / most_below, parts);
-  BallNode node;
+  BodyNode node;
   node.radius.fill(-3e38f);
   node.is_lowest = levels == 1;
   for (const std::span<std::uint32_t> part : parts) {
@@ -125,8 +126,11 @@ std::uint32_t BallTree::build_node(std::span<const Ball> balls, std::span<std::u
   return index;
 }
 
-/// Holds all leaves of a node, as they are in float.
-FloatBall BallTree::ball_around(std::span<const Ball> balls, std::span<const std::uint32_t> of_node) const {
+/// Holds all leaves of a node, as they are in float. Of equal leaves it is the leaf: a larger ball would be closer to
+/// other balls than any of them, so that no search could pass over it.
+FloatBall BodyTree::ball_around(std::span<const Ball> balls, std::span<const std::uint32_t> of_node) const {
+  const FloatBall& first = leaves_[of_node.front()];
+  if (std::ranges::all_of(of_node, [&](std::uint32_t i) { return leaves_[i] == first; })) return first;
   FloatBall ball = at(middle_of(balls, of_node) - centre_);
   const Point middle = point_of(ball);
   double radius = 0;
