@@ -110,8 +110,9 @@ void expect_consistent(const CertifiedExtraction& result, const ExtractionOption
   EXPECT_EQ(c.found, result.extraction.spheres.size());
   EXPECT_EQ(result.certificate.passed, result.extraction.spheres.size());
   // A cell of each undecided voxel is kept at every level up to the one at which it is given up: the last one, or, of
-  // cells below 1/4096 of the longest side that can hold no points but those near a face or at the threshold, an earlier one.
-  // Where the boundary has no trusted normals, cells are given up even earlier, but none at the finest level.
+  // cells below 1/4096 of the longest side that can hold no points but those near a face or at the threshold, an
+  // earlier one. Where the boundary has no trusted normals, cells are given up even earlier, but none at the finest
+  // level.
   std::size_t giving_up = finest;
   for (double side = 1.0 / options.resolution; giving_up + 1 < c.levels.size() && side >= 1.0 / 4096; side /= 2) {
     ++giving_up;
