@@ -15,7 +15,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr double kLargest = 1e18;  // squares of sums of three are floats
+constexpr double kLargest = 1e18;  // of a coordinate
 
 Status check(std::span<const Ball> balls, const char* set) {
   if (balls.size() > kMostBodyBalls) {
@@ -57,8 +57,10 @@ class Between {
         lengths_(length(a.centre) + length(b.centre) + length(pose.shift)),
         float_pose_(is_in_range() ? Pose{pose.rotation, shift_} : Pose{}) {}
 
-  /// False where squares of lengths may be too large for float.
-  bool is_in_range() const { return distance_ <= 4 * kLargest && lengths_ <= 8 * kLargest; }
+  /// False where squares of lengths may be too large for float. With numbers up to kLargest each of three vectors is
+  /// shorter than 2 kLargest. A body reaches by less than 4 kLargest from its centre, so no two of its points and those
+  /// of the other one are farther apart than 14 kLargest, and (14e18)^2 is a float.
+  bool is_in_range() const { return distance_ <= 6 * kLargest && lengths_ <= 6 * kLargest; }
 
   /// No two balls of the trees are closer; `pair` becomes the closest, and is where the search starts.
   double lower_bound(const BodyTree& a, const BodyTree& b, BallPair& pair) const {

@@ -202,6 +202,10 @@ TEST(DistanceBounds, OfTheLargestBallsAndShifts) {
     expect_bounds(distance_bounds(a, a, pose), a, a, pose, 1e19);
     expect_bounds(distance_bounds(a, b, pose), a, b, pose, 1e19);
   }
+  // Centres that are farther apart than any two bodies whose frames agree.
+  const Body corner = body({{{9e17, 9e17, 9e17}, 1e17}}, {{{9e17, 9e17, 9e17}, 1e17}});
+  const Pose opposite = {{{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}}, {-1e18, -1e18, -1e18}};
+  expect_bounds(distance_bounds(corner, corner, opposite), corner, corner, opposite, 1e19);
   for (const double beyond : {1e20, 1e60, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
     const DistanceBounds bounds = distance_bounds(b, b, make_pose({beyond, 0, 0}, {1, 2, 3}));
     EXPECT_EQ(bounds.lower, 0);
