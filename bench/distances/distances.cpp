@@ -18,6 +18,7 @@
 #include "../unions/ball_files.h"
 #include "fcl_peer.h"
 #include "input/read_mesh.h"
+#include "medial_vk/prepare.h"
 #include "medial_vk/proximity.h"
 
 namespace {
@@ -66,6 +67,7 @@ Pose turned(const Point& axis, double angle) {
 struct Query {
   Pose pose;
   DistanceBounds before;  // of a pose nearby
+  Distance exact_before;  // likewise
 };
 
 /// Of random poses those in which the covers are apart and the balls inside no farther from each other than `side`.
@@ -86,6 +88,7 @@ std::vector<Query> queries(const Body& body, double side, std::size_t count) {
     const Point aside = direction(random);
     step.shift = {0.01 * side * aside[0], 0.01 * side * aside[1], 0.01 * side * aside[2]};
     query.before = distance_bounds(body, body, step * query.pose);
+    query.exact_before = or_exit(distance(body, body, step * query.pose));
     out.push_back(query);
   }
   return out;
@@ -107,7 +110,9 @@ struct Row {
   double mean_width = 0, greatest_width = 0;  // of the intervals, percent of the side
   double middle_error = 0;                    // mean, percent of the side; with FCL only
   std::size_t wrong = 0;                      // intervals without FCL's distance
+  double error = 0;                           // greatest, of exact distances from FCL's, in sides
   std::vector<double> cold, warm, fcl;        // microseconds
+  std::vector<double> exact_cold, exact_warm, near_cold, near_warm;  // likewise; "near": to 1e-6 of the side
 };
 
 void compare(const Body& body, const FclPeer& peer, const std::vector<Query>& all, double side, Row& row) {
@@ -120,11 +125,22 @@ void compare(const Body& body, const FclPeer& peer, const std::vector<Query>& al
     const double exact = peer.distance(query.pose);
     row.middle_error += share * std::abs(exact - (bounds.lower + bounds.upper) / 2);
     row.wrong += !(bounds.lower <= exact && exact <= bounds.upper);
+    const Distance found = or_exit(distance(body, body, query.pose));
+    row.error = std::max({row.error, std::abs(found.upper - exact) / side, std::abs(found.lower - exact) / side});
   }
 }
 
-void measure(const Body& body, const FclPeer& peer, const std::vector<Query>& all, int repeats, Row& row) {
+void measure(const Body& body, const FclPeer& peer, const std::vector<Query>& all, double side, int repeats, Row& row) {
   double sum = 0;  // keeps the results in use
+  DistanceOptions near;
+  near.tolerance = 1e-6 * side;
+  const auto exact = [&](const DistanceOptions& options, bool is_warm) {
+    return microseconds_each(all.size(), [&] {
+      for (const Query& query : all) {
+        sum += or_exit(distance(body, body, query.pose, options, is_warm ? query.exact_before : Distance{})).lower;
+      }
+    });
+  };
   for (int repeat = 0; repeat < repeats; ++repeat) {
     row.cold.push_back(microseconds_each(all.size(), [&] {
       for (const Query& query : all) sum += distance_bounds(body, body, query.pose).lower;
@@ -132,6 +148,10 @@ void measure(const Body& body, const FclPeer& peer, const std::vector<Query>& al
     row.warm.push_back(microseconds_each(all.size(), [&] {
       for (const Query& query : all) sum += distance_bounds(body, body, query.pose, query.before).lower;
     }));
+    row.exact_cold.push_back(exact({}, false));
+    row.exact_warm.push_back(exact({}, true));
+    row.near_cold.push_back(exact(near, false));
+    row.near_warm.push_back(exact(near, true));
     if (!FclPeer::is_there()) continue;
     const std::size_t few = std::min<std::size_t>(all.size(), 200);
     row.fcl.push_back(microseconds_each(few, [&] {
@@ -150,8 +170,13 @@ void print(const std::string& name, const Mesh& mesh, const Body& body, const Ro
     return;
   }
   const double exact = median(row.fcl);
+  const double exact_cold = median(row.exact_cold), exact_warm = median(row.exact_warm);
+  const double near_cold = median(row.near_cold), near_warm = median(row.near_warm);
   fmt::print(" {:.3f} | {:.0f} | {:.0f} / {:.0f} | {} |\n", row.middle_error, exact, exact / cold, exact / warm,
              row.wrong);
+  fmt::print("| exact {:.2f} / {:.2f}, FCL {:.0f} / {:.0f} | near {:.2f} / {:.2f}, FCL {:.0f} / {:.0f} | error {:.1e} |\n",
+             exact_cold, exact_warm, exact / exact_cold, exact / exact_warm, near_cold, near_warm, exact / near_cold,
+             exact / near_warm, row.error);
 }
 
 }  // namespace
@@ -169,13 +194,15 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const Mesh mesh = or_exit(read_mesh(mesh_file));
-  const Body body = or_exit(Body::create(bench::read_balls(inside_file), bench::read_balls(cover_file)));
+  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(mesh))));
+  const Body body =
+      or_exit(Body::create(indexed, bench::read_balls(inside_file), bench::read_balls(cover_file)));
   const bench::FclPeer peer(mesh);
   const double side = longest_side(mesh);
   const std::vector<Query> all = queries(body, side, poses);
   Row row;
   compare(body, peer, all, side, row);
-  measure(body, peer, all, repeats, row);
+  measure(body, peer, all, side, repeats, row);
   const std::size_t slash = mesh_file.rfind('/') + 1;
   print(mesh_file.substr(slash, mesh_file.rfind('.') - slash), mesh, body, row);
 }

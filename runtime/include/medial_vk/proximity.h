@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "medial_vk/ball.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/pose.h"
 #include "medial_vk/result.h"
 
@@ -18,11 +19,21 @@ namespace medial_vk {
 /// The greatest number of balls in a set of a body.
 constexpr std::size_t kMostBodyBalls = std::size_t{1} << 24;
 
-/// A solid for queries of distances: balls inside it, balls that cover it, and a tree over each set. Immutable: any
-/// number of threads may query it.
+struct BodyOptions {
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The body does not depend on it.
+};
+
+/// A solid for queries of distances: its mesh, balls inside it, balls that cover it, and a tree over each. Immutable:
+/// any number of threads may query it.
 class Body {
  public:
-  /// Either set may be empty: without `inside` there are no upper bounds, without `cover` no lower ones. Centres and
+  /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
+  /// (winding number at least 1/2), and its triangles; where the mesh is open, that is a surface without a closed
+  /// inside. The mesh is shared, not copied. Time: about 10 microseconds a triangle, on one core. Errors: those of the
+  /// other form; kInvalidMesh (the mesh reaches beyond 1e18).
+  static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
+                             std::span<const Ball> cover = {}, const BodyOptions& options = {});
+  /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no lower ones. Centres and
   /// radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond 1e18. Copies the balls.
   /// Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two empty sets, and for more
   /// than kMostBodyBalls), kOutOfMemory.
@@ -30,6 +41,7 @@ class Body {
 
   std::span<const Ball> inside() const;
   std::span<const Ball> cover() const;
+  bool has_mesh() const;
 
  private:
   friend struct Internals;
@@ -67,8 +79,8 @@ struct DistanceBounds {
   }
 };
 
-struct DistanceOptions {
-  unsigned threads = 0;  ///< 0: one per core. The result does not depend on it.
+struct BatchOptions {
+  unsigned threads = 0;  ///< Of the host, 0: one per core.
 };
 
 /// Bounds of the distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`. The
@@ -84,6 +96,54 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
 /// The same for every pose; most searches start from the result before them. Precondition: `bounds` has the size of
 /// `poses`.
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,
-                     const DistanceOptions& options = {});
+                     const BatchOptions& options = {});
+
+struct DistanceOptions {
+  /// The interval may be as wide as this, in the units of the mesh. 0: as narrow as rounding allows.
+  double tolerance = 0;
+  /// Where the distance is greater, only that is proved: `lower` is then about the limit, and `upper` the distance of
+  /// some two points.
+  double limit = std::numeric_limits<double>::infinity();
+  /// Of the surfaces, even where one solid lies inside the other.
+  bool surfaces_only = false;
+};
+
+/// An interval that contains the distance of two solids, and the points that prove its upper end.
+struct Distance {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  double lower = 0;
+  double upper = std::numeric_limits<double>::infinity();
+  /// Points of the solid of a and of that of b, in the frame of a, at most `upper` apart, up to the rounding of their
+  /// coordinates. They lie on the two surfaces, but where one solid lies inside the other or balls decide: then they
+  /// are one point of both.
+  Point on_a = {0, 0, 0}, on_b = {0, 0, 0};
+  /// The triangles of the two meshes that hold the points on the surfaces.
+  std::uint32_t triangle_a = kNone, triangle_b = kNone;
+
+  /// Undecided: no two triangles cross by more than rounding, and none are proved to be apart.
+  Collision collision() const {
+    return lower > 0 ? Collision::kFree : upper == 0 ? Collision::kHit : Collision::kUndecided;
+  }
+};
+
+/// The distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`, by their
+/// triangles. Solids that have a point in common are at distance 0, even where one holds the other. All rounding errors
+/// are included: the interval contains the distance of the meshes as they are, and is wider than the tolerance by about
+/// 2e-14 times the coordinates (more only where nearly parallel edges nearly touch). `upper` is 0 only where a common
+/// point is proved. `start` may be the result of an earlier query of the same two bodies, as for distance_bounds().
+/// Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18. Error: kUsage (a body
+/// without a mesh, an option that is negative or no number).
+Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
+                          const Distance& start = {});
+
+/// The same for every pose; most searches start from the result before them. The intervals do not depend on the number
+/// of threads. Precondition: `results` has the size of `poses`.
+Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std::span<Distance> results,
+                 const DistanceOptions& options = {}, const BatchOptions& batch = {});
+
+/// Decides by balls, and where they do not, by the triangles of bodies with meshes. Allocates nothing. Precondition: as
+/// for distance_bounds().
+Collision collide(const Body& a, const Body& b, const Pose& pose);
 
 }  // namespace medial_vk

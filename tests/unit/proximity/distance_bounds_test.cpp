@@ -5,34 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "base/point_ops.h"
 #include "medial_vk/proximity.h"
+#include "support/random_poses.h"
 
 namespace medial_vk {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double from, double to) { return std::uniform_real_distribution<>(from, to)(random); }
-
-Point point_in_cube(Random& random, double half) {
-  return {uniform(random, -half, half), uniform(random, -half, half), uniform(random, -half, half)};
-}
-
-/// Any rotation, from a unit quaternion.
-Pose any_pose(Random& random, const Point& shift) {
-  std::normal_distribution<> normal;
-  double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
-  const double norm = std::sqrt(w * w + x * x + y * y + z * z);
-  w /= norm, x /= norm, y /= norm, z /= norm;
-  return {{{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-            {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}},
-          shift};
-}
+using namespace test;
 
 /// The least separation of all pairs; 0 if some overlap.
 double least_separation(std::span<const Ball> a, std::span<const Ball> b, const Pose& pose) {

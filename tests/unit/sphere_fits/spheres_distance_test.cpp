@@ -39,7 +39,7 @@ void expect_bounds(const Bounds& bounds, double truth, double tolerance) {
 void expect_in_cube(double radius, double solid_to_balls, double balls_to_solid, double boundary_to_envelope,
                     double envelope_to_boundary) {
   const Case cube(make_box({2, 2, 2}));
-  DistanceOptions options;
+  EnvelopeOptions options;
   options.tolerance = 2.5e-4;
   const double tolerance = 2.51e-4 * cube.solid->diagonal();
   const EnvelopeDistances d = measure_distances(*cube.solid, envelope_of({{{1, 1, 1}, radius}}), options).value();
@@ -136,7 +136,7 @@ TEST(EnvelopeDistance, BoundsHoldSamples) {
 TEST(EnvelopeDistance, DoesNotDependOnThreads) {
   const Case solid(make_turned_torus());
   const Envelope envelope = envelope_of(random_balls(50, 7, 0.2, 0.4));
-  DistanceOptions one;
+  EnvelopeOptions one;
   one.threads = 1;
   const EnvelopeDistances a = measure_distances(*solid.solid, envelope).value();
   const EnvelopeDistances b = measure_distances(*solid.solid, envelope, one).value();
@@ -148,7 +148,7 @@ TEST(EnvelopeDistance, DoesNotDependOnThreads) {
 
 TEST(EnvelopeDistance, TooFewCellsLeaveTheBoundsApart) {
   const Case solid(make_turned_torus());
-  DistanceOptions few;
+  EnvelopeOptions few;
   few.cells = 100;
   const Envelope envelope = envelope_of(random_balls(50, 7, 0.2, 0.4));
   const EnvelopeDistances coarse = measure_distances(*solid.solid, envelope, few).value();

@@ -74,7 +74,7 @@ Point on_sphere(const Ball& ball, const Point& p) {
 
 class Measure {
  public:
-  Measure(const Solid& solid, const Envelope& envelope, const DistanceOptions& options)
+  Measure(const Solid& solid, const Envelope& envelope, const EnvelopeOptions& options)
       : solid_(solid), envelope_(envelope), tree_(envelope.tree()), options_(options) {
     // Distances here are lengths of differences: like those of the solid, they have errors of some units of roundoff of
     // the coordinates; those to the envelope, errors of its tolerance.
@@ -224,7 +224,7 @@ class Measure {
   const Solid& solid_;
   const Envelope& envelope_;
   const NearestBallTree& tree_;
-  const DistanceOptions& options_;
+  const EnvelopeOptions& options_;
   double slack_;
   SearchLimits limits_;
   std::vector<Part> parts_;
@@ -247,7 +247,7 @@ Error no_memory() { return out_of_memory("measuring the distance of the balls fr
 }  // namespace
 
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
-                                            const DistanceOptions& options) {
+                                            const EnvelopeOptions& options) {
   if (envelope.tree().balls().empty()) return Error{ErrorCode::kUsage, "no balls to measure the distance of"};
   try {
     return Measure(solid, envelope, options).all();
@@ -258,7 +258,7 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
   }
 }
 
-Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const DistanceOptions& options) {
+Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const EnvelopeOptions& options) {
   const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
   if (!envelope) return envelope.error();
   try {

@@ -8,7 +8,7 @@
 
 namespace medial_vk {
 
-struct DistanceOptions {
+struct EnvelopeOptions {
   double tolerance = 1e-3;        ///< Greatest difference of two bounds, as a share of the diagonal of the solid's box.
   std::size_t cells = 2'000'000;  ///< For each supremum; if they do not suffice, the bounds differ by more.
   Threads threads = {};
@@ -21,10 +21,10 @@ struct DistanceOptions {
 /// outside, so its bounds may stay far apart, and balls_to_solid decides a cell's side at its middle. Does not throw.
 /// Errors: kUsage (no balls), kOutOfMemory, kInterrupted (a stop by `threads`).
 Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& envelope,
-                                            const DistanceOptions& options = {});
+                                            const EnvelopeOptions& options = {});
 
 /// EnvelopeDistances::boundary_to_balls alone. Errors: also those of measure_ball_union().
 Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls,
-                                    const DistanceOptions& options = {});
+                                    const EnvelopeOptions& options = {});
 
 }  // namespace medial_vk

@@ -343,7 +343,7 @@ Result<SphereMeasures> measure_spheres(const Solid& solid, std::span<const Ball>
     measures.cover = cover.value();
     const bool is_inside = measures.inside.proved(), is_cover = measures.cover.proved();
     measures.volume = measure_volume(solid, envelope.value(), is_inside, is_cover, options);
-    DistanceOptions limits;
+    EnvelopeOptions limits;
     limits.tolerance = options.tolerance;
     limits.threads = options.threads;
     limits.known_inside = is_inside;

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "proximity/nearest_triangles.h"
+#include "proximity/placement.h"
+
+namespace medial_vk {
+namespace {
+
+/// The motion from the frame of a to that of b, and the share of a length by which it is wrong.
+struct Inverse {
+  Pose pose;
+  double error;
+};
+
+Inverse inverse_of(const Pose& pose) {
+  Inverse inverse{{}, 16 * 0x1p-53};
+  const auto& r = pose.rotation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      inverse.pose.rotation[i][j] = r[j][i];
+      // The transpose is the inverse but for this; 3 is the greatest ratio of the norm of a matrix to its entries.
+      inverse.error = std::max(inverse.error, 3 * std::fabs(dot(r[i], r[j]) - (i == j ? 1 : 0)) + 16 * 0x1p-53);
+    }
+  }
+  inverse.pose.shift = -1.0 * (Pose{inverse.pose.rotation, {0, 0, 0}} * pose.shift);
+  return inverse;
+}
+
+bool is_in_box(const Point& p, const MeshReport& report, double error) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (p[k] < report.lower[k] - error || p[k] > report.upper[k] + error) return false;
+  }
+  return true;
+}
+
+/// If a component of the mesh of `inner` lies in the solid of `outer`: true, with a point of it in the frame of `inner`.
+/// `to_outer` maps from the frame of `inner`. Precondition: the surfaces are apart by more than `error`, the error of
+/// mapped points; so a component is inside as a whole, or outside.
+bool find_inside(const BodySurface& inner, const BodySurface& outer, const Pose& to_outer, double error, Point& point) {
+  for (const std::array<Point, 6>& extremes : inner.extremes) {
+    const bool may_be_inside = std::ranges::all_of(
+        extremes, [&](const Point& p) { return is_in_box(to_outer * p, outer.solid.mesh().report, error); });
+    if (!may_be_inside || !outer.solid.contains(to_outer * extremes.front())) continue;
+    point = extremes.front();
+    return true;
+  }
+  return false;
+}
+
+/// Of two solids: where their surfaces are apart, one may lie inside the other.
+class SolidsInPose {
+ public:
+  SolidsInPose(const BodyImpl& a, const BodyImpl& b, const Placement& placement)
+      : a_(*a.surface), b_(*b.surface), placement_(placement) {}
+
+  /// From the distance of the surfaces to that of the solids.
+  void decide(Distance& distance) const {
+    const Inverse inverse = inverse_of(placement_.pose());
+    const double size = placement_.lengths() + placement_.distance() + a_.tree.nodes().reach() + b_.tree.nodes().reach();
+    const double error = inverse.error * size;
+    if (distance.lower <= error) {
+      distance.lower = 0;
+      return;
+    }
+    Point point;
+    if (find_inside(b_, a_, placement_.pose(), error, point)) {
+      set_common(distance, placement_.pose() * point);
+    } else if (find_inside(a_, b_, inverse.pose, error, point)) {
+      set_common(distance, point);
+    }
+  }
+
+ private:
+  static void set_common(Distance& distance, const Point& point) {
+    distance.lower = distance.upper = 0;
+    distance.on_a = distance.on_b = point;
+  }
+
+  const BodySurface& a_;
+  const BodySurface& b_;
+  const Placement& placement_;
+};
+
+/// Two balls inside may overlap where surfaces touch and do not cross.
+void decide_by_balls(const Body& a, const Body& b, const Pose& pose, Distance& distance) {
+  const DistanceBounds bounds = distance_bounds(a, b, pose);
+  if (bounds.upper > 0) return;
+  const Ball &ball_a = a.inside()[bounds.inside_pair.a], &ball_b = b.inside()[bounds.inside_pair.b];
+  const Point centre = pose * ball_b.centre, away = centre - ball_a.centre;
+  const double between = length(away);
+  // From the centre of the ball of a towards the other one, no farther than either surface.
+  const double step = std::clamp(between - ball_b.radius, 0.0, ball_a.radius);
+  distance.lower = distance.upper = 0;
+  distance.on_a = distance.on_b = between > 0 ? ball_a.centre + (step / between) * away : centre;
+}
+
+Status check(const BodyImpl& a, const BodyImpl& b, const DistanceOptions& options) {
+  if (!a.surface || !b.surface) {
+    return Error{ErrorCode::kUsage, "a distance needs bodies that were created with their meshes"};
+  }
+  if (!(options.tolerance >= 0)) return Error{ErrorCode::kUsage, "`tolerance` must not be negative"};
+  if (!(options.limit >= 0)) return Error{ErrorCode::kUsage, "`limit` must not be negative"};
+  return {};
+}
+
+/// Precondition: check() accepts the bodies and the options.
+Distance distance_of(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options,
+                     const Distance& start) {
+  const BodyImpl &in_a = Internals::of(a), &in_b = Internals::of(b);
+  const Placement placement(in_a, in_b, pose);
+  if (!placement.is_in_range()) return {};
+  Distance distance = nearest_triangles(in_a.surface->tree, in_b.surface->tree, placement, start, options);
+  if (options.surfaces_only || distance.upper == 0) return distance;
+  if (distance.lower > 0) SolidsInPose(in_a, in_b, placement).decide(distance);
+  if (distance.lower == 0 && distance.upper > 0) decide_by_balls(a, b, pose, distance);
+  return distance;
+}
+
+}  // namespace
+
+Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options,
+                          const Distance& start) {
+  if (Status status = check(Internals::of(a), Internals::of(b), options); !status) return status.error();
+  return distance_of(a, b, pose, options, start);
+}
+
+Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std::span<Distance> results,
+                 const DistanceOptions& options, const BatchOptions& batch) {
+  if (Status status = check(Internals::of(a), Internals::of(b), options); !status) return status;
+  constexpr std::size_t kBlock = 64;
+  parallel_blocks(poses.size(), kBlock, batch.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      results[i] = distance_of(a, b, poses[i], options, i > begin ? results[i - 1] : Distance{});
+    }
+  });
+  return {};
+}
+
+Collision collide(const Body& a, const Body& b, const Pose& pose) {
+  const Collision by_balls = distance_bounds(a, b, pose).collision();
+  if (by_balls != Collision::kUndecided || !a.has_mesh() || !b.has_mesh()) return by_balls;
+  DistanceOptions options;
+  options.limit = 0;
+  return distance_of(a, b, pose, options, {}).collision();
+}
+
+}  // namespace medial_vk

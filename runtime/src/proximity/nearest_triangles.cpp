@@ -1,0 +1,214 @@
+#include "proximity/nearest_triangles.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace medial_vk {
+namespace {
+
+/// Let S bound the sum of the greatest distances of corners of both triangles, and of the shift, from the origins of
+/// their frames; u = 2^-53. A corner in the other frame has in each coordinate an error of 4 u times a sum of absolute
+/// values, and so one of less than 7 u S. A point between corners has one of 6 u S more, a difference of points u S, its
+/// length 4 u S, a product with a unit vector 4 u S, and that vector 4 u S: less than 32 u S in all.
+constexpr double kRounding = 32 * 0x1p-53;
+
+constexpr std::size_t kWidth = BodyNode::kWidth;
+
+/// A direction across which triangles may be separated: by two planes, one behind the triangle of a and one before that
+/// of b. In the frames of the meshes and, in float, of the trees.
+class Planes {
+ public:
+  Planes() = default;
+  Planes(const Point& direction, const Pose& pose, const Point& shift_of_trees) : of_a_(direction) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto& r = pose.rotation;
+      of_b_[j] = r[0][j] * direction[0] + r[1][j] * direction[1] + r[2][j] * direction[2];
+      float_of_a_[j] = static_cast<float>(of_a_[j]);
+      float_of_b_[j] = static_cast<float>(of_b_[j]);
+    }
+    shift_ = dot(pose.shift, direction);
+    float_shift_ = static_cast<float>(dot(shift_of_trees, direction));
+  }
+
+  /// A lower bound of the distance between a triangle of a and one of b, each in its own frame.
+  double apart(const Corners& a, const Corners& b) const {
+    const double end = std::max({dot(a[0], of_a_), dot(a[1], of_a_), dot(a[2], of_a_)});
+    const double start = std::min({dot(b[0], of_b_), dot(b[1], of_b_), dot(b[2], of_b_)});
+    return (start + shift_) - end;
+  }
+
+  /// Bit 8 j + k is set unless triangle k of a and triangle j of b are apart by at least `reach`.
+  MEDIAL_VK_INLINE std::uint64_t pairs_within(const SurfaceTree::EightTriangles& a,
+                                              const SurfaceTree::EightTriangles& b, float reach) const {
+    EightFloats end = along(a[0], float_of_a_), start = along(b[0], float_of_b_);
+    for (std::size_t corner = 1; corner < 3; ++corner) {
+      const EightFloats next_of_a = along(a[corner], float_of_a_), next_of_b = along(b[corner], float_of_b_);
+      end = select(next_of_a > end, next_of_a, end);
+      start = select(next_of_b < start, next_of_b, start);
+    }
+    const EightFloats nearer = end + (reach - float_shift_);
+    const std::array<float, kWidth> starts = stored(start);
+    std::uint64_t pairs = 0;
+    for (std::size_t j = 0; j < kWidth; ++j) pairs |= std::uint64_t{bits_of(starts[j] < nearer)} << (kWidth * j);
+    return pairs;
+  }
+
+ private:
+  MEDIAL_VK_INLINE static EightFloats along(const std::array<std::array<float, kWidth>, 3>& points,
+                                            const std::array<float, 3>& d) {
+    return load(points[0]) * d[0] + load(points[1]) * d[1] + load(points[2]) * d[2];
+  }
+
+  Point of_a_ = {0, 0, 0}, of_b_ = {0, 0, 0};
+  std::array<float, 3> float_of_a_ = {0, 0, 0}, float_of_b_ = {0, 0, 0};
+  double shift_ = 0;
+  float float_shift_ = 0;
+};
+
+FloatBall ball_of(const BodyNode& node, std::uint32_t k) {
+  return {{node.centre[0][k], node.centre[1][k], node.centre[2][k]}, node.radius[k], node.excess[k]};
+}
+
+class TrianglesGoal {
+ public:
+  TrianglesGoal(const SurfaceTree& a, const SurfaceTree& b, const Placement& placement, const DistanceOptions& options)
+      : a_(a),
+        b_(b),
+        placement_(placement),
+        options_(options),
+        float_error_(placement.separation_error_of(a.nodes(), b.nodes())),
+        error_(kRounding * (placement.lengths() + a.nodes().reach() + b.nodes().reach())) {
+    shorten();
+  }
+
+  float reach() const { return reach_; }
+  bool is_reached() const { return best_.upper == 0; }
+
+  /// The solids are no farther apart than balls in them. Neither are their surfaces, unless one solid lies in the other.
+  MEDIAL_VK_INLINE void see(float separation, const BallsOfNodes& balls) {
+    const float most = separation + (balls.a->excess[balls.k] + balls.b->excess[balls.j]);
+    if (most < between_inner_balls_) shorten(most, balls);
+  }
+
+  /// Bit 8 j + k: triangle k of a and triangle j of b may be closer than the target.
+  MEDIAL_VK_INLINE std::uint64_t pairs_of(std::uint32_t node_a, std::uint32_t node_b) const {
+    std::uint64_t pairs = ~std::uint64_t{0};
+    for (std::size_t i = 0; i < count_ && pairs != 0; ++i) {
+      pairs &= planes_[i].pairs_within(a_.triangles(node_a), b_.triangles(node_b), reach_by_planes_);
+    }
+    return pairs;
+  }
+
+  void take(const CloseItems& items) {
+    const Corners of_a = a_.corners(items.a), of_b = b_.corners(items.b);
+    // Nearly all neighbours of the nearest two triangles lie behind the planes that separate these two.
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double apart = planes_[i].apart(of_a, of_b) - error_;
+      if (apart < target_) continue;
+      proved_ = std::min(proved_, apart);
+      return;
+    }
+    test(items, of_a, in_frame_of_a(of_b));
+  }
+
+  Distance result() const {
+    Distance result = best_;
+    result.lower = result.upper == 0 ? 0 : std::max(0.0, std::min(proved_, target_));
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kMostPlanes = 4;
+
+  Corners in_frame_of_a(const Corners& corners) const {
+    const Pose& pose = placement_.pose();
+    return {pose * corners[0], pose * corners[1], pose * corners[2]};
+  }
+
+  void shorten(float most, const BallsOfNodes& balls) {
+    if (options_.surfaces_only) return;
+    between_inner_balls_ = most;
+    if (most < -float_error_) {
+      best_.lower = best_.upper = 0;
+      best_.on_a = best_.on_b = point_of_both(balls);
+    }
+    shorten();
+  }
+
+  /// Two inner balls that overlap by more than all errors divide the way between their centres by their radii.
+  Point point_of_both(const BallsOfNodes& balls) const {
+    const FloatBall a = ball_of(*balls.a, balls.k), b = ball_of(*balls.b, balls.j);
+    const double of_a = a.radius - a.excess, of_b = b.radius - b.excess;
+    const Point centre_a = point_of(a) + placement_.centre_a();
+    const Point centre_b = placement_.pose() * (point_of(b) + placement_.centre_b());
+    return centre_a + of_a / (of_a + of_b) * (centre_b - centre_a);
+  }
+
+  void test(const CloseItems& items, const Corners& of_a, const Corners& of_b) {
+    const TrianglePoints points = nearest_points(of_a, of_b, error_);
+    if (points.crosses) {
+      best_ = {0, 0, points.on_a, points.on_b, items.a, items.b};
+      return;
+    }
+    proved_ = std::min(proved_, points.apart - error_);
+    const bool is_best = points.distance + error_ < best_.upper;
+    if (points.apart > 0) keep(points.direction, is_best);
+    if (!is_best) return;
+    best_ = {0, points.distance + error_, points.on_a, points.on_b, items.a, items.b};
+    shorten();
+  }
+
+  /// The planes of the nearest two triangles are the first; of the others the last few are kept.
+  void keep(const Point& direction, bool is_best) {
+    if (count_ < kMostPlanes) ++count_;
+    if (is_best) {
+      for (std::size_t i = count_ - 1; i > 0; --i) planes_[i] = planes_[i - 1];
+      planes_[0] = Planes(direction, placement_.pose(), placement_.shift());
+    } else {
+      for (std::size_t i = count_ - 1; i > 1; --i) planes_[i] = planes_[i - 1];
+      planes_[count_ > 1 ? 1 : 0] = Planes(direction, placement_.pose(), placement_.shift());
+    }
+  }
+
+  /// Pairs at `target_` and beyond no longer matter: the nearest two triangles are not among them, or the interval is
+  /// narrow enough. Those of the many triangles that share the nearest edge or corner
+  /// are at the least distance up to rounding, and so beyond as well.
+  void shorten() {
+    const double limit = std::max(options_.limit, 8 * error_), most = between_inner_balls_ + float_error_;
+    target_ = std::min({best_.upper - options_.tolerance, most, limit}) - 4 * error_;
+    reach_ = std::min(kFarther, rounded_up(target_ + float_error_));
+    reach_by_planes_ = std::min(kFarther, rounded_up(target_ + 2 * float_error_));
+  }
+
+  const SurfaceTree& a_;
+  const SurfaceTree& b_;
+  const Placement& placement_;
+  const DistanceOptions& options_;
+  double float_error_;  // of a computed separation of balls
+  double error_;        // of a corner, a point between corners, a distance between such points, and a separation
+  Distance best_;
+  double target_ = 0;
+  double proved_ = std::numeric_limits<double>::infinity();  // no pair that was taken is closer
+  float reach_ = 0, reach_by_planes_ = 0;
+  float between_inner_balls_ = kFarther;  // at most, less an error
+  std::size_t count_ = 0;
+  std::array<Planes, kMostPlanes> planes_;
+};
+
+}  // namespace
+
+Distance nearest_triangles(const SurfaceTree& a, const SurfaceTree& b, const Placement& placement,
+                           const Distance& start, const DistanceOptions& options) {
+  TrianglesGoal goal(a, b, placement, options);
+  const bool has_start = start.triangle_a < a.size() && start.triangle_b < b.size();
+  if (has_start) goal.take({0, start.triangle_a, start.triangle_b});
+  TreeSearch search(a.nodes(), b.nodes(), placement.float_pose(), goal);
+  const auto run = [&]() __attribute__((always_inline)) {
+    if (!has_start) search.dive();
+    search.run();
+  };
+  search_on_this_processor(run);
+  return goal.result();
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,61 @@
+// Two bodies in a pose, and the errors of numbers computed from it.
+#pragma once
+
+#include "base/point_ops.h"
+#include "medial_vk/pose.h"
+#include "proximity/body.h"
+#include "proximity/tree_search.h"
+
+namespace medial_vk {
+
+/// No coordinate of a body is beyond.
+constexpr double kLargestCoordinate = 1e18;
+
+/// Where the frame of b lies in the frame of a, whose lengths are measured from the origin.
+class Placement {
+ public:
+  Placement(const BodyImpl& a, const BodyImpl& b, const Pose& pose)
+      : pose_(pose),
+        centre_a_(a.centre),
+        centre_b_(b.centre),
+        shift_(pose * b.centre - a.centre),
+        distance_(length(shift_)),
+        lengths_(length(a.centre) + length(b.centre) + length(pose.shift)),
+        float_pose_(is_in_range() ? Pose{pose.rotation, shift_} : Pose{}) {}
+
+  const Pose& pose() const { return pose_; }
+  /// The origins of the frames of the trees, each in the frame of its body.
+  const Point& centre_a() const { return centre_a_; }
+  const Point& centre_b() const { return centre_b_; }
+  /// Of the frames of the trees.
+  const FloatPose& float_pose() const { return float_pose_; }
+  /// Of the centre of b from that of a, in the frame of a.
+  const Point& shift() const { return shift_; }
+  /// Between the origins of the frames of the trees.
+  double distance() const { return distance_; }
+  /// Of both origins and the shift. Lengths in double have errors that are small shares of this and the trees' reaches.
+  double lengths() const { return lengths_; }
+
+  /// False where squares of lengths may be too large for float. With numbers up to kLargestCoordinate each of three
+  /// vectors is shorter than 2 kLargestCoordinate. A body reaches by less than 4 kLargestCoordinate from its centre, so
+  /// no two of its points and those of the other one are farther apart than 14 kLargestCoordinate, and (14e18)^2 is a
+  /// float.
+  bool is_in_range() const { return distance_ <= 6 * kLargestCoordinate && lengths_ <= 6 * kLargestCoordinate; }
+
+  /// The greatest difference between a computed separation of two balls of the trees, in float, and the separation of
+  /// what they hold.
+  double separation_error_of(const NodeTree& a, const NodeTree& b) const {
+    return separation_error(a, b, distance_) + 0x1p-48 * lengths_;
+  }
+
+ private:
+  const Pose& pose_;
+  const Point& centre_a_;
+  const Point& centre_b_;
+  Point shift_;  // of the centre of b from that of a
+  double distance_;
+  double lengths_;
+  FloatPose float_pose_;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,231 @@
+// A search for close items of two trees in a pose: docs/theory.md, "Distances".
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "medial_vk/pose.h"
+#include "proximity/eight_floats.h"
+#include "proximity/node_tree.h"
+
+namespace medial_vk {
+
+/// A pose between the frames of two trees, whose origins are the centres of their bodies.
+struct FloatPose {
+  std::array<std::array<float, 3>, 3> rows;  ///< Of the rotation.
+  std::array<float, 3> shift;
+
+  explicit FloatPose(const Pose& pose) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) rows[i][j] = static_cast<float>(pose.rotation[i][j]);
+      shift[i] = static_cast<float>(pose.shift[i]);
+    }
+  }
+
+  std::array<float, 3> to_a(const std::array<float, 3>& p) const {
+    std::array<float, 3> out;
+    for (std::size_t i = 0; i < 3; ++i) out[i] = rows[i][0] * p[0] + rows[i][1] * p[1] + rows[i][2] * p[2] + shift[i];
+    return out;
+  }
+};
+
+/// The greatest error of a computed separation of two balls of the trees, where the origins of the two frames are
+/// `distance` apart. (The separation of two balls is the distance between their centres less both radii.) Let M be the
+/// sum of the two reaches and `distance`, which bounds every length below, and u = 2^-24. A centre in the other frame
+/// costs, in each coordinate, one rounding of the entries of the rotation and of the shift, and four of products and
+/// sums: 5.1 u times a sum of absolute values that is at most M. The vector so has an error of sqrt(3) 5.1 u M < 9 u M,
+/// its difference to the other centre one of u M more, its length 4 u M more, and the sum of the radii and the last
+/// difference 2 u M more: 16 u M. A comparison of squares, of a distance and of a sum of a separation and two radii, in
+/// the place of a square root has no more roundings. Rows that are perpendicular unit vectors only to within 1e-12 add
+/// less than u M. Squares may underflow, also to zero where a program has no subnormal numbers: each by less than
+/// 2^-125, and a length by less than 2^-61.
+inline double separation_error(const NodeTree& a, const NodeTree& b, double distance) {
+  return 18 * 0x1p-24 * (a.reach() + b.reach() + distance) + 0x1p-60;
+}
+
+/// Two items, and the computed separation of their balls.
+struct CloseItems {
+  float separation;
+  std::uint32_t a, b;
+};
+
+/// Ball k of a node of a and ball j of a node of b.
+struct BallsOfNodes {
+  const BodyNode* a;
+  const BodyNode* b;
+  std::uint32_t k, j;
+};
+
+/// More than any separation of two balls, and less than that of an unused slot.
+constexpr float kFarther = 1e30f;
+
+/// Depth first, and of the pairs of a division the closest first. `Goal` has the members
+///   float reach() const                 pairs of balls with a computed separation of this or more are passed over
+///   void see(separation, BallsOfNodes)  two balls that are closer; may shorten the reach
+///   uint64 pairs_of(node_a, node_b)     of two nodes of the lowest level: bit 8 j + k, unless item k of a and item j of
+///                                       b are known to be too far apart
+///   void take(const CloseItems&)        two items whose balls are closer; may shorten the reach
+///   bool is_reached() const             true ends the search
+/// Everything is inlined into its caller, which chooses the processor. Allocates nothing.
+template <class Goal>
+class TreeSearch {
+ public:
+  /// Preconditions: no tree is empty.
+  TreeSearch(const NodeTree& a, const NodeTree& b, const FloatPose& pose, Goal& goal)
+      : a_(a), b_(b), pose_(pose), goal_(goal) {}
+
+  /// Straight down to two items, by way of the closest two of each division, for a first bound.
+  MEDIAL_VK_INLINE void dive() {
+    std::uint32_t node_a = 0, node_b = 0;
+    while (true) {
+      const BodyNode &a = a_.node(node_a), &b = b_.node(node_b);
+      const Centres centres = in_frame_of_a(b);
+      EightFloats least = kFarther - EightFloats{};
+      EightInts with{};
+      for (std::uint32_t j = 0; j < b.count; ++j) {
+        const EightFloats separations = square_root(squared_distances(a, centres, j)) - (load(a.radius) + b.radius[j]);
+        const EightInts is_less = separations < least;
+        least = select(is_less, separations, least);
+        with = (is_less & static_cast<std::int32_t>(j)) | (~is_less & with);
+      }
+      std::size_t k = 0;
+      for (std::size_t i = 1; i < kWidth; ++i) k = least[i] < least[k] ? i : k;
+      const std::uint32_t below_a = a.below[k], below_b = b.below[with[k]];
+      if (a.is_lowest && b.is_lowest) {
+        goal_.take({least[k], below_a, below_b});
+        return;
+      }
+      if (!a.is_lowest) node_a = below_a;
+      if (!b.is_lowest) node_b = below_b;
+    }
+  }
+
+  MEDIAL_VK_INLINE void run() {
+    tasks_[0] = {-kFarther, 0, 0};
+    count_ = 1;
+    while (count_ > 0 && !goal_.is_reached()) {
+      const Task task = tasks_[--count_];
+      if (task.separation < goal_.reach()) compare(task);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kWidth = BodyNode::kWidth;
+  static constexpr std::size_t kMostItems = std::size_t{1} << 31;
+
+  /// Two nodes, one of each tree, below which there may be a closer pair.
+  struct Task {
+    float separation;
+    std::uint32_t node_a, node_b;
+  };
+
+  /// The centres of a node's balls in the frame of a.
+  struct Centres {
+    std::array<std::array<float, kWidth>, 3> of;
+  };
+
+  MEDIAL_VK_INLINE Centres in_frame_of_a(const BodyNode& b) const {
+    const EightFloats x = load(b.centre[0]), y = load(b.centre[1]), z = load(b.centre[2]);
+    Centres centres;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<float, 3>& row = pose_.rows[i];
+      centres.of[i] = stored(row[0] * x + row[1] * y + row[2] * z + pose_.shift[i]);
+    }
+    return centres;
+  }
+
+  /// From the eight balls of a node of a to ball `j` of a node of b.
+  MEDIAL_VK_INLINE static EightFloats squared_distances(const BodyNode& a, const Centres& centres, std::size_t j) {
+    const EightFloats x = load(a.centre[0]) - centres.of[0][j], y = load(a.centre[1]) - centres.of[1][j],
+                      z = load(a.centre[2]) - centres.of[2][j];
+    return x * x + y * y + z * z;
+  }
+
+  /// All balls of one node with all of the other one, eight pairs at a time; square roots are left to closer pairs.
+  MEDIAL_VK_INLINE void compare(const Task& task) {
+    const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
+    const bool are_lowest = a.is_lowest && b.is_lowest;
+    const std::uint64_t may_be_closer = are_lowest ? goal_.pairs_of(task.node_a, task.node_b) : ~std::uint64_t{0};
+    if (may_be_closer == 0) return;
+    const Centres centres = in_frame_of_a(b);
+    const EightFloats reach_a = load(a.radius) + goal_.reach();
+    std::uint64_t closer = 0;  // bit 8 j + k: ball k of a and ball j of b
+    for (std::uint32_t j = 0; j < kWidth; ++j) {
+      const EightFloats reach = reach_a + b.radius[j];
+      const EightInts is_closer = (squared_distances(a, centres, j) < reach * reach) & (reach > 0);
+      closer |= std::uint64_t{bits_of(is_closer)} << (kWidth * j);
+    }
+    closer &= may_be_closer;
+    first_ = count_;
+    for (; closer != 0; closer &= closer - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(closer));
+      const std::uint32_t k = bit % kWidth, j = bit / kWidth;
+      const float x = a.centre[0][k] - centres.of[0][j], y = a.centre[1][k] - centres.of[1][j],
+                  z = a.centre[2][k] - centres.of[2][j];
+      const float separation = std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]);
+      goal_.see(separation, {&a, &b, k, j});
+      take(separation, task, a, k, b, j);
+    }
+  }
+
+  /// A pair that was closer than the reach when its nodes were compared.
+  MEDIAL_VK_INLINE void take(float separation, const Task& task, const BodyNode& a, std::uint32_t k, const BodyNode& b,
+                             std::uint32_t j) {
+    if (a.is_lowest && b.is_lowest) {
+      if (separation < goal_.reach()) goal_.take({separation, a.below[k], b.below[j]});
+      return;
+    }
+    const Task below = {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j]};
+    if (a.is_lowest == b.is_lowest || !repeats(below)) push(below);
+  }
+
+  /// A node of the lowest level is not replaced, so several of its balls may give the same task: the closest one does.
+  MEDIAL_VK_INLINE bool repeats(const Task& task) {
+    std::size_t slot = first_;
+    while (slot < count_ && (tasks_[slot].node_a != task.node_a || tasks_[slot].node_b != task.node_b)) ++slot;
+    if (slot == count_) return false;
+    if (tasks_[slot].separation <= task.separation) return true;
+    for (--count_; slot < count_; ++slot) tasks_[slot] = tasks_[slot + 1];
+    return false;
+  }
+
+  /// The tasks of one division are in the order of decreasing separation.
+  MEDIAL_VK_INLINE void push(const Task& task) {
+    std::size_t slot = count_++;
+    for (; slot > first_ && tasks_[slot - 1].separation < task.separation; --slot) tasks_[slot] = tasks_[slot - 1];
+    tasks_[slot] = task;
+  }
+
+  /// A comparison replaces a task by up to 64, at most once for each level of both trees.
+  static constexpr std::size_t kMostTasks = 1 + (kWidth * kWidth - 1) * 2 * node_levels(kMostItems);
+
+  const NodeTree& a_;
+  const NodeTree& b_;
+  const FloatPose& pose_;
+  Goal& goal_;
+  std::size_t count_ = 0, first_ = 0;
+  std::array<Task, kMostTasks> tasks_;
+};
+
+/// Calls search() compiled for processors with AVX2 where there is one. `Search` is a function object whose call is
+/// inlined.
+#if defined(__x86_64__) && defined(__GNUC__)
+template <class Search>
+__attribute__((target("avx2"))) void search_with_avx2(Search& search) {
+  search();
+}
+#endif
+
+template <class Search>
+void search_on_this_processor(Search& search) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2")) {
+    search_with_avx2(search);
+    return;
+  }
+#endif
+  search();
+}
+
+}  // namespace medial_vk

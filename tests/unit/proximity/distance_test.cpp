@@ -1,0 +1,260 @@
+// Distances of solids against the reference: all pairs of triangles, without a tree.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/point_ops.h"
+#include "cpu_reference/distance.h"
+#include "medial_vk/prepare.h"
+#include "medial_vk/proximity.h"
+#include "support/indexed.h"
+#include "support/random_poses.h"
+#include "support/reference_mesh.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using namespace test;
+
+struct Solids {
+  const char* name;
+  Mesh mesh;
+};
+
+Mesh moved(Mesh mesh, const Point& by) {
+  translate(mesh, by);
+  return mesh;
+}
+
+Mesh shell() {
+  Mesh mesh = make_sphere(1, 300), cavity = make_sphere(0.7, 200);
+  turn_over(cavity);
+  append(mesh, cavity);
+  return mesh;
+}
+
+Mesh two_parts() {
+  Mesh mesh = make_sphere(0.3, 200);
+  append(mesh, moved(make_box({0.4, 0.5, 0.6}), {0.8, 0.1, 0}));
+  return mesh;
+}
+
+std::vector<Solids> all_solids() {
+  return {{"box", make_box({1, 1, 1})},
+          {"needle", make_box({2, 0.01, 0.02})},
+          {"plate", make_plate_with_hole(1, 0.02, 0.4)},
+          {"sphere", make_sphere(0.5, 500)},
+          {"torus", make_torus(0.5, 0.2, 20, 30)},
+          {"cup", make_cup(0.5, 0.1, 0.8, 24)},
+          {"L", make_l_shape(1, 0.3, 0.4)},
+          {"shell", shell()},
+          {"parts", two_parts()}};
+}
+
+Body body_of(const Mesh& mesh) { return Body::create(indexed(prepare_mesh(mesh).value())).value(); }
+
+Eigen::Vector3d eigen(const Point& p) { return {p[0], p[1], p[2]}; }
+
+reference::Motion motion_of(const Pose& pose) {
+  reference::Motion motion;
+  for (int i = 0; i < 3; ++i) motion.rotation.row(i) = eigen(pose.rotation[static_cast<std::size_t>(i)]);
+  motion.shift = eigen(pose.shift);
+  return motion;
+}
+
+/// The distance of the solids, by the reference.
+double exact_distance(const Mesh& a, const Mesh& b, const Pose& pose, bool surfaces_only) {
+  const reference::Mesh of_a = to_reference(a), of_b = to_reference(b);
+  const double distance = reference::nearest_of_meshes(of_a, of_b, motion_of(pose)).distance;
+  if (surfaces_only || distance == 0) return distance;
+  return reference::one_holds_the_other(of_a, of_b, motion_of(pose)) ? 0 : distance;
+}
+
+/// Six times the error of nearest_triangles.cpp, 32 * 2^-53 of the sum of both reaches and of the shift, to which `size`
+/// is a bound. The reference has fewer roundings.
+double rounding(double size) { return 192 * 0x1p-53 * size; }
+
+void expect_holds(const Distance& found, double exact, double size, const DistanceOptions& options = {}) {
+  EXPECT_LE(found.lower, exact + rounding(size));
+  EXPECT_GE(found.upper, exact - rounding(size));
+  if (found.upper == 0 || exact > options.limit) return;
+  EXPECT_LE(found.upper - found.lower, options.tolerance + rounding(size));
+  EXPECT_NEAR(length(found.on_a - found.on_b), found.upper, rounding(size));
+}
+
+// Of all solids with all: far apart, near, crossing and nested.
+TEST(Distance, OfSolidsIsThatOfAllPairs) {
+  Random random(1);
+  const std::vector<Solids> solids = all_solids();
+  std::size_t hits = 0, free = 0;
+  for (const Solids& of_a : solids) {
+    const Body a = body_of(of_a.mesh);
+    for (const Solids& of_b : solids) {
+      const Body b = body_of(of_b.mesh);
+      for (const double far : {0.1, 0.3, 0.6, 1.5, 4.0}) {
+        const Pose pose = any_pose(random, point_in_cube(random, far));
+        SCOPED_TRACE(testing::Message() << of_a.name << " and " << of_b.name << ", shift up to " << far);
+        const double exact = exact_distance(of_a.mesh, of_b.mesh, pose, false);
+        const Distance found = distance(a, b, pose).value();
+        expect_holds(found, exact, 8 + 2 * far);
+        EXPECT_EQ(found.collision(), exact > 0 ? Collision::kFree : Collision::kHit);
+        EXPECT_EQ(collide(a, b, pose), found.collision());
+        ++(exact > 0 ? free : hits);
+      }
+    }
+  }
+  EXPECT_GT(hits, 80u);
+  EXPECT_GT(free, 80u);
+}
+
+TEST(Distance, OfSurfacesSeesWhatLiesInside) {
+  Random random(2);
+  const Mesh large = shell(), small = make_box({0.2, 0.3, 0.1});
+  const Body a = body_of(large), b = body_of(small);
+  DistanceOptions surfaces;
+  surfaces.surfaces_only = true;
+  for (const double x : {0.0, 0.3, 0.8, 0.9, 2.0}) {  // in the cavity, through its wall, in the wall, outside
+    for (int i = 0; i < 10; ++i) {
+      const Pose pose = any_pose(random, {x, 0.02 * i, 0});
+      SCOPED_TRACE(testing::Message() << "at " << x << ", pose " << i);
+      expect_holds(distance(a, b, pose, surfaces).value(), exact_distance(large, small, pose, true), 8, surfaces);
+      expect_holds(distance(a, b, pose).value(), exact_distance(large, small, pose, false), 8);
+    }
+  }
+}
+
+// Inside another solid, on either side of the pair, the witness is a point of both.
+TEST(Distance, OfNestedSolidsIsZero) {
+  const Body large = body_of(make_sphere(1, 300)), small = body_of(make_box({0.1, 0.1, 0.1}));
+  const Pose pose = make_pose({0.2, 0.3, -0.4}, {1, 2, 3});
+  const Distance found = distance(large, small, pose).value(), other = distance(small, large, Pose{}).value();
+  EXPECT_EQ(found.collision(), Collision::kHit);
+  EXPECT_EQ(other.collision(), Collision::kHit);
+  EXPECT_LT(length(found.on_a), 1);
+  EXPECT_EQ(found.on_a, found.on_b);
+}
+
+TEST(Distance, IsNoWiderThanTheToleranceAndEndsAtTheLimit) {
+  Random random(3);
+  const Mesh mesh = make_torus(0.5, 0.2, 40, 60);
+  const Body a = body_of(mesh);
+  for (int i = 0; i < 60; ++i) {
+    const Pose pose = any_pose(random, point_in_cube(random, 2));
+    const double exact = exact_distance(mesh, mesh, pose, false);
+    for (const double tolerance : {0.0, 1e-9, 1e-3, 0.1, 10.0}) {
+      for (const double limit : {0.0, 0.5, std::numeric_limits<double>::infinity()}) {
+        DistanceOptions options;
+        options.tolerance = tolerance;
+        options.limit = limit;
+        const Distance found = distance(a, a, pose, options).value();
+        SCOPED_TRACE(testing::Message() << "tolerance " << tolerance << ", limit " << limit << ", exact " << exact);
+        expect_holds(found, exact, 10, options);
+        EXPECT_GE(found.lower, std::min(limit, exact - tolerance) - rounding(10));
+        if (tolerance == 0) {
+          EXPECT_EQ(found.collision(), exact > 0 ? Collision::kFree : Collision::kHit);
+        }
+      }
+    }
+  }
+}
+
+TEST(Distance, AStartChangesNothing) {
+  const Mesh mesh = make_l_shape(1, 0.3, 0.4);
+  const Body a = body_of(mesh), b = body_of(make_cup(0.5, 0.1, 0.8, 24));
+  Distance last;
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose = make_pose({2 - 0.01 * i, 0.1, 0.2}, {0.02 * i, 0.3, 0.01 * i});
+    last = distance(a, b, pose, {}, last).value();
+    const Distance fresh = distance(a, b, pose).value();
+    EXPECT_NEAR(last.lower, fresh.lower, rounding(10));
+    EXPECT_NEAR(last.upper, fresh.upper, rounding(10));
+    EXPECT_EQ(last.collision(), fresh.collision());
+  }
+  last.triangle_a = 100000;
+  EXPECT_EQ(distance(a, b, Pose{}, {}, last).value().upper, distance(a, b, Pose{}).value().upper);
+}
+
+// Of any size and at any place, faces on faces, and edges on edges.
+TEST(Distance, OfTouchingSolidsIsZeroOrLittleMore) {
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    const Mesh mesh = make_box({size, size, size});
+    const Body a = body_of(mesh);
+    for (const Point& at : {Point{1, 0, 0}, Point{1, 1, 0}, Point{1, 1, 1}, Point{1, 0.5, 0.25}, Point{0, 0, 0}}) {
+      const Distance found = distance(a, a, make_pose(size * at, {0, 0, 0})).value();
+      EXPECT_EQ(found.lower, 0);
+      EXPECT_LE(found.upper, rounding(4 * size));
+      EXPECT_NE(collide(a, a, make_pose(size * at, {0, 0, 0})), Collision::kFree);
+    }
+    for (const double apart : {1e-12, 1e-6, 1e-3}) {
+      const Distance found = distance(a, a, make_pose({size * (1 + apart), 0, 0}, {0, 0, 0})).value();
+      EXPECT_EQ(found.collision(), Collision::kFree) << apart;
+      EXPECT_NEAR(found.upper, size * apart, rounding(4 * size));
+    }
+    const Distance within = distance(a, a, make_pose({size * (1 - 1e-6), 0.3 * size, 0.2 * size}, {0, 0, 0.1})).value();
+    EXPECT_EQ(within.collision(), Collision::kHit);
+  }
+}
+
+// Where surfaces coincide and no edge crosses a face, balls inside still decide.
+TEST(Distance, BallsDecideWhereSurfacesCoincide) {
+  const Mesh mesh = make_box({1, 1, 1});
+  const std::vector<Ball> inside = {{{0.5, 0.5, 0.5}, 0.4}};
+  const Body a = Body::create(indexed(prepare_mesh(mesh).value()), inside).value();
+  const Distance found = distance(a, a, Pose{}).value();
+  EXPECT_EQ(found.collision(), Collision::kHit);
+  EXPECT_NEAR(length(found.on_a - Point{0.5, 0.5, 0.5}), 0, 0.4);
+}
+
+TEST(Distance, OfFarSolidsHoldsTheirs) {
+  const Mesh mesh = make_sphere(0.5, 100);
+  const Body a = body_of(mesh);
+  for (const double far : {1e3, 1e6, 1e12}) {
+    const Pose pose = make_pose({far, -far, 0.5 * far}, {1, 2, 3});
+    expect_holds(distance(a, a, pose).value(), exact_distance(mesh, mesh, pose, false), 3 * far);
+  }
+  const Distance beyond = distance(a, a, make_pose({1e300, 0, 0}, {0, 0, 0})).value();
+  EXPECT_EQ(beyond.lower, 0);
+  EXPECT_EQ(beyond.upper, std::numeric_limits<double>::infinity());
+}
+
+TEST(Distance, OfManyPosesIsThatOfEach) {
+  Random random(4);
+  const Body a = body_of(make_torus(0.5, 0.2, 20, 30)), b = body_of(make_l_shape(1, 0.3, 0.4));
+  std::vector<Pose> poses;
+  for (int i = 0; i < 300; ++i) poses.push_back(any_pose(random, point_in_cube(random, 2)));
+  for (const unsigned threads : {1u, 3u}) {
+    std::vector<Distance> many(poses.size());
+    ASSERT_TRUE(distances(a, b, poses, many, {}, {.threads = threads}).ok());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      EXPECT_NEAR(many[i].upper, distance(a, b, poses[i]).value().upper, rounding(10));
+    }
+  }
+}
+
+TEST(Distance, OfAnOpenMeshIsThatOfItsSurface) {
+  Mesh mesh = make_box({1, 1, 1});
+  mesh.triangles.resize(10);
+  const Body a = body_of(mesh), b = body_of(make_sphere(0.1, 100));
+  EXPECT_NEAR(distance(a, b, make_pose({2, 0.5, 0.5}, {0, 0, 0})).value().upper, 0.9, 0.01);
+}
+
+TEST(Distance, RefusesWhatHasNoAnswer) {
+  const Body with = body_of(make_box({1, 1, 1})), without = Body::create({{{{0, 0, 0}, 1}}}, {}).value();
+  EXPECT_FALSE(without.has_mesh());
+  EXPECT_THAT(distance(with, without, Pose{}).error().message, testing::HasSubstr("mesh"));
+  DistanceOptions options;
+  options.tolerance = -1;
+  EXPECT_THAT(distance(with, with, Pose{}, options).error().message, testing::HasSubstr("`tolerance`"));
+  options.tolerance = 0;
+  options.limit = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(distance(with, with, Pose{}, options).error().message, testing::HasSubstr("`limit`"));
+  EXPECT_FALSE(Body::create(indexed(prepare_mesh(make_box({1e19, 1, 1})).value())).ok());
+}
+
+}  // namespace
+}  // namespace medial_vk
