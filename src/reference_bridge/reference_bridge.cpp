@@ -5,9 +5,7 @@
 namespace medial_vk {
 namespace {
 
-Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
-
-Eigen::Vector3d to_eigen(const std::array<float, 3>& v) {
+Eigen::Vector3d floats_to_eigen(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
@@ -30,8 +28,8 @@ reference::Sphere to_reference(const MedialSphere& sphere) {
   reference::Sphere out;
   out.centre = to_eigen(sphere.centre);
   out.radius = sphere.radius;
-  out.spoke_a = to_eigen(sphere.spoke_a);
-  out.spoke_b = to_eigen(sphere.spoke_b);
+  out.spoke_a = floats_to_eigen(sphere.spoke_a);
+  out.spoke_b = floats_to_eigen(sphere.spoke_b);
   out.object_angle = static_cast<double>(sphere.object_angle);
   out.flux = static_cast<double>(sphere.flux);
   out.voxel = to_eigen_integers(sphere.voxel);

@@ -8,6 +8,7 @@
 
 namespace medial_vk {
 
+inline Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
 reference::Mesh to_reference(const PreparedMesh& mesh);
 reference::Options to_reference(const ExtractionOptions& options);
 /// Copies grid and spheres only, the input of `--check`.

@@ -85,6 +85,7 @@ class TrianglesGoal {
   bool is_reached() const { return best_.upper == 0; }
 
   /// The solids are no farther apart than balls in them. Neither are their surfaces, unless one solid lies in the other.
+  /// (Every way from one solid to another one meets both surfaces.)
   MEDIAL_VK_INLINE void see(float separation, const BallsOfNodes& balls) {
     const float most = separation + (balls.a->excess[balls.k] + balls.b->excess[balls.j]);
     if (most < between_inner_balls_) shorten(most, balls);
@@ -135,13 +136,23 @@ class TrianglesGoal {
     shorten();
   }
 
-  /// Two inner balls that overlap by more than all errors divide the way between their centres by their radii.
+  /// A point of one solid in the inner ball of the other one, or, of two inner balls that overlap by more than all
+  /// errors, the point that divides the way between their centres by their radii.
   Point point_of_both(const BallsOfNodes& balls) const {
     const FloatBall a = ball_of(*balls.a, balls.k), b = ball_of(*balls.b, balls.j);
-    const double of_a = a.radius - a.excess, of_b = b.radius - b.excess;
+    const double depth_a = a.radius - a.excess, depth_b = b.radius - b.excess;
+    if (depth_a < 0) return some_corner(a_, *balls.a, balls.k);
+    if (depth_b < 0) return placement_.pose() * some_corner(b_, *balls.b, balls.j);
     const Point centre_a = point_of(a) + placement_.centre_a();
     const Point centre_b = placement_.pose() * (point_of(b) + placement_.centre_b());
-    return centre_a + of_a / (of_a + of_b) * (centre_b - centre_a);
+    return centre_a + depth_a / (depth_a + depth_b) * (centre_b - centre_a);
+  }
+
+  static Point some_corner(const SurfaceTree& tree, const BodyNode& node, std::uint32_t slot) {
+    const BodyNode* above = &node;
+    std::uint32_t below = node.below[slot];
+    for (; !above->is_lowest; below = above->below[0]) above = &tree.nodes().node(below);
+    return tree.corners(below)[0];
   }
 
   void test(const CloseItems& items, const Corners& of_a, const Corners& of_b) {

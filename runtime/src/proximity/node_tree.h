@@ -11,14 +11,13 @@
 
 namespace medial_vk {
 
-/// Of a ball that may not meet the solid.
-constexpr float kNoExcess = 1e29f;
-
 /// Relative to the centre of a body.
 struct FloatBall {
   std::array<float, 3> centre = {0, 0, 0};
   float radius = 0;
-  float excess = kNoExcess;  ///< The ball of the same centre and of a radius smaller by this lies in the solid.
+  /// Of a ball that holds triangles: radius - excess is the radius of a ball of the same centre in the solid, or, where
+  /// none is known, -radius. Every point p is at most at |p - centre| - (radius - excess) from the solid.
+  float excess = 0;
 
   bool operator==(const FloatBall&) const = default;
 };

@@ -27,7 +27,7 @@ class BallsOfTriangles {
     });
     ball.radius = rounded_up(radius + 0x1p-52 * size);
     const double depth = depth_of(centre + origin_) - 0x1p-52 * (size + length(origin_));
-    ball.excess = depth > 0 ? rounded_up(ball.radius - depth) : kNoExcess;
+    ball.excess = rounded_up(ball.radius - (depth > 0 ? depth : -static_cast<double>(ball.radius)));
     return ball;
   }
 
@@ -39,10 +39,11 @@ class BallsOfTriangles {
     }
   }
 
-  /// A ball of this radius is known to lie in the solid; 0: none is.
+  /// A ball of this radius is known to lie in the solid; 0: none is. Where a mesh is open, the solid of a body is its
+  /// surface.
   double depth_of(const Point& c) const {
     const double depth = solid_.distance(c) - solid_.rounding();
-    return depth > 0 && solid_.side_around(c, depth) == SolidSide::kInside ? depth : 0;
+    return depth > 0 && solid_.mesh().report.closed && solid_.contains(c) ? depth : 0;
   }
 
   double radius_at(Chosen triangles, const Point& c) const {

@@ -40,6 +40,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("inside"),
     {"keep_volume", "--keep-volume", {}, {}},
     library_only("largest"),
+    {"limit", {}, {}, {}, {}, "--limit"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget", "--memory", "the memory budget", "the memory budget", "the memory budget"},
@@ -58,7 +59,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("sheets"),
     library_only("sphere"),
     same("threads", "--threads"),
-    library_only("tolerance"),
+    {"tolerance", {}, {}, {}, {}, "--tolerance"},
     {"total", {}, {}, "--total"},
     library_only("validation"),
     {"volume", {}, {}, "volume"},
@@ -74,6 +75,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.spheres;
     case Command::kRobotSpheres:
       return parameter.robot_spheres;
+    case Command::kDistance:
+      return parameter.distance;
     case Command::kDoctor:
       return parameter.doctor;
   }
@@ -87,6 +90,8 @@ const char* name_of(Command command) {
     case Command::kSpheres:
     case Command::kRobotSpheres:
       return "medial-vk spheres";
+    case Command::kDistance:
+      return "medial-vk distance";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

@@ -18,6 +18,7 @@ enum class Command {
   kExtract,       ///< medial-vk
   kSpheres,       ///< medial-vk spheres, of a mesh
   kRobotSpheres,  ///< medial-vk spheres, of a robot
+  kDistance,      ///< medial-vk distance
   kDoctor,        ///< medial-vk doctor
 };
 
@@ -26,7 +27,8 @@ enum class Command {
 struct ParameterWords {
   std::string_view parameter;
   std::string_view extract, spheres, robot_spheres;
-  std::string_view doctor = {};  ///< Of few: its small extraction has options that cannot be at fault.
+  std::string_view doctor = {};    ///< Of few: its small extraction has options that cannot be at fault.
+  std::string_view distance = {};  ///< Of few.
 };
 
 /// Every parameter that messages of the library name.

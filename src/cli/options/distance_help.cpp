@@ -1,0 +1,63 @@
+// The text of `medial-vk distance --help`.
+#include <string>
+
+#include "cli/options/distance_options.h"
+
+namespace medial_vk::cli {
+
+std::string distance_help_text() {
+  return R"(medial-vk distance holds the distance between two solids, in one pose or in
+many, in an interval that no rounding error leaves, and decides whether they
+collide. It needs no Vulkan.
+
+Usage:
+  medial-vk distance [options] A B    meshes: OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
+                                      FBX, COLLADA ...; "-": standard input
+
+Examples:
+  medial-vk distance part.stl turtle.obj    where they are, as two lines of CSV
+  medial-vk distance part.stl part.stl --poses poses.csv -o distances.csv
+  medial-vk distance part.stl turtle.obj --tolerance 0.001 --check
+
+Where B is:
+      --poses FILE      a table (CSV) with a pose of B in the frame of A per
+                        line. The first line names the columns: x,y,z, the
+                        shift, and qx,qy,qz,qw, the rotation as a quaternion,
+                        in any order; "-": standard input (default: one pose,
+                        both meshes as they are)
+
+What is asked:
+      --tolerance T     intervals may be as wide as T, in units of the mesh
+                        (default 0: as narrow as rounding allows)
+      --limit L         prove no more than that a distance is at least L
+      --surfaces        the distance of the surfaces: a solid inside another one
+                        is not at distance 0
+      --keep-inner-faces
+                        take faces inside the solid, such as those of a part
+                        that reaches into another one, for its boundary, too
+      --check           also test every interval against all pairs of triangles,
+                        by the independent CPU reference; seconds a pose for
+                        large meshes; exit code 7 if one is wrong
+
+Output:
+  -o, --output FILE     a .csv; "-": standard output (default). A line per pose:
+                        lower and upper end of the interval, the state (free,
+                        hit or undecided), and the nearest points of A and B, in
+                        the frame of A
+      --threads N       CPU threads, 0 for all (default 0)
+
+Other:
+  -q, --quiet           only errors
+  -v, --verbose         also the counts of both meshes and the time of each step
+  -h, --help            print this and exit
+
+Free: the solids have no common point. Hit: they have one, and both points are
+such a point. Undecided: they touch to within rounding. Where a mesh is open,
+its surface counts as the solid. Files appear whole or not at all.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or poses unreadable
+or invalid, 5 out of memory, 6 cannot write, 7 --check failed, 130 interrupted.
+)";
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,60 @@
+// The command line of `medial-vk distance` as a struct. Names and exit codes are a contract with scripts
+// (docs/command-line.md).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/options/output_names.h"
+#include "medial_vk/proximity.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk::cli {
+
+struct DistanceCommandOptions {
+  bool help = false;
+  std::string a, b;    ///< Meshes.
+  std::string poses;   ///< A table of poses; "-": standard input; empty: b stays where it is.
+  std::string output;  ///< "-": standard output.
+
+  double tolerance = 0;
+  double limit = 0;  ///< 0: none.
+  bool surfaces = false;
+  bool keep_inner_faces = false;
+  unsigned threads = 0;
+  bool check = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const DistanceCommandOptions&) const = default;
+};
+
+/// In the form that the library takes.
+DistanceOptions distance_options(const DistanceCommandOptions& options);
+
+/// `arguments` without the program's name and without "distance". Errors: kUsage with a message that names the option.
+Result<DistanceCommandOptions> parse_distance_options(const std::vector<std::string>& arguments);
+
+/// Parses many command lines, as OptionParser does.
+class DistanceOptionParser {
+ public:
+  DistanceOptionParser();
+  ~DistanceOptionParser();
+  DistanceOptionParser(const DistanceOptionParser&) = delete;
+  DistanceOptionParser& operator=(const DistanceOptionParser&) = delete;
+
+  Result<DistanceCommandOptions> parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct Declared;  // keeps CLI11 out of this header
+  std::unique_ptr<Declared> declared_;
+};
+
+/// Every file to be written, with its option.
+std::vector<NamedOutput> outputs_of(const DistanceCommandOptions& options);
+
+/// The output of `medial-vk distance --help`.
+std::string distance_help_text();
+
+}  // namespace medial_vk::cli
