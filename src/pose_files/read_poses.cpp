@@ -6,10 +6,9 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iostream>
-#include <iterator>
+#include <memory>
 #include <optional>
 
 #include "base/quoted.h"
@@ -20,6 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kNames = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr std::size_t kShift = 3;  // the first names are the shift
+constexpr double kLargest = 1e18;  // distances are computed up to here
 
 std::string_view trimmed(std::string_view word) {
   const std::size_t first = word.find_first_not_of(" \t\r");
@@ -78,6 +78,9 @@ class PoseTable {
       if (!parse_coordinate(word, values[i], why)) {
         return line_error(name_, number, fmt::format("{}: {} {}", kNames[i], quoted(word), why));
       }
+      if (std::fabs(values[i]) > kLargest) {
+        return line_error(name_, number, fmt::format("{}: {} is beyond {:g}", kNames[i], quoted(word), kLargest));
+      }
     }
     const auto [x, y, z, qx, qy, qz, qw] = values;
     const double norm = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
@@ -120,16 +123,23 @@ Result<std::vector<Pose>> parse_poses(std::string_view text, const std::string& 
 }
 
 Result<std::vector<Pose>> read_poses(const std::string& path) {
-  using Bytes = std::istreambuf_iterator<char>;
-  if (path == "-") return parse_poses(std::string(Bytes(std::cin), Bytes()), "stdin");
+  const bool is_stream = path == "-";
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stream ? nullptr : std::fopen(path.c_str(), "rb"),
+                                                               [](std::FILE* file) { return std::fclose(file); });
+  std::FILE* file = is_stream ? stdin : opened.get();
   std::string bytes;
-  if (file) bytes.assign(Bytes(file), Bytes());
-  if (!file) {
-    return file_error(path, fmt::format("cannot be read: {}", std::strerror(errno == 0 ? EIO : errno)));
+  if (file) {
+    std::array<char, 1 << 16> part;
+    for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), file)) > 0;) {
+      bytes.append(part.data(), count);
+    }
   }
-  return parse_poses(bytes, path);
+  if (!file || std::ferror(file)) {
+    return file_error(is_stream ? "stdin" : path,
+                      fmt::format("cannot be read: {}", std::strerror(errno == 0 ? EIO : errno)));
+  }
+  return parse_poses(bytes, is_stream ? "stdin" : path);
 }
 
 }  // namespace medial_vk

@@ -28,9 +28,10 @@ struct BodyOptions {
 class Body {
  public:
   /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
-  /// (winding number at least 1/2), and its triangles; where the mesh is open, that is a surface without a closed
-  /// inside. The mesh is shared, not copied. Time: about 10 microseconds a triangle, on one core. Errors: those of the
-  /// other form; kInvalidMesh (the mesh reaches beyond 1e18).
+  /// (winding number at least 1/2), and its triangles. Where the mesh is open, distances are those of its triangles, and
+  /// 0 where a component of one mesh lies where the winding number of the other is at least 1/2. The mesh is shared, not
+  /// copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the mesh
+  /// reaches beyond 1e18).
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
                              std::span<const Ball> cover = {}, const BodyOptions& options = {});
   /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no lower ones. Centres and
@@ -121,7 +122,7 @@ struct Distance {
   /// The triangles of the two meshes that hold the points on the surfaces.
   std::uint32_t triangle_a = kNone, triangle_b = kNone;
 
-  /// Undecided: no two triangles cross by more than rounding, and none are proved to be apart.
+  /// Undecided: no common point is proved, and the surfaces may touch, to within rounding or the tolerance.
   Collision collision() const {
     return lower > 0 ? Collision::kFree : upper == 0 ? Collision::kHit : Collision::kUndecided;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "proximity/smallest_ball_centre.h"
 
@@ -26,7 +27,7 @@ class BallsOfTriangles {
       size = std::max(size, length(relative));
     });
     ball.radius = rounded_up(radius + 0x1p-52 * size);
-    const double depth = depth_of(centre + origin_) - 0x1p-52 * (size + length(origin_));
+    const double depth = triangles.size() == 1 ? 0 : depth_of(centre + origin_) - 0x1p-52 * (size + length(origin_));
     ball.excess = rounded_up(ball.radius - (depth > 0 ? depth : -static_cast<double>(ball.radius)));
     return ball;
   }
@@ -46,13 +47,19 @@ class BallsOfTriangles {
     return depth > 0 && solid_.mesh().report.closed && solid_.contains(c) ? depth : 0;
   }
 
-  double radius_at(Chosen triangles, const Point& c) const {
-    double squared = 0;
+  /// The distances from a point to the nearest and to the farthest corner.
+  struct Reaches {
+    double nearest, farthest;
+  };
+  Reaches reaches_from(const Point& c, Chosen triangles) const {
+    double least_squared = std::numeric_limits<double>::infinity(), greatest_squared = 0;
     for_corners(triangles, [&](const Point& corner) {
       const Point away = corner - c;
-      squared = std::max(squared, dot(away, away));
+      const double squared = dot(away, away);
+      least_squared = std::min(least_squared, squared);
+      greatest_squared = std::max(greatest_squared, squared);
     });
-    return std::sqrt(squared);
+    return {std::sqrt(least_squared), std::sqrt(greatest_squared)};
   }
 
   /// A centre with the least excess that was found so far.
@@ -66,29 +73,39 @@ class BallsOfTriangles {
   bool improve(Chosen triangles, const Point& c, Best& best) const {
     const MeshReport& report = solid_.mesh().report;
     if (least(c, report.lower) != report.lower || greatest(c, report.upper) != report.upper) return false;
-    const double excess = radius_at(triangles, c) - solid_.distance(c);
+    const auto [nearest, farthest] = reaches_from(c, triangles);
+    // The first triangle that is too near ends most tests.
+    const double required = farthest - best.excess;
+    if (required >= nearest || (required > 0 && solid_.bvh().any_within(c, required))) return false;
+    const BvhHit hit = solid_.bvh().closest(c, nearest);
+    const double distance = hit.triangle == BvhHit().triangle ? nearest : std::sqrt(hit.squared_distance);
+    const double excess = farthest - distance;
     if (!(excess < best.excess)) return false;
     best = {c, excess};
     return true;
   }
 
-  /// From the middle of the patch ever deeper below it while the excess becomes smaller; for the patches of nodes, which
-  /// are few, then also aside.
+  /// From the middle of the patch ever deeper below it while the excess becomes smaller, then also aside. Single
+  /// triangles, which are most of the work and are compared by planes before their balls, have shallow balls.
   Point deepest_centre(Chosen triangles) const {
     const Point middle = middle_of(triangles), inwards = inwards_from(triangles);
-    const double radius = radius_at(triangles, middle);
+    const double radius = reaches_from(middle, triangles).farthest;
     Best best = {middle, radius};  // the boundary is near
     if (!(radius > 0) || inwards == Point{0, 0, 0}) return middle;
+    if (triangles.size() == 1) {
+      for (const double share : {0.5, 1.0}) improve(triangles, middle + share * radius * inwards, best);
+      return best.centre;
+    }
     double depth = 0.5 * radius;
     while (improve(triangles, middle + depth * inwards, best)) depth *= 2;
     improve(triangles, middle + 0.75 * depth * inwards, best);
-    if (triangles.size() > 1) look_around(triangles, 0.25 * depth, best);
+    look_around(triangles, 0.25 * depth, best);
     return best.centre;
   }
 
   /// Steps along the axes, which become shorter where none improves.
   void look_around(Chosen triangles, double step, Best& best) const {
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 4;
     for (int round = 0; round < kRounds; ++round) {
       bool any = false;
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "cli/terminal/numbers.h"
 #include "output/distance_files/distances_csv.h"
@@ -43,28 +42,44 @@ std::string many_poses(std::span<const Distance> distances) {
   return text + line("least", fmt::format("{} (pose {})", interval_text(*least), least - distances.begin() + 1));
 }
 
-std::string times_text(const std::vector<StageTime>& times, std::size_t poses) {
+/// Both meshes have the same stages, which are summed.
+std::string times_text(const std::vector<StageTime>& times, bool verbose) {
   double all = 0;
-  std::string steps;
+  std::vector<StageTime> sums;
   for (const StageTime& time : times) {
     all += time.seconds;
-    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", time.stage, duration(time.seconds));
+    const auto sum = std::ranges::find(sums, time.stage, &StageTime::stage);
+    if (sum == sums.end()) {
+      sums.push_back(time);
+    } else {
+      sum->seconds += time.seconds;
+    }
   }
-  const double each = 1e6 * times.back().seconds / static_cast<double>(poses);
-  return fmt::format("{} ({}: {:.3g} microseconds a pose)", duration(all), steps, each);
+  if (!verbose) return duration(all);
+  std::string steps;
+  for (const StageTime& sum : sums) {
+    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", sum.stage, duration(sum.seconds));
+  }
+  return fmt::format("{} ({})", duration(all), steps);
 }
 
 }  // namespace
 
-std::string distance_opening(const std::string& path, const MeshReport& report) {
-  return fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path, grouped(report.triangles),
-                     report.closed ? "closed" : "not closed: its surface counts as the solid");
+std::string distance_opening(const std::string& path, const MeshReport& report, bool verbose) {
+  std::string text = fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path,
+                                 grouped(report.triangles),
+                                 report.closed ? "closed" : "not closed: inside is where the winding number is at least 1/2");
+  if (!verbose) return text;
+  for (const std::string& assumption : report.assumptions) text += line("note", assumption);
+  return text;
 }
 
 std::string distance_summary(const DistanceCommandOptions& options, std::span<const Distance> distances,
                              const std::vector<StageTime>& times, std::size_t bytes) {
   std::string text = distances.size() == 1 ? one_pose(distances.front()) : many_poses(distances);
-  text += line("time", times_text(times, distances.size()));
+  const double each = 1e6 * times.back().seconds / static_cast<double>(distances.size());
+  if (distances.size() > 1) text += line("each", fmt::format("{:.3g} microseconds a pose", each));
+  text += line("time", times_text(times, options.verbose));
   if (options.output != "-") text += line("written", fmt::format("{} ({})", options.output, byte_size(bytes)));
   return text;
 }

@@ -12,8 +12,8 @@
 
 namespace medial_vk::cli {
 
-/// A line about a mesh: "part.obj: 5,856 triangles, closed".
-std::string distance_opening(const std::string& path, const MeshReport& report);
+/// A line about a mesh: "part.obj: 5,856 triangles, closed"; with `verbose` also its assumptions.
+std::string distance_opening(const std::string& path, const MeshReport& report, bool verbose);
 
 /// The last of `times` is that of the distances alone. `bytes`: the size of the table. Precondition: there is a
 /// distance.

@@ -69,7 +69,7 @@ class DistanceRun {
     Result<PreparedMesh> prepared =
         prepare_loaded(std::move(read.value().front().mesh), path, no_device, prepare, times_);
     if (!prepared) return prepared.error();
-    if (!options_.quiet) print_message(distance_opening(path, prepared.value().report));
+    if (!options_.quiet) print_message(distance_opening(path, prepared.value().report, options_.verbose));
     Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = options_.threads});
     if (!indexed) return indexed.error();
     mesh = std::move(indexed).value();

@@ -48,12 +48,14 @@ Output:
 
 Other:
   -q, --quiet           only errors
-  -v, --verbose         also the counts of both meshes and the time of each step
+  -v, --verbose         also what was assumed of the meshes, and the time of each
+                        step
   -h, --help            print this and exit
 
 Free: the solids have no common point. Hit: they have one, and both points are
-such a point. Undecided: they touch to within rounding. Where a mesh is open,
-its surface counts as the solid. Files appear whole or not at all.
+such a point. Undecided: they may touch, to within rounding or the tolerance.
+Where a mesh is open, the distance is that of its surface, and what lies where
+its winding number is at least 1/2 is hit. Files appear whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or poses unreadable
 or invalid, 5 out of memory, 6 cannot write, 7 --check failed, 130 interrupted.

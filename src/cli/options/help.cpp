@@ -15,6 +15,8 @@ Usage:
                                and more; "-": standard input
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
+  medial-vk distance [options] A B   the distance between two solids, in many
+                               poses: medial-vk distance --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
 

@@ -66,7 +66,7 @@ std::string check_table(const CheckReport& check) {
 
 Status verdict(const CheckReport& check) {
   if (check.passed()) return {};
-  return Error{kCheckFailed, "--check failed: not every ball satisfies its certificate"};
+  return Error{kCheckFailed, "--check failed: the table names what does not hold"};
 }
 
 std::string level_table(const ExtractionCounters& counters) {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/options/distance_options.h"
 #include "cli/options/doctor_options.h"
 #include "cli/options/options.h"
 #include "cli/options/spheres_options.h"
@@ -106,6 +107,7 @@ TEST(Messages, ParametersBecomeOptions) {
   EXPECT_EQ(in_words_of_options("try a lower `count`", Command::kRobotSpheres),
             "try a lower --count-per-link or --total");
   EXPECT_EQ(in_words_of_options("link `arm`", Command::kRobotSpheres), "link `arm`");
+  EXPECT_EQ(in_words_of_options("`tolerance` and `limit`", Command::kDistance), "--tolerance and --limit");
   testing::internal::CaptureStderr();
   EXPECT_EQ(report_error({ErrorCode::kOutOfMemory, "lower `resolution`"}, Command::kExtract), 5);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "medial-vk: lower --resolution\n");
@@ -120,6 +122,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kExtract), "medial-vk: no\nTry medial-vk --help.\n");
   EXPECT_EQ(printed(Command::kSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
+  EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");
   EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }
 
@@ -151,11 +154,13 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
   const auto options_in = [](const std::string& text) { return matches(text, "(--[a-z-]+)"); };
   const std::set<std::string> of_extract = options_in(help_text()), of_spheres = options_in(spheres_help_text());
   const std::set<std::string> of_doctor = options_in(doctor_help_text());
+  const std::set<std::string> of_distance = options_in(distance_help_text());
   for (const ParameterWords& parameter : parameter_words()) {
     EXPECT_THAT(of_extract, testing::IsSupersetOf(options_in(std::string(parameter.extract))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.spheres))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.robot_spheres))));
     EXPECT_THAT(of_doctor, testing::IsSupersetOf(options_in(std::string(parameter.doctor))));
+    EXPECT_THAT(of_distance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
   }
 }
 
