@@ -1,5 +1,6 @@
-// Bounds of distances by balls, and exact distances by FCL, of a solid and its copy in random poses: a row of a table.
-//   bench_distances [--poses N] [--repeats N] MESH INSIDE.csv COVER.csv
+// Distances of a solid and its copy in random poses, and those of FCL: a row of a table.
+//   bench_distances [--poses N] [--repeats N] MESH INSIDE.csv COVER.csv    bounds by balls
+//   bench_distances [--poses N] [--repeats N] MESH                         exact distances
 // Poses: any rotation, a shift of up to two sides (of the box around the mesh) in any direction; those that overlap,
 // and distances above one side, are left out. "Warm" queries start from the result for a pose one degree and one
 // percent of a side away. Times are medians of the repeats, per query, on one thread; the methods take turns.
@@ -64,31 +65,33 @@ Pose turned(const Point& axis, double angle) {
   return pose;
 }
 
+/// `Answer` is DistanceBounds or Distance.
+template <class Answer>
 struct Query {
   Pose pose;
-  DistanceBounds before;  // of a pose nearby
-  Distance exact_before;  // likewise
+  Answer before;  // of a pose nearby
 };
 
-/// Of random poses those in which the covers are apart and the balls inside no farther from each other than `side`.
-std::vector<Query> queries(const Body& body, double side, std::size_t count) {
+/// Of random poses those in which the solids are proved to be apart, and to be no farther apart than `side`. `ask`
+/// gives the answer for a pose.
+template <class Answer>
+std::vector<Query<Answer>> queries(const std::function<Answer(const Pose&)>& ask, double side, std::size_t count) {
   Random random(1);
   std::uniform_real_distribution<> sides(0, 2), turn(0, 3.14159265358979);
-  std::vector<Query> out;
+  std::vector<Query<Answer>> out;
   while (out.size() < count) {
     // Rotations that are uniform in axis and angle only: they cover all directions of approach.
-    Query query;
+    Query<Answer> query;
     query.pose = turned(direction(random), turn(random));
     const Point to = direction(random);
     const double by = sides(random) * side;
     query.pose.shift = {by * to[0], by * to[1], by * to[2]};
-    const DistanceBounds bounds = distance_bounds(body, body, query.pose);
-    if (bounds.collision() != Collision::kFree || bounds.upper > side) continue;
+    const Answer answer = ask(query.pose);
+    if (answer.collision() != Collision::kFree || answer.upper > side) continue;
     Pose step = turned(direction(random), 0.0174533);
     const Point aside = direction(random);
     step.shift = {0.01 * side * aside[0], 0.01 * side * aside[1], 0.01 * side * aside[2]};
-    query.before = distance_bounds(body, body, step * query.pose);
-    query.exact_before = or_exit(distance(body, body, step * query.pose));
+    query.before = ask(step * query.pose);
     out.push_back(query);
   }
   return out;
@@ -106,77 +109,99 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-struct Row {
-  double mean_width = 0, greatest_width = 0;  // of the intervals, percent of the side
-  double middle_error = 0;                    // mean, percent of the side; with FCL only
-  std::size_t wrong = 0;                      // intervals without FCL's distance
-  double error = 0;                           // greatest, of exact distances from FCL's, in sides
-  std::vector<double> cold, warm, fcl;        // microseconds
-  std::vector<double> exact_cold, exact_warm, near_cold, near_warm;  // likewise; "near": to 1e-6 of the side
+/// The median of the repeats of FCL's microseconds; 0 without FCL. It is asked for few poses, as it takes long.
+class FclTimes {
+ public:
+  explicit FclTimes(const FclPeer& peer) : peer_(peer) {}
+
+  template <class Queries>
+  void measure(const Queries& all) {
+    if (!FclPeer::is_there()) return;
+    const std::size_t few = std::min<std::size_t>(all.size(), 200);
+    times_.push_back(microseconds_each(few, [&] {
+      for (std::size_t i = 0; i < few; ++i) sum_ += peer_.distance(all[i].pose);
+    }));
+  }
+  double median_time() const { return times_.empty() ? 0 : median(times_); }
+  double sum() const { return sum_; }
+
+ private:
+  const FclPeer& peer_;
+  std::vector<double> times_;
+  double sum_ = 0;  // keeps the results in use
 };
 
-void compare(const Body& body, const FclPeer& peer, const std::vector<Query>& all, double side, Row& row) {
-  const auto share = 100 / side / static_cast<double>(all.size());
-  for (const Query& query : all) {
-    const DistanceBounds bounds = distance_bounds(body, body, query.pose);
-    row.mean_width += share * (bounds.upper - bounds.lower);
-    row.greatest_width = std::max(row.greatest_width, 100 * (bounds.upper - bounds.lower) / side);
+std::string times_as_long(double fcl, double cold, double warm) {
+  return fcl > 0 ? fmt::format("{:.0f} | {:.0f} / {:.0f}", fcl, fcl / cold, fcl / warm) : " | ";
+}
+
+/// Cold and warm times of `ask(pose, start)` beside those of FCL.
+template <class Answer, class Ask>
+std::string times_of(const std::vector<Query<Answer>>& all, const Ask& ask, const FclPeer& peer, int repeats) {
+  double sum = 0;  // keeps the results in use
+  std::vector<double> cold, warm;
+  FclTimes fcl(peer);
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    cold.push_back(microseconds_each(all.size(), [&] {
+      for (const auto& query : all) sum += ask(query.pose, Answer()).lower;
+    }));
+    warm.push_back(microseconds_each(all.size(), [&] {
+      for (const auto& query : all) sum += ask(query.pose, query.before).lower;
+    }));
+    fcl.measure(all);
+  }
+  if (sum + fcl.sum() < 0) std::puts("distances are not negative");
+  return fmt::format("{:.2f} | {:.2f} | {}", median(cold), median(warm),
+                     times_as_long(fcl.median_time(), median(cold), median(warm)));
+}
+
+void measure_bounds(const std::string& name, const Mesh& mesh, const Body& body, std::size_t poses, int repeats) {
+  const double side = longest_side(mesh);
+  const FclPeer peer(mesh);
+  const auto ask = [&](const Pose& pose, const DistanceBounds& start) {
+    return distance_bounds(body, body, pose, start);
+  };
+  const auto all = queries<DistanceBounds>([&](const Pose& pose) { return ask(pose, {}); }, side, poses);
+  double mean_width = 0, greatest_width = 0, middle_error = 0;
+  std::size_t wrong = 0;
+  const double share = 100 / side / static_cast<double>(all.size());
+  for (const auto& query : all) {
+    const DistanceBounds bounds = ask(query.pose, {});
+    mean_width += share * (bounds.upper - bounds.lower);
+    greatest_width = std::max(greatest_width, 100 * (bounds.upper - bounds.lower) / side);
     if (!FclPeer::is_there()) continue;
     const double exact = peer.distance(query.pose);
-    row.middle_error += share * std::abs(exact - (bounds.lower + bounds.upper) / 2);
-    row.wrong += !(bounds.lower <= exact && exact <= bounds.upper);
-    const Distance found = or_exit(distance(body, body, query.pose));
-    row.error = std::max({row.error, std::abs(found.upper - exact) / side, std::abs(found.lower - exact) / side});
+    middle_error += share * std::abs(exact - (bounds.lower + bounds.upper) / 2);
+    wrong += !(bounds.lower <= exact && exact <= bounds.upper);
   }
+  fmt::print("| {} | {} | {} / {} | {:.2f} / {:.2f} | {} | {} |\n", name, mesh.triangles.size(), body.inside().size(),
+             body.cover().size(), mean_width, greatest_width, times_of(all, ask, peer, repeats),
+             FclPeer::is_there() ? fmt::format("{:.3f} | {}", middle_error, wrong) : " | ");
 }
 
-void measure(const Body& body, const FclPeer& peer, const std::vector<Query>& all, double side, int repeats, Row& row) {
-  double sum = 0;  // keeps the results in use
-  DistanceOptions near;
-  near.tolerance = 1e-6 * side;
-  const auto exact = [&](const DistanceOptions& options, bool is_warm) {
-    return microseconds_each(all.size(), [&] {
-      for (const Query& query : all) {
-        sum += or_exit(distance(body, body, query.pose, options, is_warm ? query.exact_before : Distance{})).lower;
-      }
-    });
+void measure_exact(const std::string& name, const Mesh& mesh, std::size_t poses, int repeats) {
+  const double side = longest_side(mesh);
+  const FclPeer peer(mesh);
+  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(mesh))));
+  Body body = or_exit(Body::create(indexed));
+  const double building = 1e-6 * microseconds_each(1, [&] { body = or_exit(Body::create(indexed, {}, {}, {1})); });
+  DistanceOptions options;
+  const auto ask = [&](const Pose& pose, const Distance& start) {
+    return or_exit(distance(body, body, pose, options, start));
   };
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    row.cold.push_back(microseconds_each(all.size(), [&] {
-      for (const Query& query : all) sum += distance_bounds(body, body, query.pose).lower;
-    }));
-    row.warm.push_back(microseconds_each(all.size(), [&] {
-      for (const Query& query : all) sum += distance_bounds(body, body, query.pose, query.before).lower;
-    }));
-    row.exact_cold.push_back(exact({}, false));
-    row.exact_warm.push_back(exact({}, true));
-    row.near_cold.push_back(exact(near, false));
-    row.near_warm.push_back(exact(near, true));
+  const auto all = queries<Distance>([&](const Pose& pose) { return ask(pose, {}); }, side, poses);
+  double error = 0, width = 0;
+  for (const auto& query : all) {
+    const Distance found = ask(query.pose, {});
+    width = std::max(width, (found.upper - found.lower) / side);
     if (!FclPeer::is_there()) continue;
-    const std::size_t few = std::min<std::size_t>(all.size(), 200);
-    row.fcl.push_back(microseconds_each(few, [&] {
-      for (std::size_t i = 0; i < few; ++i) sum += peer.distance(all[i].pose);
-    }));
+    const double exact = peer.distance(query.pose);
+    error = std::max({error, (found.lower - exact) / side, (exact - found.upper) / side});
   }
-  if (sum < 0) std::puts("distances are not negative");
-}
-
-void print(const std::string& name, const Mesh& mesh, const Body& body, const Row& row) {
-  const double cold = median(row.cold), warm = median(row.warm);
-  fmt::print("| {} | {} | {} / {} | {:.2f} / {:.2f} | {:.2f} | {:.2f} |", name, mesh.triangles.size(),
-             body.inside().size(), body.cover().size(), row.mean_width, row.greatest_width, cold, warm);
-  if (row.fcl.empty()) {
-    fmt::print(" | | | |\n");
-    return;
-  }
-  const double exact = median(row.fcl);
-  const double exact_cold = median(row.exact_cold), exact_warm = median(row.exact_warm);
-  const double near_cold = median(row.near_cold), near_warm = median(row.near_warm);
-  fmt::print(" {:.3f} | {:.0f} | {:.0f} / {:.0f} | {} |\n", row.middle_error, exact, exact / cold, exact / warm,
-             row.wrong);
-  fmt::print("| exact {:.2f} / {:.2f}, FCL {:.0f} / {:.0f} | near {:.2f} / {:.2f}, FCL {:.0f} / {:.0f} | error {:.1e} |\n",
-             exact_cold, exact_warm, exact / exact_cold, exact / exact_warm, near_cold, near_warm, exact / near_cold,
-             exact / near_warm, row.error);
+  const std::string exact = times_of(all, ask, peer, repeats);
+  options.tolerance = 1e-3 * side;
+  fmt::print("| {} | {} | {:.2f} | {} | {} | {:.1e} | {:.1e} |\n", name, mesh.triangles.size(), building, exact,
+             times_of(all, ask, peer, repeats), width, error);
 }
 
 }  // namespace
@@ -185,24 +210,21 @@ int main(int argc, char** argv) {
   std::size_t poses = 2000;
   int repeats = 7;
   std::string mesh_file, inside_file, cover_file;
-  CLI::App app("Bounds of distances by balls, and distances by FCL.");
+  CLI::App app("Distances of a solid and its copy in random poses, and those of FCL.");
   app.add_option("--poses", poses, "poses of the copy")->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats, "runs, of which the median counts")->check(CLI::PositiveNumber);
   app.add_option("mesh", mesh_file)->required();
-  app.add_option("inside", inside_file)->required();
-  app.add_option("cover", cover_file)->required();
+  app.add_option("inside", inside_file);
+  app.add_option("cover", cover_file);
   CLI11_PARSE(app, argc, argv);
 
   const Mesh mesh = or_exit(read_mesh(mesh_file));
-  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(mesh))));
-  const Body body =
-      or_exit(Body::create(indexed, bench::read_balls(inside_file), bench::read_balls(cover_file)));
-  const bench::FclPeer peer(mesh);
-  const double side = longest_side(mesh);
-  const std::vector<Query> all = queries(body, side, poses);
-  Row row;
-  compare(body, peer, all, side, row);
-  measure(body, peer, all, side, repeats, row);
   const std::size_t slash = mesh_file.rfind('/') + 1;
-  print(mesh_file.substr(slash, mesh_file.rfind('.') - slash), mesh, body, row);
+  const std::string name = mesh_file.substr(slash, mesh_file.rfind('.') - slash);
+  if (cover_file.empty()) {
+    measure_exact(name, mesh, poses, repeats);
+    return 0;
+  }
+  const Body body = or_exit(Body::create(bench::read_balls(inside_file), bench::read_balls(cover_file)));
+  measure_bounds(name, mesh, body, poses, repeats);
 }

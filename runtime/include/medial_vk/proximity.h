@@ -147,4 +147,44 @@ Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std:
 /// for distance_bounds().
 Collision collide(const Body& a, const Body& b, const Pose& pose);
 
+/// A rigid motion of a body from one pose to another while t grows from 0 to 1: a point of the body, its pivot, moves
+/// along a straight line, and the body turns about it about a fixed axis, by at most half a turn, both at constant
+/// rates. With the pivot on the axis of the screw that takes `from` to `to`, the motion is that screw.
+struct Motion {
+  Pose from, to;
+  Point pivot = {0, 0, 0};  ///< In the frame of the body.
+};
+
+/// `motion.from` at 0, and `motion.to`, up to rounding, at 1. Rows of the rotation are perpendicular unit vectors to
+/// within 1e-14.
+Pose pose_at(const Motion& motion, double t);
+
+struct ContactOptions {
+  /// Bodies count as in contact where their distance is at most this, in the units of the meshes.
+  double clearance = 0;
+  double tolerance = 1e-6;  ///< Of t, at least 1e-12.
+  bool surfaces_only = false;
+};
+
+/// What is proved about a motion.
+struct FirstContact {
+  double free_until = 0;  ///< There is no contact before this t; 1: there is none at all.
+  double contact_at = std::numeric_limits<double>::infinity();  ///< There is contact at this t; infinite: none was found.
+  /// At `contact_at`, or else at the last t that was looked at.
+  Distance nearest;
+
+  /// Undecided: the bodies come closer than the tolerance times the greatest speed of a point, and no contact is found.
+  Collision collision() const {
+    return contact_at <= 1 ? Collision::kHit : free_until >= 1 ? Collision::kFree : Collision::kUndecided;
+  }
+};
+
+/// The first contact of `b`, in motion, with `a`: not before `free_until`, and no later than `contact_at`, which is no
+/// more than the tolerance after a time without proved contact. By conservative advancement: a time at which the distance
+/// is d is followed by one until which no point of b moves farther than d. Takes some tens of distances; more, up to the
+/// inverse of the tolerance, where the bodies slide past each other. Allocates nothing. Precondition: both poses are
+/// as for distance_bounds(). Errors: those of distance(); kUsage (an option that is negative, too small or no number).
+Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion,
+                                   const ContactOptions& options = {});
+
 }  // namespace medial_vk

@@ -24,6 +24,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("ball"),
     {"border", "--sheet-border", {}, {}},
     library_only("capacity"),
+    library_only("clearance"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount},
     {"count_per_link", {}, {}, "--count-per-link"},
