@@ -61,8 +61,9 @@ class PoseTable {
     const auto given = [](const std::optional<std::size_t>& column) { return column.has_value(); };
     const auto turned = std::count_if(column_.begin() + kShift, column_.end(), given);
     if (std::all_of(column_.begin(), column_.begin() + kShift, given) && (turned == 0 || turned == 4)) return {};
-    return line_error(name_, number,
-                      "the first line must name the columns: x,y,z, and with a rotation also qx,qy,qz,qw, in any order");
+    return line_error(
+        name_, number,
+        "the first line must name the columns: x,y,z, and with a rotation also qx,qy,qz,qw, in any order");
   }
 
   Result<Pose> read_pose(std::string_view line, std::uint64_t number) const {

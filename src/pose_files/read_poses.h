@@ -12,8 +12,8 @@ namespace medial_vk {
 
 /// A pose per line. The first line names the columns, in any order: x, y, z, the shift; and qx, qy, qz, qw, the
 /// rotation as a quaternion, whose length is 1 to within 1 percent and is made 1, or none of these four: no rotation.
-/// No number is beyond 1e18. Other columns are ignored. Blank lines are skipped. `name` is that of the file in messages. Errors: kInvalidMesh,
-/// with the line.
+/// No number is beyond 1e18. Other columns are ignored. Blank lines are skipped. `name` is that of the file in
+/// messages. Errors: kInvalidMesh, with the line.
 Result<std::vector<Pose>> parse_poses(std::string_view text, const std::string& name);
 
 /// The same of a file; "-": standard input. Errors: kInvalidMesh.

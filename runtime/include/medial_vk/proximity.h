@@ -28,16 +28,16 @@ struct BodyOptions {
 class Body {
  public:
   /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
-  /// (winding number at least 1/2), and its triangles. Where the mesh is open, distances are those of its triangles, and
-  /// 0 where a component of one mesh lies where the winding number of the other is at least 1/2. The mesh is shared, not
-  /// copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the mesh
-  /// reaches beyond 1e18).
+  /// (winding number at least 1/2), and its triangles. Where the mesh is open, distances are those of its triangles,
+  /// and 0 where a component of one mesh lies where the winding number of the other is at least 1/2. The mesh is
+  /// shared, not copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form;
+  /// kInvalidMesh (the mesh reaches beyond 1e18).
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
                              std::span<const Ball> cover = {}, const BodyOptions& options = {});
-  /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no lower ones. Centres and
-  /// radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond 1e18. Copies the balls.
-  /// Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two empty sets, and for more
-  /// than kMostBodyBalls), kOutOfMemory.
+  /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no
+  /// lower ones. Centres and radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond
+  /// 1e18. Copies the balls. Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two
+  /// empty sets, and for more than kMostBodyBalls), kOutOfMemory.
   static Result<Body> create(std::span<const Ball> inside, std::span<const Ball> cover);
 
   std::span<const Ball> inside() const;
@@ -169,7 +169,8 @@ struct ContactOptions {
 /// What is proved about a motion.
 struct FirstContact {
   double free_until = 0;  ///< There is no contact before this t; 1: there is none at all.
-  double contact_at = std::numeric_limits<double>::infinity();  ///< There is contact at this t; infinite: none was found.
+  double contact_at =
+      std::numeric_limits<double>::infinity();  ///< There is contact at this t; infinite: none was found.
   /// At `contact_at`, or else at the last t that was looked at.
   Distance nearest;
 
@@ -180,10 +181,11 @@ struct FirstContact {
 };
 
 /// The first contact of `b`, in motion, with `a`: not before `free_until`, and no later than `contact_at`, which is no
-/// more than the tolerance after a time without proved contact. By conservative advancement: a time at which the distance
-/// is d is followed by one until which no point of b moves farther than d. Takes some tens of distances; more, up to the
-/// inverse of the tolerance, where the bodies slide past each other. Allocates nothing. Precondition: both poses are
-/// as for distance_bounds(). Errors: those of distance(); kUsage (an option that is negative, too small or no number).
+/// more than the tolerance after a time without proved contact. By conservative advancement: a time at which the
+/// distance is d is followed by one until which no point of b moves farther than d. Takes some tens of distances; more,
+/// up to the inverse of the tolerance, where the bodies slide past each other. Allocates nothing. Precondition: both
+/// poses are as for distance_bounds(). Errors: those of distance(); kUsage (an option that is negative, too small or no
+/// number).
 Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion,
                                    const ContactOptions& options = {});
 

@@ -116,9 +116,8 @@ BodySurface::BodySurface(Solid of_mesh, const Point& centre, unsigned threads)
 Result<Body> Body::create(std::span<const Ball> inside, std::span<const Ball> cover) {
   if (inside.empty() && cover.empty()) return Error{ErrorCode::kUsage, "a body needs balls `inside` or a `cover`"};
   if (Status status = check_sets(inside, cover); !status) return status.error();
-  return catch_out_of_memory("indexing the balls of a body", [&]() -> Result<Body> {
-    return Body(impl_of<Impl>(nullptr, inside, cover));
-  });
+  return catch_out_of_memory("indexing the balls of a body",
+                             [&]() -> Result<Body> { return Body(impl_of<Impl>(nullptr, inside, cover)); });
 }
 
 Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside, std::span<const Ball> cover,

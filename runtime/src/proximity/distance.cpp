@@ -36,9 +36,9 @@ bool is_in_box(const Point& p, const MeshReport& report, double error) {
   return true;
 }
 
-/// If a component of the mesh of `inner` lies in the solid of `outer`: true, with a point of it in the frame of `inner`.
-/// `to_outer` maps from the frame of `inner`. Precondition: the surfaces are apart by more than `error`, the error of
-/// mapped points; so a component is inside as a whole, or outside.
+/// If a component of the mesh of `inner` lies in the solid of `outer`: true, with a point of it in the frame of
+/// `inner`. `to_outer` maps from the frame of `inner`. Precondition: the surfaces are apart by more than `error`, the
+/// error of mapped points; so a component is inside as a whole, or outside.
 bool find_inside(const BodySurface& inner, const BodySurface& outer, const Pose& to_outer, double error, Point& point) {
   for (const std::array<Point, 6>& extremes : inner.extremes) {
     const bool may_be_inside = std::ranges::all_of(
@@ -59,7 +59,8 @@ class SolidsInPose {
   /// From the distance of the surfaces to that of the solids.
   void decide(Distance& distance) const {
     const Inverse inverse = inverse_of(placement_.pose());
-    const double size = placement_.lengths() + placement_.distance() + a_.tree.nodes().reach() + b_.tree.nodes().reach();
+    const double size =
+        placement_.lengths() + placement_.distance() + a_.tree.nodes().reach() + b_.tree.nodes().reach();
     const double error = inverse.error * size;
     if (distance.lower <= error) {
       distance.lower = 0;

@@ -23,8 +23,7 @@ double upper_bound(const BodyImpl& a, const BodyImpl& b, const Placement& placem
   const Ball &ball_a = a.inside[pair.a], &ball_b = b.inside[pair.b];
   const Point away = ball_a.centre - placement.pose() * ball_b.centre;
   // Eleven roundings of sums of at most this; a rotation that is one to within 1e-12 may also shrink the ball.
-  const double size =
-      length(ball_a.centre) + length(ball_b.centre) + length(placement.pose().shift) + ball_a.radius;
+  const double size = length(ball_a.centre) + length(ball_b.centre) + length(placement.pose().shift) + ball_a.radius;
   const double separation = std::hypot(away[0], away[1], away[2]) - ball_a.radius - ball_b.radius;  // no underflow
   return std::max(0.0, separation + 0x1p-48 * size + 4e-12 * ball_b.radius);
 }

@@ -8,8 +8,8 @@ namespace {
 
 /// Let S bound the sum of the greatest distances of corners of both triangles, and of the shift, from the origins of
 /// their frames; u = 2^-53. A corner in the other frame has in each coordinate an error of 4 u times a sum of absolute
-/// values, and so one of less than 7 u S. A point between corners has one of 6 u S more, a difference of points u S, its
-/// length 4 u S, a product with a unit vector 4 u S, and that vector 4 u S: less than 32 u S in all.
+/// values, and so one of less than 7 u S. A point between corners has one of 6 u S more, a difference of points u S,
+/// its length 4 u S, a product with a unit vector 4 u S, and that vector 4 u S: less than 32 u S in all.
 constexpr double kRounding = 32 * 0x1p-53;
 
 constexpr std::size_t kWidth = BodyNode::kWidth;
@@ -84,8 +84,8 @@ class TrianglesGoal {
   float reach() const { return reach_; }
   bool is_reached() const { return best_.upper == 0; }
 
-  /// The solids are no farther apart than balls in them. Neither are their surfaces, unless one solid lies in the other.
-  /// (Every way from one solid to another one meets both surfaces.)
+  /// The solids are no farther apart than balls in them. Neither are their surfaces, unless one solid lies in the
+  /// other. (Every way from one solid to another one meets both surfaces.)
   MEDIAL_VK_INLINE void see(float separation, const BallsOfNodes& balls) {
     const float most = separation + (balls.a->excess[balls.k] + balls.b->excess[balls.j]);
     if (most < between_inner_balls_) shorten(most, balls);

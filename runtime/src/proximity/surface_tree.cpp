@@ -68,8 +68,8 @@ class BallsOfTriangles {
     double excess;
   };
 
-  /// A centre outside the solid gets a smaller excess than it has. That costs time, and no truth. One outside the box is
-  /// none: farther and farther away the ball becomes a half-space, and its numbers lose their digits.
+  /// A centre outside the solid gets a smaller excess than it has. That costs time, and no truth. One outside the box
+  /// is none: farther and farther away the ball becomes a half-space, and its numbers lose their digits.
   bool improve(Chosen triangles, const Point& c, Best& best) const {
     const MeshReport& report = solid_.mesh().report;
     if (least(c, report.lower) != report.lower || greatest(c, report.upper) != report.upper) return false;

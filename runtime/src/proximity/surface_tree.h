@@ -16,8 +16,9 @@ namespace medial_vk {
 /// radius r hold some triangles, and let d be the distance of c from the boundary, with c inside. A point p outside is
 /// then at least at |p - c| - r >= (distance of p from the solid) - (r - d) from the ball, since the way from c to p
 /// leaves the solid no sooner than after d: the search opens no ball that is farther away than the solid by more than
-/// its excess r - d. The inner ball of the radius d also bounds the distance of the solids from above. A ball around the middle of a flat patch of the radius w has the excess w; one whose centre is at
-/// the depth h below it, where the solid is thick enough, has sqrt(h^2 + w^2) - h < w^2 / 2h.
+/// its excess r - d. The inner ball of the radius d also bounds the distance of the solids from above. A ball around
+/// the middle of a flat patch of the radius w has the excess w; one whose centre is at the depth h below it, where the
+/// solid is thick enough, has sqrt(h^2 + w^2) - h < w^2 / 2h.
 class SurfaceTree {
  public:
   /// Corner c of eight triangles, relative to the centre: [c][axis].

@@ -63,7 +63,8 @@ constexpr float kFarther = 1e30f;
 /// Depth first, and of the pairs of a division the closest first. `Goal` has the members
 ///   float reach() const                 pairs of balls with a computed separation of this or more are passed over
 ///   void see(separation, BallsOfNodes)  two balls that are closer; may shorten the reach
-///   uint64 pairs_of(node_a, node_b)     of two nodes of the lowest level: bit 8 j + k, unless item k of a and item j of
+///   uint64 pairs_of(node_a, node_b)     of two nodes of the lowest level: bit 8 j + k, unless item k of a and item j
+///   of
 ///                                       b are known to be too far apart
 ///   void take(const CloseItems&)        two items whose balls are closer; may shorten the reach
 ///   bool is_reached() const             true ends the search

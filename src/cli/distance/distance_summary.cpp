@@ -16,7 +16,8 @@ std::string states_text(std::span<const Distance> distances) {
   std::string text;
   for (const Collision state : {Collision::kFree, Collision::kHit, Collision::kUndecided}) {
     const auto count = std::ranges::count(distances, state, &Distance::collision);
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(static_cast<std::uint64_t>(count)), name_of(state));
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(static_cast<std::uint64_t>(count)), name_of(state));
   }
   return text;
 }
@@ -66,9 +67,9 @@ std::string times_text(const std::vector<StageTime>& times, bool verbose) {
 }  // namespace
 
 std::string distance_opening(const std::string& path, const MeshReport& report, bool verbose) {
-  std::string text = fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path,
-                                 grouped(report.triangles),
-                                 report.closed ? "closed" : "not closed: inside is where the winding number is at least 1/2");
+  std::string text =
+      fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path, grouped(report.triangles),
+                  report.closed ? "closed" : "not closed: inside is where the winding number is at least 1/2");
   if (!verbose) return text;
   for (const std::string& assumption : report.assumptions) text += line("note", assumption);
   return text;

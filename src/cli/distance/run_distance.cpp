@@ -62,9 +62,8 @@ class DistanceRun {
     Result<std::vector<ScenePart>> read = read_meshes(path, false, times_);
     progress_.clear();
     if (!read) return read.error();
-    const PrepareOptions prepare = {.keep_inner_faces = options_.keep_inner_faces,
-                                    .threads = options_.threads,
-                                    .keep_outer_faces = true};
+    const PrepareOptions prepare = {
+        .keep_inner_faces = options_.keep_inner_faces, .threads = options_.threads, .keep_outer_faces = true};
     const DeviceOpening no_device;
     Result<PreparedMesh> prepared =
         prepare_loaded(std::move(read.value().front().mesh), path, no_device, prepare, times_);
@@ -118,10 +117,9 @@ class DistanceRun {
     if (!options_.check) return {};
     const EndAtOnce while_checked;
     if (interrupted()) return stopped();
-    check_ = check_distances(mesh_a_->prepared(), mesh_b_->prepared(), poses_, distances_, distance_options(options_),
-                             [&](std::size_t i) {
-                               progress_.update("check", static_cast<double>(i) / static_cast<double>(poses_.size()));
-                             });
+    check_ = check_distances(
+        mesh_a_->prepared(), mesh_b_->prepared(), poses_, distances_, distance_options(options_),
+        [&](std::size_t i) { progress_.update("check", static_cast<double>(i) / static_cast<double>(poses_.size())); });
     progress_.clear();
     return {};
   }

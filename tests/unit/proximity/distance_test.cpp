@@ -75,8 +75,8 @@ double exact_distance(const Mesh& a, const Mesh& b, const Pose& pose, bool surfa
   return reference::one_holds_the_other(of_a, of_b, motion_of(pose)) ? 0 : distance;
 }
 
-/// Six times the error of nearest_triangles.cpp, 32 * 2^-53 of the sum of both reaches and of the shift, to which `size`
-/// is a bound. The reference has fewer roundings.
+/// Six times the error of nearest_triangles.cpp, 32 * 2^-53 of the sum of both reaches and of the shift, to which
+/// `size` is a bound. The reference has fewer roundings.
 double rounding(double size) { return 192 * 0x1p-53 * size; }
 
 void expect_holds(const Distance& found, double exact, double size, const DistanceOptions& options = {}) {

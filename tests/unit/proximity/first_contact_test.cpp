@@ -19,7 +19,9 @@ using namespace test;
 
 Body moving_body(const Mesh& mesh) { return Body::create(indexed(prepare_mesh(mesh).value())).value(); }
 
-Motion shifted(const Point& from, const Point& to) { return {make_pose(from, {0, 0, 0}), make_pose(to, {0, 0, 0}), {}}; }
+Motion shifted(const Point& from, const Point& to) {
+  return {make_pose(from, {0, 0, 0}), make_pose(to, {0, 0, 0}), {}};
+}
 
 TEST(FirstContact, OfBoxesThatMeetIsWhereTheirFacesMeet) {
   const Body box = moving_body(make_box({1, 1, 1}));
