@@ -134,13 +134,12 @@ NearestPair nearest_of_meshes(const Mesh& a, const Mesh& b, const Motion& motion
 
 bool one_holds_the_other(const Mesh& a, const Mesh& b, const Motion& motion) {
   const Tree tree_a(a), tree_b(b);
-  for (const Vector3d& corner : one_of_each_component(b)) {
-    if (is_inside(tree_a, motion.rotation * corner + motion.shift)) return true;
-  }
-  for (const Vector3d& corner : one_of_each_component(a)) {
-    if (is_inside(tree_b, motion.rotation.transpose() * (corner - motion.shift))) return true;
-  }
-  return false;
+  const bool b_is_held = std::ranges::any_of(one_of_each_component(b), [&](const Vector3d& corner) {
+    return is_inside(tree_a, motion.rotation * corner + motion.shift);
+  });
+  return b_is_held || std::ranges::any_of(one_of_each_component(a), [&](const Vector3d& corner) {
+           return is_inside(tree_b, motion.rotation.transpose() * (corner - motion.shift));
+         });
 }
 
 }  // namespace medial_vk::reference

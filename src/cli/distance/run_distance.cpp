@@ -102,7 +102,7 @@ class DistanceRun {
       if (interrupted()) return stopped();
       progress_.update("distances", static_cast<double>(begin) / static_cast<double>(poses_.size()));
       const std::size_t count = std::min(kBlock, poses_.size() - begin);
-      const Status status =
+      Status status =
           distances(*body_a_, *body_b_, std::span(poses_).subspan(begin, count),
                     std::span(distances_).subspan(begin, count), distance_options(options_), {options_.threads});
       if (!status) return status;
