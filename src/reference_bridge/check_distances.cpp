@@ -39,7 +39,8 @@ class Condition {
     ++line_.tested;
     line_.worst = std::max(line_.worst, excess);
     if (excess <= rounding) return;
-    if (line_.failed++ == 0) line_.first_failure = fmt::format("pose {}: by {:.3g}", pose + 1, excess);
+    if (line_.failed++ == 0)
+      line_.first_failure = fmt::format("{}: pose {}, by {:.3g}", line_.condition, pose + 1, excess);
   }
   const CheckLine& line() const { return line_; }
 
@@ -72,12 +73,11 @@ class DistanceCheck {
     }
     upper_.test(exact - found.upper, error, i);
     if (found.lower > 0) free_.test(is_hit ? found.lower : 0, error, i);
-    if (exact <= options_.limit) width_.test(found.upper - found.lower - options_.tolerance, error, i);
     test_points(found, motion, error, i);
   }
 
   CheckReport report() const {
-    return {{lower_.line(), upper_.line(), free_.line(), hit_.line(), width_.line(), points_.line(), apart_.line()}};
+    return {{lower_.line(), upper_.line(), free_.line(), hit_.line(), points_.line(), apart_.line()}};
   }
 
  private:
@@ -96,7 +96,6 @@ class DistanceCheck {
   Condition upper_{"upper end >= that distance"};
   Condition free_{"free: the solids have no common point"};
   Condition hit_{"hit: they have one"};
-  Condition width_{"interval no wider than the tolerance, up to the limit"};
   Condition points_{"points lie on the surfaces"};
   Condition apart_{"points no farther apart than the upper end"};
 };

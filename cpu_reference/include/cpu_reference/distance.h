@@ -1,5 +1,5 @@
 // The distance of two meshes and of the solids that they enclose, by all pairs of triangles: simple, slow, and shared
-// with nothing. Lengths are in the units of the meshes.
+// with nothing. In double: up to rounding, which next to slivers of an aspect of 1e5 is some 1e-11 of lengths. Lengths are in the units of the meshes.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,8 +31,8 @@ struct Motion {
 /// The nearest points of two meshes, in the frame of a. Precondition: each has a triangle.
 NearestPair nearest_of_meshes(const Mesh& a, const Mesh& b, const Motion& motion);
 
-/// True if some component of one mesh lies in the solid of the other one (winding number at least 1/2). Precondition:
-/// the meshes do not meet, so that one corner of a component tells.
+/// True if some component of one mesh lies in the solid of the other one (winding number at least 1/2); an open mesh
+/// encloses nothing. Precondition: the meshes do not meet, so that one corner of a component tells.
 bool one_holds_the_other(const Mesh& a, const Mesh& b, const Motion& motion);
 
 }  // namespace medial_vk::reference

@@ -46,7 +46,7 @@ double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
 bool meets(const Vector3d& p, const Vector3d& q, const Corners& triangle, Vector3d& at) {
   const auto& [a, b, c] = triangle;
   const double of_p = volume(a, b, c, p), of_q = volume(a, b, c, q);
-  if (of_p * of_q > 0 || of_p == of_q) return false;
+  if ((of_p > 0 && of_q > 0) || (of_p < 0 && of_q < 0) || of_p == of_q) return false;
   const double x = volume(p, q, a, b), y = volume(p, q, b, c), z = volume(p, q, c, a);
   if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) return false;
   at = p + of_p / (of_p - of_q) * (q - p);
@@ -134,12 +134,13 @@ NearestPair nearest_of_meshes(const Mesh& a, const Mesh& b, const Motion& motion
 
 bool one_holds_the_other(const Mesh& a, const Mesh& b, const Motion& motion) {
   const Tree tree_a(a), tree_b(b);
-  const bool b_is_held = std::ranges::any_of(one_of_each_component(b), [&](const Vector3d& corner) {
-    return is_inside(tree_a, motion.rotation * corner + motion.shift);
+  const bool b_is_held = a.closed && std::ranges::any_of(one_of_each_component(b), [&](const Vector3d& corner) {
+                           return is_inside(tree_a, motion.rotation * corner + motion.shift);
+                         });
+  if (b_is_held || !b.closed) return b_is_held;
+  return std::ranges::any_of(one_of_each_component(a), [&](const Vector3d& corner) {
+    return is_inside(tree_b, motion.rotation.transpose() * (corner - motion.shift));
   });
-  return b_is_held || std::ranges::any_of(one_of_each_component(a), [&](const Vector3d& corner) {
-           return is_inside(tree_b, motion.rotation.transpose() * (corner - motion.shift));
-         });
 }
 
 }  // namespace medial_vk::reference

@@ -28,10 +28,9 @@ struct BodyOptions {
 class Body {
  public:
   /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
-  /// (winding number at least 1/2), and its triangles. Where the mesh is open, distances are those of its triangles,
-  /// and 0 where a component of one mesh lies where the winding number of the other is at least 1/2. The mesh is
-  /// shared, not copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form;
-  /// kInvalidMesh (the mesh reaches beyond 1e18).
+  /// (winding number at least 1/2), and its triangles; a mesh that is not closed encloses nothing. The mesh is shared, not
+  /// copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the mesh
+  /// reaches beyond 1e18).
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
                              std::span<const Ball> cover = {}, const BodyOptions& options = {});
   /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no
@@ -102,7 +101,7 @@ void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, 
 struct DistanceOptions {
   /// The interval may be as wide as this, in the units of the mesh. 0: as narrow as rounding allows.
   double tolerance = 0;
-  /// Where the distance is greater, only that is proved: `lower` is then about the limit, and `upper` the distance of
+  /// Where the distance is greater, only that is proved: `lower` is then at least the limit, and `upper` the distance of
   /// some two points.
   double limit = std::numeric_limits<double>::infinity();
   /// Of the surfaces, even where one solid lies inside the other.
@@ -131,10 +130,10 @@ struct Distance {
 /// The distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`, by their
 /// triangles. Solids that have a point in common are at distance 0, even where one holds the other. All rounding errors
 /// are included: the interval contains the distance of the meshes as they are, and is wider than the tolerance by about
-/// 2e-14 times the coordinates (more only where nearly parallel edges nearly touch). `upper` is 0 only where a common
-/// point is proved. `start` may be the result of an earlier query of the same two bodies, as for distance_bounds().
-/// Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18. Error: kUsage (a body
-/// without a mesh, an option that is negative or no number).
+/// 2e-14 times the coordinates (more next to very thin triangles and to edges that are nearly parallel). `upper` is 0
+/// only where a common point is proved. `start` may be the result of an earlier query of the same two bodies, as for
+/// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18. Error:
+/// kUsage (a body without a mesh, an option that is negative or no number).
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
                           const Distance& start = {});
 
@@ -171,7 +170,7 @@ struct FirstContact {
   double free_until = 0;  ///< There is no contact before this t; 1: there is none at all.
   double contact_at =
       std::numeric_limits<double>::infinity();  ///< There is contact at this t; infinite: none was found.
-  /// At `contact_at`, or else at the last t that was looked at.
+  /// At `contact_at`, or else at the last t that was tried.
   Distance nearest;
 
   /// Undecided: the bodies come closer than the tolerance times the greatest speed of a point, and no contact is found.

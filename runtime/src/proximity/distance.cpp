@@ -36,54 +36,46 @@ bool is_in_box(const Point& p, const MeshReport& report, double error) {
   return true;
 }
 
-/// If a component of the mesh of `inner` lies in the solid of `outer`: true, with a point of it in the frame of
-/// `inner`. `to_outer` maps from the frame of `inner`. Precondition: the surfaces are apart by more than `error`, the
-/// error of mapped points; so a component is inside as a whole, or outside.
-bool find_inside(const BodySurface& inner, const BodySurface& outer, const Pose& to_outer, double error, Point& point) {
+enum class Holds : std::uint8_t { kNo, kYes, kUnknown };
+
+/// Whether a component of the mesh of `inner` lies in the solid of `outer`, with a point of it in the frame of `inner`.
+/// `to_outer` maps from the frame of `inner`, with the error `error`. Surfaces are apart by `apart`: if that is more
+/// than all errors, a component is inside as a whole, or outside. An open mesh holds nothing.
+Holds holds(const BodySurface& outer, const BodySurface& inner, const Pose& to_outer, double error, double apart,
+            Point& point) {
+  const MeshReport& report = outer.solid.mesh().report;
+  if (!report.closed) return Holds::kNo;
   for (const std::array<Point, 6>& extremes : inner.extremes) {
-    const bool may_be_inside = std::ranges::all_of(
-        extremes, [&](const Point& p) { return is_in_box(to_outer * p, outer.solid.mesh().report, error); });
-    if (!may_be_inside || !outer.solid.contains(to_outer * extremes.front())) continue;
+    const bool may_be_inside =
+        std::ranges::all_of(extremes, [&](const Point& p) { return is_in_box(to_outer * p, report, error); });
+    if (!may_be_inside) continue;
+    if (apart <= error + outer.solid.rounding()) return Holds::kUnknown;
+    if (!outer.solid.contains(to_outer * extremes.front())) continue;
     point = extremes.front();
-    return true;
+    return Holds::kYes;
   }
-  return false;
+  return Holds::kNo;
 }
 
-/// Of two solids: where their surfaces are apart, one may lie inside the other.
-class SolidsInPose {
- public:
-  SolidsInPose(const BodyImpl& a, const BodyImpl& b, const Placement& placement)
-      : a_(*a.surface), b_(*b.surface), placement_(placement) {}
-
-  /// From the distance of the surfaces to that of the solids.
-  void decide(Distance& distance) const {
-    const Inverse inverse = inverse_of(placement_.pose());
-    const double size =
-        placement_.lengths() + placement_.distance() + a_.tree.nodes().reach() + b_.tree.nodes().reach();
-    const double error = inverse.error * size;
-    if (distance.lower <= error) {
-      distance.lower = 0;
-      return;
-    }
-    Point point;
-    if (find_inside(b_, a_, placement_.pose(), error, point)) {
-      set_common(distance, placement_.pose() * point);
-    } else if (find_inside(a_, b_, inverse.pose, error, point)) {
-      set_common(distance, point);
-    }
-  }
-
- private:
-  static void set_common(Distance& distance, const Point& point) {
-    distance.lower = distance.upper = 0;
+/// Of two solids whose surfaces are apart, one may lie inside the other: from the distance of the surfaces to that of
+/// the solids.
+void decide_by_components(const BodySurface& a, const BodySurface& b, const Placement& placement, Distance& distance) {
+  const Inverse inverse = inverse_of(placement.pose());
+  const double size = placement.lengths() + placement.distance() + a.tree.nodes().reach() + b.tree.nodes().reach();
+  const auto decide = [&](Holds holds, const Point& point) {
+    if (holds == Holds::kNo) return false;
+    distance.lower = 0;
+    if (holds == Holds::kUnknown) return true;
+    distance.upper = 0;
     distance.on_a = distance.on_b = point;
-  }
-
-  const BodySurface& a_;
-  const BodySurface& b_;
-  const Placement& placement_;
-};
+    return true;
+  };
+  Point of_b = {0, 0, 0}, of_a = {0, 0, 0};
+  constexpr double kForward = 16 * 0x1p-53;  // of a mapped point
+  const Holds a_holds = holds(a, b, placement.pose(), kForward * size, distance.lower, of_b);
+  if (decide(a_holds, placement.pose() * of_b)) return;
+  decide(holds(b, a, inverse.pose, inverse.error * size, distance.lower, of_a), of_a);
+}
 
 /// Two balls inside may overlap where surfaces touch and do not cross.
 void decide_by_balls(const Body& a, const Body& b, const Pose& pose, Distance& distance) {
@@ -102,7 +94,9 @@ Status check(const BodyImpl& a, const BodyImpl& b, const DistanceOptions& option
   if (!a.surface || !b.surface) {
     return Error{ErrorCode::kUsage, "a distance needs bodies that were created with their meshes"};
   }
-  if (!(options.tolerance >= 0)) return Error{ErrorCode::kUsage, "`tolerance` must not be negative"};
+  if (!(options.tolerance >= 0 && std::isfinite(options.tolerance))) {
+    return Error{ErrorCode::kUsage, "`tolerance` must be finite and not negative"};
+  }
   if (!(options.limit >= 0)) return Error{ErrorCode::kUsage, "`limit` must not be negative"};
   return {};
 }
@@ -115,7 +109,7 @@ Distance distance_of(const Body& a, const Body& b, const Pose& pose, const Dista
   if (!placement.is_in_range()) return {};
   Distance distance = nearest_triangles(in_a.surface->tree, in_b.surface->tree, placement, start, options);
   if (options.surfaces_only || distance.upper == 0) return distance;
-  if (distance.lower > 0) SolidsInPose(in_a, in_b, placement).decide(distance);
+  if (distance.lower > 0) decide_by_components(*in_a.surface, *in_b.surface, placement, distance);
   if (distance.lower == 0 && distance.upper > 0) decide_by_balls(a, b, pose, distance);
   return distance;
 }

@@ -129,7 +129,7 @@ class TrianglesGoal {
   void shorten(float most, const BallsOfNodes& balls) {
     if (options_.surfaces_only) return;
     between_inner_balls_ = most;
-    if (most < -float_error_) {
+    if (most < -2 * float_error_) {  // two sums more than a separation
       best_.lower = best_.upper = 0;
       best_.on_a = best_.on_b = point_of_both(balls);
     }
@@ -185,9 +185,13 @@ class TrianglesGoal {
   /// narrow enough. Those of the many triangles that share the nearest edge or corner
   /// are at the least distance up to rounding, and so beyond as well.
   void shorten() {
-    const double limit = std::max(options_.limit, 8 * error_), most = between_inner_balls_ + float_error_;
+    const double limit = options_.limit + 8 * error_;
+    // No shorter than errors: triangles are to decide whether the solids touch.
+    const double most = std::max(between_inner_balls_ + 2 * float_error_, 4 * float_error_);
     target_ = std::min({best_.upper - options_.tolerance, most, limit}) - 4 * error_;
     reach_ = std::min(kFarther, rounded_up(target_ + float_error_));
+    // A corner has an error of u M, u = 2^-24, and so has a direction; a product with it 4 u M more: 12 u M for both
+    // sides, and 8 u M for the shift and the last differences.
     reach_by_planes_ = std::min(kFarther, rounded_up(target_ + 2 * float_error_));
   }
 

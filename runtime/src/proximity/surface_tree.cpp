@@ -27,7 +27,8 @@ class BallsOfTriangles {
       size = std::max(size, length(relative));
     });
     ball.radius = rounded_up(radius + 0x1p-52 * size);
-    const double depth = triangles.size() == 1 ? 0 : depth_of(centre + origin_) - 0x1p-52 * (size + length(origin_));
+    const double depth =
+        triangles.size() == 1 ? 0 : depth_of(centre + origin_) - 0x1p-52 * (length(centre) + length(origin_));
     ball.excess = rounded_up(ball.radius - (depth > 0 ? depth : -static_cast<double>(ball.radius)));
     return ball;
   }

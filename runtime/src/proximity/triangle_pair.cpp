@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "bvh/triangle_distance.h"
-
 namespace medial_vk {
 namespace {
+
+constexpr double kLeastLength = 1e-150, kGreatestLength = 1e150;
 
 const Point& corner(const Corners& triangle, std::size_t k) { return triangle[k % 3]; }
 
@@ -63,6 +63,19 @@ bool try_edges(const Corners& a, const Corners& b, double error, Candidate& best
   return false;
 }
 
+/// The foot of the perpendicular from `p`, if it lies in `face`: a convex combination of corners, whatever the rounding
+/// of its weights, so it never leaves the triangle.
+bool find_foot_of(const Corners& face, const Point& p, Point& foot) {
+  const Point ab = face[1] - face[0], ac = face[2] - face[0], from = p - face[0];
+  const Point normal = cross(ab, ac);
+  const double area = dot(normal, normal);
+  if (!(area > 0)) return false;
+  const double v = dot(cross(from, ac), normal) / area, w = dot(cross(ab, from), normal) / area;
+  if (!(v >= 0 && w >= 0 && v + w <= 1)) return false;
+  foot = face[0] + v * ab + w * ac;
+  return true;
+}
+
 /// The foot of the corner of `other` that is nearest to the plane of `face`, all corners being on one side of it, if it
 /// lies in `face`: true, with `corner` and `foot`.
 bool find_foot(const Corners& face, const Corners& other, Point& corner_of_other, Point& foot) {
@@ -78,23 +91,21 @@ bool find_foot(const Corners& face, const Corners& other, Point& corner_of_other
   for (std::size_t k = 1; k < 3; ++k) {
     if (std::fabs(height[k]) < std::fabs(height[nearest])) nearest = k;
   }
-  const Point from = other[nearest] - face[0];
-  const double v = dot(cross(from, ac), normal) / area, w = dot(cross(ab, from), normal) / area;
-  if (v < 0 || w < 0 || v + w > 1) return false;
   corner_of_other = other[nearest];
-  foot = face[0] + v * ab + w * ac;
-  return true;
+  return find_foot_of(face, corner_of_other, foot);
 }
 
-/// The better of the candidates at the corners of either triangle.
+/// The better of the candidates at the corners of either triangle, over the face of the other one.
 void try_corners(const Corners& a, const Corners& b, Candidate& best) {
+  Point foot;
+  const auto keep = [&](const Candidate& points) {
+    if (points.squared < best.squared) best = points;
+  };
   for (const Point& p : b) {
-    const NearestOffset nearest = nearest_on_triangle(p, a);
-    if (nearest.squared_distance < best.squared) best = between(p + nearest.offset, p);
+    if (find_foot_of(a, p, foot)) keep(between(foot, p));
   }
   for (const Point& p : a) {
-    const NearestOffset nearest = nearest_on_triangle(p, b);
-    if (nearest.squared_distance < best.squared) best = between(p, p + nearest.offset);
+    if (find_foot_of(b, p, foot)) keep(between(p, foot));
   }
 }
 
@@ -155,7 +166,7 @@ bool find_crossing(const Corners& a, const Corners& b, double error, Point& at) 
 /// Keeps the direction of `across`, either way, if it is better.
 void try_direction(const Corners& a, const Corners& b, const Point& across, TrianglePoints& points) {
   const double size = length(across);
-  if (!(size > 0)) return;
+  if (!(size > kLeastLength && size < kGreatestLength)) return;  // squares keep their digits
   for (const double scale : {1 / size, -1 / size}) {
     const Point direction = scale * across;
     const double apart = separation_along(a, b, direction, points.on_a);
@@ -178,18 +189,45 @@ void try_normals(const Corners& a, const Corners& b, TrianglePoints& points) {
   }
 }
 
-TrianglePoints with_direction(const Corners& a, const Corners& b, const Candidate& nearest, double error) {
+TrianglePoints with_direction(const Corners& a, const Corners& b, const Candidate& nearest) {
   TrianglePoints points;
   points.on_a = nearest.on_a;
   points.on_b = nearest.on_b;
   points.distance = std::sqrt(nearest.squared);
   points.apart = -std::numeric_limits<double>::infinity();
-  if (points.distance > 0) {
-    points.direction = (1 / points.distance) * (points.on_b - points.on_a);
-    points.apart = separation_along(a, b, points.direction, points.on_a);
-  }
-  if (points.apart < points.distance - error) try_normals(a, b, points);
+  if (!(points.distance > kLeastLength)) return points;
+  points.direction = (1 / points.distance) * (points.on_b - points.on_a);
+  points.apart = separation_along(a, b, points.direction, points.on_a);
   return points;
+}
+
+/// Among all pairs of edges and all corners, since rounding may decide for the wrong ones where triangles are thin.
+Candidate nearest_of_all(const Corners& a, const Corners& b, Candidate best) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Candidate points = nearest_on_segments(a[i], corner(a, i + 1) - a[i], b[j], corner(b, j + 1) - b[j]);
+      if (points.squared < best.squared) best = points;
+    }
+  }
+  try_corners(a, b, best);
+  return best;
+}
+
+/// The candidate that is the nearest by its place, mostly the first of several that are tried; none if the triangles
+/// cross, with `crossing` in both.
+bool find_nearest(const Corners& a, const Corners& b, double error, Candidate& best, Point& crossing) {
+  if (try_edges(a, b, error, best)) return true;
+  Point of_other, foot;
+  if (find_foot(a, b, of_other, foot)) {
+    best = between(foot, of_other);
+  } else if (find_foot(b, a, of_other, foot)) {
+    best = between(of_other, foot);
+  } else if (find_crossing(a, b, error, crossing)) {
+    return false;
+  } else {
+    try_corners(a, b, best);
+  }
+  return true;
 }
 
 }  // namespace
@@ -203,22 +241,18 @@ double separation_along(const Corners& a, const Corners& b, const Point& directi
 
 TrianglePoints nearest_points(const Corners& a, const Corners& b, double error) {
   Candidate best;
-  if (try_edges(a, b, error, best)) return with_direction(a, b, best, error);
-  Point of_other, foot;
-  if (find_foot(a, b, of_other, foot)) {
-    best = between(foot, of_other);
-  } else if (find_foot(b, a, of_other, foot)) {
-    best = between(of_other, foot);
-  } else {
-    TrianglePoints crossing;
-    if (find_crossing(a, b, error, crossing.on_a)) {
-      crossing.on_b = crossing.on_a;
-      crossing.crosses = true;
-      return crossing;
-    }
-    try_corners(a, b, best);
+  Point crossing;
+  if (!find_nearest(a, b, error, best, crossing)) {
+    TrianglePoints points;
+    points.on_a = points.on_b = crossing;
+    points.crosses = true;
+    return points;
   }
-  return with_direction(a, b, best, error);
+  TrianglePoints points = with_direction(a, b, best);
+  if (points.apart >= points.distance - error) return points;
+  points = with_direction(a, b, nearest_of_all(a, b, best));
+  if (points.apart < points.distance - error) try_normals(a, b, points);
+  return points;
 }
 
 }  // namespace medial_vk

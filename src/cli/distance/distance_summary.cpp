@@ -69,7 +69,7 @@ std::string times_text(const std::vector<StageTime>& times, bool verbose) {
 std::string distance_opening(const std::string& path, const MeshReport& report, bool verbose) {
   std::string text =
       fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path, grouped(report.triangles),
-                  report.closed ? "closed" : "not closed: inside is where the winding number is at least 1/2");
+                  report.closed ? "closed" : "not closed: a surface that encloses nothing");
   if (!verbose) return text;
   for (const std::string& assumption : report.assumptions) text += line("note", assumption);
   return text;

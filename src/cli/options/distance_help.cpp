@@ -26,7 +26,7 @@ Where B is:
                         in any order; "-": standard input (default: one pose,
                         both meshes as they are)
 
-What is asked:
+What is computed:
       --tolerance T     intervals may be as wide as T, in units of the mesh
                         (default 0: as narrow as rounding allows)
       --limit L         prove no more than that a distance is at least L
@@ -54,8 +54,8 @@ Other:
 
 Free: the solids have no common point. Hit: they have one, and both points are
 such a point. Undecided: they may touch, to within rounding or the tolerance.
-Where a mesh is open, the distance is that of its surface, and what lies where
-its winding number is at least 1/2 is hit. Files appear whole or not at all.
+A mesh that is not closed counts as a surface that encloses nothing. Files appear
+whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or poses unreadable
 or invalid, 5 out of memory, 6 cannot write, 7 --check failed, 130 interrupted.

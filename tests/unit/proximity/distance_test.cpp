@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -234,6 +235,56 @@ TEST(Distance, OfManyPosesIsThatOfEach) {
       EXPECT_NEAR(many[i].upper, distance(a, b, poses[i]).value().upper, rounding(10));
     }
   }
+}
+
+Mesh tetrahedron(const std::array<Point, 4>& corners) {
+  Mesh mesh;
+  mesh.vertices.assign(corners.begin(), corners.end());
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// Two tetrahedra, each with a face that is a sliver. Their surfaces are 1.329129154951412e-09 apart, in arithmetic of
+// 113 bits; a foot on a sliver that is no convex combination of its corners is farther off than that.
+TEST(Distance, OfSliversIsNotBelowTheTrueOne) {
+  const Mesh of_a = tetrahedron({{{-0.1136739039777708, 0.18020679516951321, -0.37063618316229247},
+                                  {0.1128680034743041, -0.1789292042553827, 0.36800852742015144},
+                                  {-0.012048985439830644, 0.019101209470901503, -0.03928597345813338},
+                                  {0.25651362280930495, -0.54236909231431818, -0.3609656875236732}}});
+  const Mesh of_b = tetrahedron({{{-0.064497802308539617, 0.10224811383683179, -0.2102964547514613},
+                                  {0.22964708174041368, -0.36405861976636189, 0.74876919962977151},
+                                  {0.1005299938411339, -0.15936980561330363, 0.32778018671665987},
+                                  {-0.17223882703273474, 0.40876858859505094, 0.63574545498857171}}});
+  DistanceOptions surfaces;
+  surfaces.surfaces_only = true;
+  const Distance found = distance(body_of(of_a), body_of(of_b), Pose{}, surfaces).value();
+  EXPECT_LE(found.lower, 1.329129154951412e-09);
+  EXPECT_GE(found.upper, 1.329129154951412e-09);
+  EXPECT_LE(found.upper, 1.34e-09);
+}
+
+// Of products of many rotations: their inverse is not their transpose to all digits.
+TEST(Distance, RotationsNeedNotBePerfect) {
+  Random random(9);
+  const Body a = body_of(make_box({1, 1, 1}));
+  for (int i = 0; i < 200; ++i) {
+    Pose pose = any_pose(random, {8, 0, 0});
+    for (Point& row : pose.rotation) row[0] += uniform(random, -1e-12, 1e-12);
+    EXPECT_EQ(collide(a, a, pose), Collision::kFree);
+    pose.shift = {0.5, 0.5, 0.5};
+    EXPECT_EQ(collide(a, body_of(make_box({0.1, 0.1, 0.1})), pose), Collision::kHit);
+  }
+}
+
+// A stick stands in a box without a lid: the winding number there is above 1/2, but an open mesh encloses nothing.
+TEST(Distance, OfABoxWithoutALidAndAStickInIt) {
+  Mesh box = make_box({1, 1, 1}), stick = make_box({0.1, 0.1, 2});
+  std::erase_if(box.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return box.vertices[v][2] == 1; });
+  });
+  const Body a = body_of(box), b = body_of(stick);
+  expect_holds(distance(a, b, make_pose({0.4, 0.45, 0.3}, {0, 0, 0})).value(), 0.3, 10);
+  expect_holds(distance(b, a, make_pose({-0.4, -0.45, -0.3}, {0, 0, 0})).value(), 0.3, 10);
 }
 
 TEST(Distance, OfAnOpenMeshIsThatOfItsSurface) {
