@@ -142,7 +142,7 @@ TEST(Distance, OfNestedSolidsIsZero) {
 
 TEST(Distance, IsNoWiderThanTheToleranceAndEndsAtTheLimit) {
   Random random(3);
-  const Mesh mesh = make_torus(0.5, 0.2, 40, 60);
+  const Mesh mesh = make_torus(0.5, 0.2, 20, 30);
   const Body a = body_of(mesh);
   for (int i = 0; i < 60; ++i) {
     const Pose pose = any_pose(random, point_in_cube(random, 2));
