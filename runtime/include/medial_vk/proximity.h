@@ -28,9 +28,9 @@ struct BodyOptions {
 class Body {
  public:
   /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
-  /// (winding number at least 1/2), and its triangles; a mesh that is not closed encloses nothing. The mesh is shared, not
-  /// copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the mesh
-  /// reaches beyond 1e18).
+  /// (winding number at least 1/2), and its triangles; a mesh that is not closed encloses nothing. The mesh is shared,
+  /// not copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the
+  /// mesh reaches beyond 1e18).
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
                              std::span<const Ball> cover = {}, const BodyOptions& options = {});
   /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no
@@ -101,8 +101,8 @@ void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, 
 struct DistanceOptions {
   /// The interval may be as wide as this, in the units of the mesh. 0: as narrow as rounding allows.
   double tolerance = 0;
-  /// Where the distance is greater, only that is proved: `lower` is then at least the limit, and `upper` the distance of
-  /// some two points.
+  /// Where the distance is greater, only that is proved: `lower` is then at least the limit, and `upper` the distance
+  /// of some two points.
   double limit = std::numeric_limits<double>::infinity();
   /// Of the surfaces, even where one solid lies inside the other.
   bool surfaces_only = false;
@@ -132,8 +132,8 @@ struct Distance {
 /// are included: the interval contains the distance of the meshes as they are, and is wider than the tolerance by about
 /// 2e-14 times the coordinates (more next to very thin triangles and to edges that are nearly parallel). `upper` is 0
 /// only where a common point is proved. `start` may be the result of an earlier query of the same two bodies, as for
-/// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18. Error:
-/// kUsage (a body without a mesh, an option that is negative or no number).
+/// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18.
+/// Error: kUsage (a body without a mesh, an option that is negative or no number).
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
                           const Distance& start = {});
 
