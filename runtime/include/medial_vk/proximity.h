@@ -59,11 +59,11 @@ struct BallPair {
   bool operator==(const BallPair&) const = default;
 };
 
-/// What balls alone decide about two solids in a pose.
+/// What is proved about two solids in a pose, by balls alone or by triangles.
 enum class Collision {
   kFree,       ///< The solids have no point in common.
   kHit,        ///< They have one.
-  kUndecided,  ///< The balls do not decide it.
+  kUndecided,  ///< Neither is proved.
 };
 
 /// An interval that contains the distance between two solids. That distance is 0 if they have a point in common, even
@@ -154,8 +154,7 @@ struct Motion {
   Point pivot = {0, 0, 0};  ///< In the frame of the body.
 };
 
-/// `motion.from` at 0, and `motion.to`, up to rounding, at 1. Rows of the rotation are perpendicular unit vectors to
-/// within 1e-14.
+/// `motion.from` at 0, and `motion.to` at 1, up to rounding and to what their rotations lack of a rotation.
 Pose pose_at(const Motion& motion, double t);
 
 struct ContactOptions {

@@ -45,8 +45,9 @@ class Path {
     return pose_of(rotation, start_ + t * along_ - rotation * pivot_);
   }
 
-  /// No point within `radius` of the pivot moves farther while t grows by one.
-  double speed(double radius) const { return (along_.norm() + angle_ * radius) * (1 + 0x1p-40); }
+  /// No point within `radius` of the pivot moves farther while t grows by one. A rotation that is one to within 1e-12
+  /// stretches lengths by less than 2^-38.
+  double speed(double radius) const { return (along_.norm() + angle_ * radius) * (1 + 0x1p-38); }
   /// Of lengths that at() computes with.
   double size() const { return start_.norm() + along_.norm() + pivot_.norm(); }
 

@@ -182,8 +182,8 @@ class TrianglesGoal {
   }
 
   /// Pairs at `target_` and beyond no longer matter: the nearest two triangles are not among them, or the interval is
-  /// narrow enough. Those of the many triangles that share the nearest edge or corner
-  /// are at the least distance up to rounding, and so beyond as well.
+  /// narrow enough. The many pairs that share the nearest edge or corner are at the least distance up to rounding,
+  /// and so beyond as well.
   void shorten() {
     const double limit = options_.limit + 8 * error_;
     // No shorter than errors: triangles are to decide whether the solids touch.
@@ -205,7 +205,7 @@ class TrianglesGoal {
   double target_ = 0;
   double proved_ = std::numeric_limits<double>::infinity();  // no pair that was taken is closer
   float reach_ = 0, reach_by_planes_ = 0;
-  float between_inner_balls_ = kFarther;  // at most, less an error
+  float between_inner_balls_ = kFarther;  // the distance of the solids is at most this and two errors
   std::size_t count_ = 0;
   std::array<Planes, kMostPlanes> planes_;
 };

@@ -49,18 +49,26 @@ bool is_nearest(const Corners& a, const Corners& b, const Candidate& points, dou
   return std::ranges::all_of(b, [&](const Point& x) { return dot(x - points.on_b, away) >= -slack; });
 }
 
-/// The nearest points of the edges; true if they are those of the triangles.
-bool try_edges(const Corners& a, const Corners& b, double error, Candidate& best) {
+/// The nearest points of two edges, for all nine pairs of edges, until `visit(points)` returns true; false if it never
+/// does.
+template <class Visit>
+bool visit_edges(const Corners& a, const Corners& b, const Visit& visit) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Point d = corner(a, i + 1) - a[i];
     for (std::size_t j = 0; j < 3; ++j) {
-      const Candidate points = nearest_on_segments(a[i], d, b[j], corner(b, j + 1) - b[j]);
-      if (points.squared >= best.squared) continue;
-      best = points;
-      if (is_nearest(a, b, best, error)) return true;
+      if (visit(nearest_on_segments(a[i], d, b[j], corner(b, j + 1) - b[j]))) return true;
     }
   }
   return false;
+}
+
+/// The nearest points of the edges; true if they are those of the triangles.
+bool try_edges(const Corners& a, const Corners& b, double error, Candidate& best) {
+  return visit_edges(a, b, [&](const Candidate& points) {
+    if (points.squared >= best.squared) return false;
+    best = points;
+    return is_nearest(a, b, best, error);
+  });
 }
 
 /// The foot of the perpendicular from `p`, if it lies in `face`: a convex combination of corners, whatever the rounding
@@ -203,18 +211,16 @@ TrianglePoints with_direction(const Corners& a, const Corners& b, const Candidat
 
 /// Among all pairs of edges and all corners, since rounding may decide for the wrong ones where triangles are thin.
 Candidate nearest_of_all(const Corners& a, const Corners& b, Candidate best) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Candidate points = nearest_on_segments(a[i], corner(a, i + 1) - a[i], b[j], corner(b, j + 1) - b[j]);
-      if (points.squared < best.squared) best = points;
-    }
-  }
+  visit_edges(a, b, [&](const Candidate& points) {
+    if (points.squared < best.squared) best = points;
+    return false;
+  });
   try_corners(a, b, best);
   return best;
 }
 
-/// The candidate that is the nearest by its place, mostly the first of several that are tried; none if the triangles
-/// cross, with `crossing` in both.
+/// Tries edges, then a corner over a face, and ends where the nearest points are found up to rounding. False if the
+/// triangles cross, at `crossing`.
 bool find_nearest(const Corners& a, const Corners& b, double error, Candidate& best, Point& crossing) {
   if (try_edges(a, b, error, best)) return true;
   Point of_other, foot;

@@ -25,10 +25,9 @@ double separation_along(const Corners& a, const Corners& b, const Point& directi
 
 /// The nearest points of two triangles, which may be of any shape, up to rounding: the points belong to the triangles
 /// to within 2^-50 of their coordinates. `error` bounds the distance of each corner from where it would be without
-/// rounding; only crossings that no such error can undo count.
-/// `direction` is that between the points. Where their rounding makes it too coarse, as between points that nearly
-/// touch, it is the best of the normals of both faces and of each two edges, of which one is right for faces, and for
-/// edges that are not parallel.
+/// rounding; only crossings that no such error can undo count. `direction` is that between the points. Where their
+/// rounding makes it too coarse, as between points that nearly touch, it is the best of the normals of both faces and
+/// of each two edges, of which one is right for faces, and for edges that are not parallel.
 TrianglePoints nearest_points(const Corners& a, const Corners& b, double error);
 
 }  // namespace medial_vk
