@@ -1,7 +1,9 @@
 // The point of a triangle nearest to another point, in double, for triangles of any shape.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/point_ops.h"
 #include "medial_vk/mesh_view.h"
@@ -35,16 +37,54 @@ inline NearestOffset nearest_on_segment(const Point& start, const Point& edge) {
   return {dot(offset, offset), offset};
 }
 
+/// Weights of two edges of a triangle, and the vector from the query point to the corner plus these shares of the
+/// edges.
+struct WeightedOffset {
+  double v, w;
+  Point offset;
+
+  bool is_inside() const { return v >= 0 && w >= 0 && v + w <= 1; }
+};
+
+/// The foot of the perpendicular on the plane of a triangle with a corner at `a`, relative to the query point, and the
+/// edges `ab` and `ac`, whose part across ab is `h`. Where it is not inside, it may be inexact.
+///
+/// A pass finds the weights of the residual offset. h has an error of about u |ac| (u = 2^-53), its direction one of
+/// e = u |ac| / |h|, and a pass divides the error of the weights by 1 / e. As long as e < 1/2 the rest is less than the
+/// last correction, which tells when enough is known. If that is the case after two passes, and the foot is inside, the
+/// weights of the first pass were below 2, so the sums in the offset have few roundings of lengths of edges; later
+/// passes begin with an offset that is computed anew from the weights.
+inline WeightedOffset foot_on_plane(const Point& a, const Point& ab, const Point& ac, const Point& h, double ab_ab,
+                                    double h_h) {
+  constexpr double kSmallCorrection = 0x1p-44;
+  constexpr int kMostPasses = 8;
+  WeightedOffset foot = {0, 0, a};
+  for (int pass = 1;; ++pass) {
+    const double dw = -dot(foot.offset, h) / h_h;
+    foot.offset = foot.offset + dw * ac;
+    const double dv = -dot(foot.offset, ab) / ab_ab;
+    foot.offset = foot.offset + dv * ab;
+    foot.v += dv;
+    foot.w += dw;
+    if (pass == 1) continue;
+    const double correction = std::fabs(dv) + std::fabs(dw);
+    const bool is_outside = foot.v < -correction || foot.w < -correction || foot.v + foot.w > 1 + correction;
+    if (is_outside || correction <= kSmallCorrection || pass == kMostPasses) return foot;
+    foot.offset = a + foot.v * ab + foot.w * ac;
+  }
+}
+
 /// The nearest of the points of the three edges and, if it lies inside, the foot of the perpendicular on the plane.
 ///
 /// Accuracy. Every candidate is start + (a convex combination of the edges), a point of the triangle up to rounding,
 /// so the distance is never below the exact one by more than a few u (u = 2^-53) of edge lengths and distance, for any
-/// thin triangle. It is not far above it either. Let h be the part of ac perpendicular to ab, computed with an error of
-/// about u |ac|; its direction is then off by e = u |ac| / |h|, and a foot computed from a vector r is off by e |r|
-/// across the triangle. The second pass computes from the residual, whose length is about the distance D, so the foot
-/// is off by e D at most. No point of the triangle is further than |h| from its edges, so where the foot is wrong or
-/// wrongly found outside, the edges are within |h|. The squared distance is thus too large by at most
-/// min(e D, |h|)^2 <= e D |h| = u D |ac|, the distance by u |ac| / 2.
+/// thin triangle. It is not far above it either. Let e = u |ac| / |h| be the error of a direction in foot_on_plane().
+/// No point of the triangle is farther than |h| from its edges, so where a foot is wrong or wrongly found outside, the
+/// edges are within |h|. The weights of a foot that is returned after a small correction c are off by about e c, and
+/// those of one that follows from an exact offset of length D by e D / |ac|: the foot is off by s = e (D + c |ac|)
+/// across the triangle. The squared distance is thus too large by at most min(s, |h|)^2 <= s |h| = u |ac| (D + c |ac|),
+/// and the distance by u |ac| / 2 + sqrt(u c) |ac|, with sqrt(u c) <= 2^-48. Corrections that are still not small in
+/// the last pass, the eighth, shrink by a factor of less than 2^6 a pass: then |h| < 2^6 u |ac|.
 inline NearestOffset nearest_on_triangle(const Point& p, const std::array<Point, 3>& corners) {
   const Point a = corners[0] - p;
   const Point b = corners[1] - p;
@@ -59,20 +99,9 @@ inline NearestOffset nearest_on_triangle(const Point& p, const std::array<Point,
   const Point h = ac - (dot(ac, ab) / ab_ab) * ab;
   const double h_h = dot(h, h);
   if (!(h_h > 0)) return best;
-  double v = 0;
-  double w = 0;
-  Point residual = a;
-  for (int pass = 0; pass < 2; ++pass) {
-    const double dw = -dot(residual, h) / h_h;
-    residual = residual + dw * ac;
-    const double dv = -dot(residual, ab) / ab_ab;
-    residual = residual + dv * ab;
-    v += dv;
-    w += dw;
-  }
-  const bool inside = v >= 0 && w >= 0 && v + w <= 1;
-  const double squared_distance = dot(residual, residual);
-  if (inside && squared_distance < best.squared_distance) best = {squared_distance, residual};
+  const WeightedOffset foot = foot_on_plane(a, ab, ac, h, ab_ab, h_h);
+  const double squared_distance = dot(foot.offset, foot.offset);
+  if (foot.is_inside() && squared_distance < best.squared_distance) best = {squared_distance, foot.offset};
   return best;
 }
 
