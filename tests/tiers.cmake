@@ -19,7 +19,25 @@ set(slow
   # Smaller solids and meshes remain.
   property.Dismissal.AtFinsAndFansLosesNoSalientSample
   unit.ReferenceDismissal.DismissedBoxesHoldNoSalientPoint
-  regression.LoopBudget.MoreTrianglesThanEightBudgets)
+  regression.LoopBudget.ClustersAreExpandedInRounds
+  regression.LoopBudget.MoreTrianglesThanEightBudgets
+  property.Solids/DismissalOfSolids.LosesNoSalientSample/capsule
+  property.Solids/DismissalOfSolids.LosesNoSalientSample/prolate
+  property.Solids/DismissalOfSolids.LosesNoSalientSample/torus
+  unit.ReferenceDismissal.UntrustedTrianglesFromEitherSide
+  unit.ReferenceUndecided.HiddenPointsAreAsTheirVoxelSays
+  unit.SceneTest.MeshesTooLargeForTheDeviceAreRefusedBeforeAnythingIsBuilt
+  # Shorter lists of open edges, smaller polygons, fewer contexts and balls remain, as do other foams and seeds.
+  gpu_vs_cpu.CertifiedOpen.MoreOpenEdgesThanAreListed
+  unit.ReadLimits.AHundredThousandFacesThatAreAllClose
+  embedding.Contexts.AThousandOfThemLeaveNothingBehind
+  unit.FitParts.StopsAtAnyQuery
+  counts.WorkCounts.AFitOfSpheresBuildsOneTreeAndUploadsOnce
+  property.Foam.HoldsTheContactsOfEveryMedialPointOfTheHull
+  property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/1
+  # Calls of the host that fail one by one in shorter sequences remain.
+  faults.HostCallbacks.RunOut
+  faults.RecordedJobFaults.OfASequenceThatIsRecordedAgain)
 set(full
   # The other runs of Kills write more kinds of files; the other tests of goals cover them one by one.
   cli.Kills.LeaveWholeFilesOrNone/Spheres
