@@ -63,6 +63,7 @@ void expect_consistent(const Penetration& found, const Body& a, const Body& b, c
 
 void expect_no_shorter_way(const Penetration& found, const Body& a, const Body& b, const Pose& pose, Random& random,
                            double error) {
+  if (found.depth_lower == 0) return;
   for (int i = 0; i < 200; ++i) {
     Point by = point_in_cube(random, 1);
     by = (uniform(random, 0, 1) * found.depth_lower / length(by)) * by;
@@ -132,7 +133,6 @@ TEST(Penetration, OfCloudsHoldsForAllPairs) {
         SCOPED_TRACE(testing::Message() << count << " balls of size " << size << ", pose " << i);
         expect_consistent(found, a, b, pose, 40 * size);
         expect_no_shorter_way(found, a, b, pose, random, 1e-13 * size);
-        // Both sets are inside and cover, so the depth is that of the balls, and the interval is nearly closed.
         EXPECT_LE(found.common_volume_lower, found.common_volume_of_balls * (1 + 1e-12));
       }
     }
@@ -285,7 +285,7 @@ TEST(Penetration, OfPointsAndOfManyEqualBalls) {
   EXPECT_EQ(of_points.depth_lower, 0);
   EXPECT_LE(of_points.depth_upper, 1e-9);
   EXPECT_EQ(of_points.common_volume_lower, 0);
-  const Body same = body_of_balls(std::vector<Ball>(3000, Ball{{1, 2, 3}, 0.5}));
+  const Body same = body_of_balls(std::vector<Ball>(60, Ball{{1, 2, 3}, 0.5}));
   const Penetration of_same = penetration(same, same, make_pose({0.3, 0, 0}, {0, 0, 0})).value();
   EXPECT_NEAR(of_same.depth_lower, 0.7, 1e-9);
   EXPECT_NEAR(of_same.depth_upper, 0.7, 1e-6);
