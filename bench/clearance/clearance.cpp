@@ -142,27 +142,9 @@ void measure(const BodyGroup& group, const std::vector<Pose>& poses, const Row& 
              1e6 * best / static_cast<double>(count), share(0), share(1), share(2));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::size_t balls = 64, obstacles = 100, count = 20000, repeats = 5;
-  double half = 1.5;
-  CLI::App app("configurations of an arm a second");
-  app.add_option("--balls", balls);
-  app.add_option("--obstacles", obstacles);
-  app.add_option("--configurations", count);
-  app.add_option("--repeats", repeats);
-  app.add_option("--half", half, "half the side of the scene, metres");
-  CLI11_PARSE(app, argc, argv);
-  Context context = take(Context::create());
-  const Arm arm;
-  std::vector<GroupPart> parts;
-  for (std::uint32_t i = 0; i < kJoints; ++i) {
-    parts.push_back({fitted(capsule(arm.radii[i], arm.lengths[i], 24), balls, context), i, {}});
-  }
-  const std::vector<Body> shapes = {
-      fitted(box({0.2, 0.12, 0.15}), balls, context), fitted(capsule(0.06, 0.2, 24), balls, context),
-      fitted(box({0.08, 0.08, 0.3}), balls, context), fitted(capsule(0.1, 0.02, 24), balls, context)};
+void measure_scene(const Arm& arm, std::vector<GroupPart> parts, const std::vector<Body>& shapes, std::size_t obstacles,
+                   double half, std::size_t count, std::size_t repeats) {
+  fmt::print("\nObstacles up to {} m from the base along each axis:\n\n", half);
   std::mt19937_64 random(1);
   const std::vector<GroupPart> others = scene(shapes, obstacles, half, random);
   parts.insert(parts.end(), others.begin(), others.end());
@@ -182,5 +164,31 @@ int main(int argc, char** argv) {
   for (const Row& row : {Row{"balls: collision", collisions}, Row{"balls: least distance", nearest},
                          Row{"triangles: collision", exact_collisions}, Row{"triangles: least distance", exact}}) {
     measure(group, poses, row, repeats);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::size_t balls = 64, obstacles = 100, count = 20000, repeats = 5;
+  std::vector<double> halves = {1.5, 3};
+  CLI::App app("configurations of an arm a second");
+  app.add_option("--balls", balls);
+  app.add_option("--obstacles", obstacles);
+  app.add_option("--configurations", count);
+  app.add_option("--repeats", repeats);
+  app.add_option("--half", halves, "half the side of the scene, metres");
+  CLI11_PARSE(app, argc, argv);
+  Context context = take(Context::create());
+  const Arm arm;
+  std::vector<GroupPart> parts;
+  for (std::uint32_t i = 0; i < kJoints; ++i) {
+    parts.push_back({fitted(capsule(arm.radii[i], arm.lengths[i], 24), balls, context), i, {}});
+  }
+  const std::vector<Body> shapes = {
+      fitted(box({0.2, 0.12, 0.15}), balls, context), fitted(capsule(0.06, 0.2, 24), balls, context),
+      fitted(box({0.08, 0.08, 0.3}), balls, context), fitted(capsule(0.1, 0.02, 24), balls, context)};
+  for (const double half : halves) {
+    measure_scene(arm, parts, shapes, obstacles, half, count, repeats);
   }
 }

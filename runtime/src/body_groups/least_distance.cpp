@@ -209,6 +209,13 @@ class LeastSearch {
   void by_triangles(const PairQuery& query, const PartPair& parts, const LeastDistance* start) {
     BallPair covers;
     if (query.has_covers() && query.lower_bound(reach_, covers) >= reach_) return;
+    // Where only collisions are to be decided, balls inside show most hits sooner.
+    BallPair insides;
+    if (options_.limit == 0 && query.has_insides() && query.upper_bound(best_.upper, insides) == 0) {
+      best_.balls.inside_pair = insides;
+      end_with_hit(parts);
+      return;
+    }
     DistanceOptions options;
     options.tolerance = options_.tolerance;
     options.limit = reach_;

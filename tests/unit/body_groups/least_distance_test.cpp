@@ -75,7 +75,7 @@ Body random_body(Random& random, std::size_t count, double size) {
   std::vector<Ball> inside, cover;
   for (std::size_t i = 0; i < count; ++i) {
     inside.push_back({point_in_cube(random, size), uniform(random, 0, 0.3 * size)});
-    cover.push_back({inside.back().centre, 1.1 * inside.back().radius});
+    cover.push_back({inside.back().centre, 1.4 * inside.back().radius});
   }
   return Body::create(inside, cover).value();
 }
@@ -88,7 +88,7 @@ BodyGroup random_group(Random& random, double part_shift) {
   for (std::uint32_t link = 0; link < kLinks; ++link) {
     const std::size_t count = link + 1 == kLinks ? 40 : random() % 4;
     for (std::size_t i = 0; i < count; ++i) {
-      const double shift = link + 1 == kLinks ? 6 : part_shift;
+      const double shift = link + 1 == kLinks ? 3 : part_shift;
       const Pose pose = i == 0 ? Pose() : any_pose(random, point_in_cube(random, shift));
       parts.push_back({random_body(random, 1 + random() % 20, 0.4), link, pose});
     }
@@ -117,7 +117,7 @@ TEST(LeastDistance, ByBallsIsThatOfAllPairs) {
   std::array<int, 3> count = {0, 0, 0};
   for (int i = 0; i < 150; ++i) {
     const BodyGroup group = random_group(random, 1);
-    const double spread = i % 3 == 0 ? 2 : i % 3 == 1 ? 10 : 40;
+    const double spread = i % 3 == 0 ? 2 : i % 3 == 1 ? 4 : 20;
     const double far = i % 5 == 0 ? 1e6 : i % 5 == 1 ? 100 : 0;
     const std::vector<Pose> poses = random_poses(random, spread, point_in_cube(random, far));
     SCOPED_TRACE(testing::Message() << "group " << i);
@@ -178,13 +178,13 @@ TEST(LeastDistance, ByTrianglesIsTheLeastOfAllPairs) {
     for (std::uint32_t link = 0; link < 5; ++link) {
       for (int k = 0; k < (link == 4 ? 12 : 1); ++k) {
         parts.push_back(
-            {bodies[random() % bodies.size()], link, any_pose(random, point_in_cube(random, link == 4 ? 3 : 0.1))});
+            {bodies[random() % bodies.size()], link, any_pose(random, point_in_cube(random, link == 4 ? 2 : 0.1))});
       }
     }
     const std::vector<LinkPair> pairs = {{0, 4}, {4, 1}, {2, 4}, {3, 4}, {0, 2}, {1, 3}};
     const BodyGroup group = BodyGroup::create(parts, 5, pairs).value();
     std::vector<Pose> poses;
-    for (std::size_t k = 0; k < 5; ++k) poses.push_back(any_pose(random, point_in_cube(random, i % 2 == 0 ? 3 : 12)));
+    for (std::size_t k = 0; k < 5; ++k) poses.push_back(any_pose(random, point_in_cube(random, i % 2 == 0 ? 1.5 : 12)));
     double least = std::numeric_limits<double>::infinity();
     for (const LinkPair& links : pairs) {
       for (const GroupPart& a : parts) {
