@@ -5,6 +5,7 @@
 #include "medial_vk/analysis.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/ball_union.h"
+#include "medial_vk/body_group.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"

@@ -27,8 +27,9 @@ ClosestBalls pair_of(const BodyTree& a, const BodyTree& b, const FloatPose& pose
 }  // namespace
 
 ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start,
-                           float enough) {
+                           float enough, float most) {
   BallsGoal goal{pair_of(a, b, pose, start), enough};
+  if (most < goal.best.separation) goal.best = {most, {}};
   const bool has_start = goal.best.separation < kFarther;
   TreeSearch search(a.nodes(), b.nodes(), pose, goal);
   const auto run = [&]() __attribute__((always_inline)) {

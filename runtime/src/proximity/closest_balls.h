@@ -14,8 +14,9 @@ struct ClosestBalls {
 };
 
 /// The closest two balls, by computed separations, or, once a computed separation is at most `enough`, some two with
-/// such a separation. Preconditions: no tree is empty; `start` names two balls, or none. Allocates nothing.
+/// such a separation; `most` and no balls, if none are closer than `most`. Preconditions: no tree is empty; `start`
+/// names two balls, or none. Allocates nothing.
 ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start,
-                           float enough);
+                           float enough, float most = kFarther);
 
 }  // namespace medial_vk

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "proximity/nearest_triangles.h"
-#include "proximity/placement.h"
+#include "proximity/placed_distance.h"
 
 namespace medial_vk {
 namespace {
@@ -78,11 +79,12 @@ void decide_by_components(const BodySurface& a, const BodySurface& b, const Plac
 }
 
 /// Two balls inside may overlap where surfaces touch and do not cross.
-void decide_by_balls(const Body& a, const Body& b, const Pose& pose, Distance& distance) {
-  const DistanceBounds bounds = distance_bounds(a, b, pose);
-  if (bounds.upper > 0) return;
-  const Ball &ball_a = a.inside()[bounds.inside_pair.a], &ball_b = b.inside()[bounds.inside_pair.b];
-  const Point centre = pose * ball_b.centre, away = centre - ball_a.centre;
+void decide_by_balls(const BodyImpl& a, const BodyImpl& b, const Placement& placement, Distance& distance) {
+  if (a.inside_tree.is_empty() || b.inside_tree.is_empty()) return;
+  BallPair pair;
+  if (upper_bound(a, b, placement, std::numeric_limits<double>::infinity(), pair) > 0) return;
+  const Ball &ball_a = a.inside[pair.a], &ball_b = b.inside[pair.b];
+  const Point centre = placement.pose() * ball_b.centre, away = centre - ball_a.centre;
   const double between = length(away);
   // From the centre of the ball of a towards the other one, no farther than either surface.
   const double step = std::clamp(between - ball_b.radius, 0.0, ball_a.radius);
@@ -107,14 +109,19 @@ Distance distance_of(const Body& a, const Body& b, const Pose& pose, const Dista
   const BodyImpl &in_a = Internals::of(a), &in_b = Internals::of(b);
   const Placement placement(in_a, in_b, pose);
   if (!placement.is_in_range()) return {};
-  Distance distance = nearest_triangles(in_a.surface->tree, in_b.surface->tree, placement, start, options);
-  if (options.surfaces_only || distance.upper == 0) return distance;
-  if (distance.lower > 0) decide_by_components(*in_a.surface, *in_b.surface, placement, distance);
-  if (distance.lower == 0 && distance.upper > 0) decide_by_balls(a, b, pose, distance);
-  return distance;
+  return distance_of(in_a, in_b, placement, options, start);
 }
 
 }  // namespace
+
+Distance distance_of(const BodyImpl& a, const BodyImpl& b, const Placement& placement, const DistanceOptions& options,
+                     const Distance& start) {
+  Distance distance = nearest_triangles(a.surface->tree, b.surface->tree, placement, start, options);
+  if (options.surfaces_only || distance.upper == 0) return distance;
+  if (distance.lower > 0) decide_by_components(*a.surface, *b.surface, placement, distance);
+  if (distance.lower == 0 && distance.upper > 0) decide_by_balls(a, b, placement, distance);
+  return distance;
+}
 
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options,
                           const Distance& start) {

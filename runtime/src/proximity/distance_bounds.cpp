@@ -1,34 +1,46 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "proximity/closest_balls.h"
-#include "proximity/placement.h"
+#include "proximity/placed_distance.h"
 
 namespace medial_vk {
 namespace {
 
-/// No two balls of the trees are closer; `pair` becomes the closest, and is where the search starts.
-double lower_bound(const BodyTree& a, const BodyTree& b, const Placement& placement, BallPair& pair) {
-  const ClosestBalls found = closest_balls(a, b, placement.float_pose(), pair, 0.0f);
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// No separation in float below this is less than `most`, whose errors are up to `error`.
+float in_float(double most, double error) { return most < kFarther ? rounded_up(most + error) : kFarther; }
+
+}  // namespace
+
+double lower_bound(const BodyTree& a, const BodyTree& b, const Placement& placement, double most, BallPair& pair) {
+  const double error = placement.separation_error_of(a.nodes(), b.nodes());
+  const ClosestBalls found = closest_balls(a, b, placement.float_pose(), pair, 0.0f, in_float(most, error));
+  if (found.balls == BallPair{}) return most;
   pair = found.balls;
-  return std::max(0.0, (found.separation - placement.separation_error_of(a.nodes(), b.nodes())) * (1 - 0x1p-50));
+  return std::min(most, std::max(0.0, (found.separation - error) * (1 - 0x1p-50)));
 }
 
-/// Two balls of the sets are as close; `pair` as above. The search may end at two that overlap by more than all errors.
-double upper_bound(const BodyImpl& a, const BodyImpl& b, const Placement& placement, BallPair& pair) {
+/// The search may end at two balls that overlap by more than all errors.
+double upper_bound(const BodyImpl& a, const BodyImpl& b, const Placement& placement, double most, BallPair& pair) {
   const BodyTree &tree_a = a.inside_tree, &tree_b = b.inside_tree;
   const double error = placement.separation_error_of(tree_a.nodes(), tree_b.nodes());
-  pair = closest_balls(tree_a, tree_b, placement.float_pose(), pair, static_cast<float>(-4 * error)).balls;
-  const Ball &ball_a = a.inside[pair.a], &ball_b = b.inside[pair.b];
+  const ClosestBalls found = closest_balls(tree_a, tree_b, placement.float_pose(), pair, static_cast<float>(-4 * error),
+                                           in_float(most, error));
+  if (found.balls == BallPair{}) return most;
+  const Ball &ball_a = a.inside[found.balls.a], &ball_b = b.inside[found.balls.b];
   const Point away = ball_a.centre - placement.pose() * ball_b.centre;
   // Eleven roundings of sums of at most this; a rotation that is one to within 1e-12 may also shrink the ball.
   const double size = length(ball_a.centre) + length(ball_b.centre) + length(placement.pose().shift) + ball_a.radius;
   const double separation = std::hypot(away[0], away[1], away[2]) - ball_a.radius - ball_b.radius;  // no underflow
-  return std::max(0.0, separation + 0x1p-48 * size + 4e-12 * ball_b.radius);
+  const double bound = std::max(0.0, separation + 0x1p-48 * size + 4e-12 * ball_b.radius + placement.error());
+  if (!(bound < most)) return most;
+  pair = found.balls;
+  return bound;
 }
-
-}  // namespace
 
 DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, const DistanceBounds& start) {
   const BodyImpl &in_a = Internals::of(a), &in_b = Internals::of(b);
@@ -37,11 +49,11 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
   if (!placement.is_in_range()) return bounds;
   if (!in_a.cover_tree.is_empty() && !in_b.cover_tree.is_empty()) {
     bounds.cover_pair = start.cover_pair;
-    bounds.lower = lower_bound(in_a.cover_tree, in_b.cover_tree, placement, bounds.cover_pair);
+    bounds.lower = lower_bound(in_a.cover_tree, in_b.cover_tree, placement, kUnbounded, bounds.cover_pair);
   }
   if (!in_a.inside_tree.is_empty() && !in_b.inside_tree.is_empty()) {
     bounds.inside_pair = start.inside_pair;
-    bounds.upper = upper_bound(in_a, in_b, placement, bounds.inside_pair);
+    bounds.upper = upper_bound(in_a, in_b, placement, kUnbounded, bounds.inside_pair);
   }
   return bounds;
 }

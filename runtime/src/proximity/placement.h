@@ -14,13 +14,16 @@ constexpr double kLargestCoordinate = 1e18;
 /// Where the frame of b lies in the frame of a, whose lengths are measured from the origin.
 class Placement {
  public:
-  Placement(const BodyImpl& a, const BodyImpl& b, const Pose& pose)
+  /// No point of b is farther than `error` from where the pose takes it. All errors in double are at least 2^-49 of
+  /// lengths(), which therefore grow.
+  Placement(const BodyImpl& a, const BodyImpl& b, const Pose& pose, double error = 0)
       : pose_(pose),
         centre_a_(a.centre),
         centre_b_(b.centre),
         shift_(pose * b.centre - a.centre),
         distance_(length(shift_)),
-        lengths_(length(a.centre) + length(b.centre) + length(pose.shift)),
+        lengths_(length(a.centre) + length(b.centre) + length(pose.shift) + 0x1p49 * error),
+        error_(error),
         float_pose_(is_in_range() ? Pose{pose.rotation, shift_} : Pose{}) {}
 
   const Pose& pose() const { return pose_; }
@@ -33,6 +36,7 @@ class Placement {
   const Point& shift() const { return shift_; }
   /// Between the origins of the frames of the trees.
   double distance() const { return distance_; }
+  double error() const { return error_; }
   /// Of both origins and the shift. Lengths in double have errors that are small shares of this and the trees' reaches.
   double lengths() const { return lengths_; }
 
@@ -55,6 +59,7 @@ class Placement {
   Point shift_;  // of the centre of b from that of a
   double distance_;
   double lengths_;
+  double error_;
   FloatPose float_pose_;
 };
 
