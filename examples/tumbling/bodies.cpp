@@ -9,8 +9,11 @@ constexpr double kFrame = 1.0 / 60;
 constexpr int kStepsOfFrame = 6;
 constexpr double kBounce = 0.9;     // the share of the speed that a bounce keeps
 constexpr double kKept = 0.9995;    // and of all speeds that a step keeps
-constexpr double kFastest = 3;      // sides a second
-constexpr double kContact = 0.012;  // sides: more than bodies approach each other in a step
+constexpr double kFastest = 2;      // sides a second
+constexpr double kFastestSpin = 4;  // radians a second
+// Sides: more than bodies approach each other in a step, at these speeds, with points at most 0.6 sides from the
+// middle.
+constexpr double kContact = 0.03;
 constexpr int kFramesOfGravity = 45;
 
 Vector random_direction(std::mt19937_64& random) {
@@ -19,9 +22,13 @@ Vector random_direction(std::mt19937_64& random) {
   return (1 / length(d)) * d;
 }
 
+void limit(Vector& v, double most) {
+  if (length(v) > most) v = (most / length(v)) * v;
+}
+
 }  // namespace
 
-Tumbling::Tumbling(const medial_vk::Body& solid, double side) : solid_(solid), side_(side), half_(1.05 * side) {
+Tumbling::Tumbling(const medial_vk::Body& solid, double side) : solid_(solid), side_(side), half_(0.95 * side) {
   double mass = 0;
   for (const medial_vk::Ball& ball : solid.inside()) {
     const double m = std::pow(ball.radius, 3);
@@ -62,13 +69,13 @@ medial_vk::Pose Tumbling::relative_pose() const {
 
 medial_vk::Status Tumbling::step() {
   for (int i = 0; i < kStepsOfFrame; ++i) {
-    if (steps_++ % (kFramesOfGravity * kStepsOfFrame) == 0) gravity_ = 2.5 * side_ * random_direction(random_);
+    if (steps_++ % (kFramesOfGravity * kStepsOfFrame) == 0) gravity_ = 1.2 * side_ * random_direction(random_);
     constexpr double kTime = kFrame / kStepsOfFrame;
     for (RigidBody& body : bodies_) {
       body.velocity = kKept * (body.velocity + kTime * gravity_);
       body.spin = kKept * body.spin;
-      const double speed = length(body.velocity);
-      if (speed > kFastest * side_) body.velocity = (kFastest * side_ / speed) * body.velocity;
+      limit(body.velocity, kFastest * side_);
+      limit(body.spin, kFastestSpin);
       body.place = body.place + kTime * body.velocity;
       body.turn = turned(body.turn, body.spin, kTime);
       bounce_off_walls(body);

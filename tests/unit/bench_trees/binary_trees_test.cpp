@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/point_ops.h"
-#include "binary_tree.h"
 #include "support/random_poses.h"
+#include "trees/binary_tree.h"
 
 namespace medial_vk {
 namespace {
@@ -168,7 +168,7 @@ TEST(SweptRectangle, OfAFlatGridIsTheLeast) {
 
 bench::SweptRectangle any_rectangle(Random& random, double size) {
   bench::SweptRectangle rectangle;
-  const Pose pose = any_pose(random, point_in_cube(random, size));
+  const Pose pose = any_pose(random, point_in_cube(random, 0.2 * size));
   for (std::size_t k = 0; k < 3; ++k) rectangle.axes[k] = pose.rotation[k];
   rectangle.corner = pose.shift;
   rectangle.sides = {uniform(random, 0, size), uniform(random, 0, size)};
@@ -218,7 +218,7 @@ TEST(RectangleDistance, IsTheLeastOfAllPoints) {
   for (int i = 0; i < 3000; ++i) {
     const double size = i % 2 == 0 ? 1 : 3;
     const bench::SweptRectangle a = any_rectangle(random, size), b = any_rectangle(random, 1);
-    const Pose pose = any_pose(random, point_in_cube(random, 1.5));
+    const Pose pose = any_pose(random, point_in_cube(random, 0.5));
     const double found = bench::distance_of_rectangles(a, b, pose);
     EXPECT_NEAR(bench::distance_of_rectangles(b, a, inverse_of(pose)), found, rounding(30));
     // Projections come down to the distance slowly where rectangles meet at a small angle.
