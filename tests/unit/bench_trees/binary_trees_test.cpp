@@ -9,7 +9,7 @@
 
 #include "base/point_ops.h"
 #include "support/random_poses.h"
-#include "trees/binary_tree.h"
+#include "../../../bench/trees/binary_tree.h"
 
 namespace medial_vk {
 namespace {
