@@ -82,7 +82,11 @@ function(_medial_vk_add_room room type)
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   endif()
   if(SHORT)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)  # after the -O3 of the build type
+    # After the -O3 of the build type. Warnings that follow from optimisation are false alarms then.
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Wno-maybe-uninitialized>)
+    endif()
   endif()
   medial_vk_project_options(${target})
   if(type STREQUAL "OBJECT")

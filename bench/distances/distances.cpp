@@ -19,6 +19,7 @@
 #include "../unions/ball_files.h"
 #include "fcl_peer.h"
 #include "input/read_mesh.h"
+#include "measuring.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/proximity.h"
 
@@ -26,24 +27,10 @@ namespace {
 
 using namespace medial_vk;
 using bench::FclPeer;
-
-template <typename T>
-T or_exit(Result<T> result) {
-  if (result.ok()) return std::move(result).value();
-  std::fprintf(stderr, "bench_distances: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
-
-double longest_side(const Mesh& mesh) {
-  Point lower = mesh.vertices.front(), upper = lower;
-  for (const Point& p : mesh.vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      lower[k] = std::min(lower[k], p[k]);
-      upper[k] = std::max(upper[k], p[k]);
-    }
-  }
-  return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
-}
+using bench::longest_side;
+using bench::median;
+using bench::microseconds_each;
+using bench::or_exit;
 
 using Random = std::mt19937_64;
 
@@ -95,18 +82,6 @@ std::vector<Query<Answer>> queries(const std::function<Answer(const Pose&)>& ask
     out.push_back(query);
   }
   return out;
-}
-
-double microseconds_each(std::size_t count, const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
-         static_cast<double>(count);
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 /// The median of the repeats of FCL's microseconds; 0 without FCL. It is asked for few poses, as it takes long.

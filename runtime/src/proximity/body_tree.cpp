@@ -7,6 +7,9 @@
 namespace medial_vk {
 namespace {
 
+/// Trees over so many balls get tighter groups, within a second.
+constexpr std::size_t kMostTightened = 8192;
+
 Point middle_of(std::span<const Ball> balls, std::span<const std::uint32_t> chosen) {
   const std::size_t steps = chosen.size() <= 4096 ? 128 : 32;
   return near_smallest_ball_centre(balls[chosen.front()].centre, steps, [&](const auto& visit) {
@@ -21,6 +24,7 @@ BodyTree BodyTree::build(std::span<const Ball> balls, const Point& centre) {
   tree.centre_ = centre;
   tree.leaves_.reserve(balls.size());
   std::vector<Point> centres;
+  std::vector<double> radii;
   centres.reserve(balls.size());
   for (const Ball& ball : balls) {
     const Point relative = ball.centre - centre;
@@ -28,10 +32,12 @@ BodyTree BodyTree::build(std::span<const Ball> balls, const Point& centre) {
     leaf.radius = rounded_up(ball.radius + length(relative - point_of(leaf)) + 0x1p-52 * length(relative));
     tree.leaves_.push_back(leaf);
     centres.push_back(ball.centre);
+    if (balls.size() <= kMostTightened) radii.push_back(ball.radius);
   }
   constexpr unsigned kOneThread = 1;  // few balls
   tree.nodes_ = NodeTree::build(
-      centres, [&](std::span<const std::uint32_t> chosen) { return tree.ball_around(balls, chosen); }, kOneThread);
+      centres, [&](std::span<const std::uint32_t> chosen) { return tree.ball_around(balls, chosen); }, kOneThread,
+      radii);
   return tree;
 }
 

@@ -8,11 +8,15 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "proximity/exchange.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr double kUp = 1 + 8 * 0x1p-53;
+
+/// Larger parts stay as they were cut.
+constexpr std::size_t kLargestExchanged = BodyNode::kWidth * BodyNode::kWidth;
 
 /// The direction in which positions vary most.
 Point widest_direction(std::span<const Point> positions, std::span<const std::uint32_t> chosen) {
@@ -39,7 +43,7 @@ float rounded_up(double x) {
 struct NodeTree::Builder {
   using Items = std::span<std::uint32_t>;
 
-  std::span<const Point> positions;
+  IndexedBalls balls;  // without radii: positions
   std::vector<BodyNode>& nodes;
   std::vector<std::array<Items, BodyNode::kWidth>> items_of;  // by node and slot
 
@@ -50,9 +54,9 @@ struct NodeTree::Builder {
       parts.push_back(chosen);
       return;
     }
-    const Point axis = widest_direction(positions, chosen);
+    const Point axis = widest_direction(balls.centres, chosen);
     const auto before = [&](std::uint32_t i, std::uint32_t j) {
-      const double p = dot(axis, positions[i]), q = dot(axis, positions[j]);
+      const double p = dot(axis, balls.centres[i]), q = dot(axis, balls.centres[j]);
       return p != q ? p < q : i < j;
     };
     const std::size_t first = count / 2, cut = chosen.size() * first / count;
@@ -70,6 +74,7 @@ struct NodeTree::Builder {
     const std::size_t most_below = std::size_t{1} << (3 * (levels - 1));  // 8^(levels - 1)
     std::vector<Items> parts;
     divide(of_node, (of_node.size() + most_below - 1) / most_below, parts);
+    if (parts.size() > 1 && most_below <= kLargestExchanged && !balls.radii.empty()) exchange(balls, most_below, parts);
     BodyNode node;
     node.radius.fill(-3e38f);
     node.is_lowest = levels == 1;
@@ -83,12 +88,13 @@ struct NodeTree::Builder {
   }
 };
 
-NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads) {
+NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
+                         std::span<const double> radii) {
   NodeTree tree;
   if (positions.empty()) return tree;
   std::vector<std::uint32_t> all(positions.size());
   std::iota(all.begin(), all.end(), 0u);
-  Builder builder{positions, tree.nodes_, {}};
+  Builder builder{{positions, radii}, tree.nodes_, {}};
   builder.add_node(all, node_levels(positions.size()));
   constexpr std::size_t kNodesOfBlock = 8;
   parallel_for(tree.nodes_.size(), kNodesOfBlock, threads, [&](std::size_t i) {

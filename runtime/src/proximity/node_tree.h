@@ -57,9 +57,10 @@ class NodeTree {
   /// A ball that holds the items with these indices. Called from several threads at once.
   using BallAround = std::function<FloatBall(std::span<const std::uint32_t> items)>;
 
-  /// Items are grouped by their positions. No item, no node. The tree does not depend on the number of threads (0: one
-  /// per core).
-  static NodeTree build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads);
+  /// Items are grouped by their positions; with radii, as balls, into tighter groups, which takes a tenth of a
+  /// millisecond for each. No item, no node. The tree does not depend on the number of threads (0: one per core).
+  static NodeTree build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
+                        std::span<const double> radii = {});
 
   bool is_empty() const { return nodes_.empty(); }
   std::size_t size() const { return nodes_.size(); }
