@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "body_files/body_file.h"
 #include "cli/distance/distance_summary.h"
+#include "cli/distance/distance_views.h"
 #include "cli/options/distance_options.h"
 #include "cli/shared/load.h"
 #include "cli/shared/load_body.h"
@@ -179,6 +180,13 @@ class DistanceRun {
   Status make_files() {
     const EndAtOnce guard;
     if (interrupted()) return stopped();
+    progress_.update("picture", 0);
+    Stopwatch stopwatch;
+    const DistanceView view = {*side_a_, *side_b_, *body_a_, *body_b_, poses_, distances_, bounds_};
+    Status status = append_distance_views(options_, view, files_);
+    progress_.clear();
+    if (!status) return status;
+    if (!files_.empty()) times_.push_back({"picture", stopwatch.lap()});
     files_.push_back({options_.output, options_.balls ? encode_bounds_csv(bounds_) : encode_distances_csv(distances_)});
     return {};
   }

@@ -7,7 +7,7 @@
 namespace medial_vk::cli {
 namespace {
 
-std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
+std::string labelled(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
 /// The number of balls, and an upper bound of the distance that they leave or reach out, which is proved.
 std::string set_text(const SphereFit& fit, double greatest, const char* what) {
@@ -32,21 +32,21 @@ std::string body_opening(const SpheresOptions& options, const MeshReport& report
                          const std::optional<DeviceDescription>& device) {
   std::string text = fmt::format("{}: {}\n", options.input == "-" ? "standard input" : options.input,
                                  counted(report.triangles, "triangle", "triangles"));
-  for (const std::string& assumption : report.assumptions) text += line("note", assumption);
-  if (!device) return text + line("device", "CPU reference, double precision");
-  return text + line("device", fmt::format("{} ({}), {}", device->name, device->type, device->driver));
+  for (const std::string& assumption : report.assumptions) text += labelled("note", assumption);
+  if (!device) return text + labelled("device", "CPU reference, double precision");
+  return text + labelled("device", fmt::format("{} ({}), {}", device->name, device->type, device->driver));
 }
 
 std::string body_summary(const SpheresOptions& options, const SphereFit& inside, const SphereFit& cover,
                          const std::vector<StageTime>& times, std::size_t bytes) {
-  std::string text = line(
+  std::string text = labelled(
       "inside", set_text(inside, inside.measures.distances.boundary_to_balls.upper, "from the surface to the spheres"));
   text +=
-      line("cover", set_text(cover, cover.measures.distances.balls_to_solid.upper, "from the spheres to the solid"));
-  text += line("proved", "no sphere inside reaches out, and the cover leaves no point of the solid out");
-  text += line("time", times_text(times, options.verbose));
+      labelled("cover", set_text(cover, cover.measures.distances.balls_to_solid.upper, "from the spheres to the solid"));
+  text += labelled("proved", "no sphere inside reaches out, and the cover leaves no point of the solid out");
+  text += labelled("time", times_text(times, options.verbose));
   const std::string name = options.output == "-" ? "standard output" : options.output;
-  return text + line("written", fmt::format("{} ({})", name, byte_size(bytes)));
+  return text + labelled("written", fmt::format("{} ({})", name, byte_size(bytes)));
 }
 
 }  // namespace medial_vk::cli
