@@ -100,7 +100,7 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   options.show = PictureShow::kBalls;
   options.colour = PictureColour::kSheet;
   picture::Scene scene = picture::make_scene(pair.mesh, marks_of(pair, view), 0, options);
-  const auto colour = [](int sheet) { return sheet_colour_index(sheet); };
+  const auto colour = [](int sheet) { return picture::sheet_colour_index(sheet); };
   const char* const third = pair.on_a == pair.on_b ? "common point" : "nearest points";
   scene.legend = {pair.title, "", "", {{colour(kOfA), "a"}, {colour(kOfB), "b"}, {colour(kLine), third}}};
   Picture out;
