@@ -51,16 +51,17 @@ void add_balls(const DistanceView& view, const Pose& pose, PairPicture& picture)
   }
 }
 
+/// In the letters that the font of pictures has.
 std::string title_of(const PoseInterval& interval) {
   switch (interval.collision) {
     case Collision::kFree:
-      return fmt::format("free: {:.6g} to {:.6g}", interval.lower, interval.upper);
+      return fmt::format("distance {:.6g} to {:.6g}", interval.lower, interval.upper);
     case Collision::kHit:
-      return "hit: a common point";
+      return "a common point";
     case Collision::kUndecided:
       break;
   }
-  return fmt::format("undecided: {:.6g} to {:.6g}", interval.lower, interval.upper);
+  return fmt::format("undecided, {:.6g} to {:.6g}", interval.lower, interval.upper);
 }
 
 PairPicture picture_of(const DistanceView& view, std::size_t shown, const PoseInterval& interval) {
