@@ -38,14 +38,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
-/// The matrix of a unit quaternion.
-Pose pose_of(const Point& shift, double x, double y, double z, double w) {
-  return {{{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-            {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}},
-          shift};
-}
-
 class PoseTable {
  public:
   explicit PoseTable(std::string name) : name_(std::move(name)) {}
@@ -88,7 +80,7 @@ class PoseTable {
     if (!(std::fabs(norm - 1) <= 0.01)) {
       return line_error(name_, number, fmt::format("the quaternion has the length {:.4g} instead of 1", norm));
     }
-    return pose_of({x, y, z}, qx / norm, qy / norm, qz / norm, qw / norm);
+    return make_pose({x, y, z}, Quaternion(qx, qy, qz, qw));
   }
 
  private:

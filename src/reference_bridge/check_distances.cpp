@@ -60,27 +60,39 @@ class DistanceCheck {
 
   void test(const Pose& pose, const Distance& found, std::size_t i) {
     const reference::Motion motion = to_motion(pose);
+    const double error = test_interval(motion, found.lower, found.upper, i);
+    if (found.upper > 0) test_points(found, motion, error, i);
+  }
+
+  void test(const Pose& pose, const DistanceBounds& found, std::size_t i) {
+    test_interval(to_motion(pose), found.lower, found.upper, i);
+  }
+
+  CheckReport report() const {
+    return {{lower_.line(), upper_.line(), free_.line(), hit_.line(), points_.line(), apart_.line()}};
+  }
+  /// Without what is about points.
+  CheckReport report_of_bounds() const { return {{lower_.line(), upper_.line(), free_.line(), hit_.line()}}; }
+
+ private:
+  /// Returns the rounding error of the distances.
+  double test_interval(const reference::Motion& motion, double lower, double upper, std::size_t i) {
     const double surfaces = reference::nearest_of_meshes(a_, b_, motion).distance;
     const bool is_hit = surfaces == 0 || (!options_.surfaces_only && reference::one_holds_the_other(a_, b_, motion));
     const double exact = is_hit ? 0 : surfaces;
     // An error is 32 u S (nearest_triangles.cpp), of the balls' reaches, which are at most three times the coordinates.
     // The interval has six, and the reference fewer.
     const double error = 256 * 0x1p-53 * (4 * size_ + motion.shift.norm());
-    lower_.test(found.lower - exact, error, i);
-    if (found.upper == 0) {
+    lower_.test(lower - exact, error, i);
+    if (upper == 0) {
       hit_.test(exact, error, i);
-      return;
+      return error;
     }
-    upper_.test(exact - found.upper, error, i);
-    if (found.lower > 0) free_.test(is_hit ? found.lower : 0, error, i);
-    test_points(found, motion, error, i);
+    upper_.test(exact - upper, error, i);
+    if (lower > 0) free_.test(is_hit ? lower : 0, error, i);
+    return error;
   }
 
-  CheckReport report() const {
-    return {{lower_.line(), upper_.line(), free_.line(), hit_.line(), points_.line(), apart_.line()}};
-  }
-
- private:
   void test_points(const Distance& found, const reference::Motion& motion, double error, std::size_t i) {
     const Vector3d on_a = to_eigen(found.on_a), on_b = to_eigen(found.on_b);
     const Vector3d in_b = motion.rotation.transpose() * (on_b - motion.shift);
@@ -111,6 +123,17 @@ CheckReport check_distances(const PreparedMesh& a, const PreparedMesh& b, std::s
     check.test(poses[i], distances[i], i);
   }
   return check.report();
+}
+
+CheckReport check_distance_bounds(const PreparedMesh& a, const PreparedMesh& b, std::span<const Pose> poses,
+                                  std::span<const DistanceBounds> bounds,
+                                  const std::function<void(std::size_t)>& seen) {
+  DistanceCheck check(a, b, {});
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    seen(i);
+    check.test(poses[i], bounds[i], i);
+  }
+  return check.report_of_bounds();
 }
 
 }  // namespace medial_vk

@@ -16,4 +16,8 @@ CheckReport check_distances(const PreparedMesh& a, const PreparedMesh& b, std::s
                             std::span<const Distance> distances, const DistanceOptions& options,
                             const std::function<void(std::size_t)>& seen);
 
+/// Tests the results of distance_bounds() in the same way.
+CheckReport check_distance_bounds(const PreparedMesh& a, const PreparedMesh& b, std::span<const Pose> poses,
+                                  std::span<const DistanceBounds> bounds, const std::function<void(std::size_t)>& seen);
+
 }  // namespace medial_vk

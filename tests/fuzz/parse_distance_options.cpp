@@ -16,12 +16,15 @@ void require_usable(const cli::DistanceCommandOptions& options) {
   require(options.limit >= 0 && options.limit < 1e30, "--limit keeps its range");
   require(options.threads <= 1024, "--threads keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
+  require(!options.balls || (options.tolerance == 0 && options.limit == 0 && !options.surfaces),
+          "balls alone have no options of triangles");
   const DistanceOptions of_library = cli::distance_options(options);
   require(of_library.tolerance == options.tolerance && of_library.surfaces_only == options.surfaces,
           "the library is asked the same");
   require(options.limit > 0 ? of_library.limit == options.limit : std::isinf(of_library.limit),
           "there is no limit, or that one");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {
+    if (output.file->empty()) continue;
     for (const std::string* input : {&options.a, &options.b, &options.poses}) {
       require(*output.file == "-" || *output.file != *input, "no input is overwritten");
     }

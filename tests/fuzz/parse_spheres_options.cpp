@@ -29,6 +29,9 @@ void require_goal(const cli::SpheresOptions& options) {
   require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
   require(options.is_robot ? fit.count == 0 : options.count_per_link == 0 && options.total == 0,
           "a mesh and a robot have counts of their own");
+  require(!options.both || (fit.method == SphereMethod::kBest && fit.max_gap == 0 && !options.is_robot &&
+                            !options.each && !options.spheres.levels),
+          "a body is of one mesh, by method best");
   const bool by_source = fit.method == SphereMethod::kSource && fit.contract != SphereContract::kInside;
   require(!by_source || (fit.error == 0 && fit.max_gap == 0), "the source has goals of balls inside only");
   require(fit.contract != SphereContract::kCover || fit.max_gap == 0, "covers leave no gap");

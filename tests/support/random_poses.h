@@ -1,7 +1,6 @@
 // Random poses, the same in every run.
 #pragma once
 
-#include <cmath>
 #include <random>
 
 #include "medial_vk/pose.h"
@@ -18,16 +17,11 @@ inline Point point_in_cube(Random& random, double half) {
   return {uniform(random, -half, half), uniform(random, -half, half), uniform(random, -half, half)};
 }
 
-/// Any rotation, from a unit quaternion.
+/// Any rotation, from a quaternion of normal numbers.
 inline Pose any_pose(Random& random, const Point& shift) {
   std::normal_distribution<> normal;
-  double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
-  const double norm = std::sqrt(w * w + x * x + y * y + z * z);
-  w /= norm, x /= norm, y /= norm, z /= norm;
-  return {{{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-            {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}},
-          shift};
+  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  return make_pose(shift, Quaternion(x, y, z, w)).value();
 }
 
 }  // namespace medial_vk::test

@@ -7,11 +7,13 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <utility>
 
 #include "medial_vk/ball.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/pose.h"
+#include "medial_vk/progress.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -29,10 +31,12 @@ class Body {
  public:
   /// A body with a mesh, for exact distances; either set of balls may be empty. The solid is what the mesh encloses
   /// (winding number at least 1/2), and its triangles; a mesh that is not closed encloses nothing. The mesh is shared,
-  /// not copied. Time: some 20 microseconds a triangle, on one core. Errors: those of the other form; kInvalidMesh (the
-  /// mesh reaches beyond 1e18).
+  /// not copied. Time: some 20 microseconds a triangle, on one core. `progress` is called one call at a time but from
+  /// any thread; a request to `stop` soon ends the call. Errors: those of the other form; kInvalidMesh (the mesh
+  /// reaches beyond 1e18), kInterrupted.
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
-                             std::span<const Ball> cover = {}, const BodyOptions& options = {});
+                             std::span<const Ball> cover = {}, const BodyOptions& options = {},
+                             const ProgressCallback& progress = {}, const std::stop_token& stop = {});
   /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no
   /// lower ones. Centres and radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond
   /// 1e18. Copies the balls. Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two

@@ -108,9 +108,9 @@ std::shared_ptr<Impl> impl_of(const IndexedMesh* mesh, std::span<const Ball> ins
 
 }  // namespace
 
-BodySurface::BodySurface(Solid of_mesh, const Point& centre, unsigned threads)
+BodySurface::BodySurface(Solid of_mesh, const Point& centre, unsigned threads, BuildWatch& watch)
     : solid(std::move(of_mesh)),
-      tree(SurfaceTree::build(solid, centre, threads)),
+      tree(SurfaceTree::build(solid, centre, threads, watch)),
       extremes(extremes_of(solid.mesh().mesh)) {}
 
 Result<Body> Body::create(std::span<const Ball> inside, std::span<const Ball> cover) {
@@ -121,15 +121,20 @@ Result<Body> Body::create(std::span<const Ball> inside, std::span<const Ball> co
 }
 
 Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside, std::span<const Ball> cover,
-                          const BodyOptions& options) {
+                          const BodyOptions& options, const ProgressCallback& progress, const std::stop_token& stop) {
   if (Status status = check(mesh.prepared().report); !status) return status.error();
   if (Status status = check_sets(inside, cover); !status) return status.error();
   return catch_out_of_memory("indexing the triangles of a body", [&]() -> Result<Body> {
-    Result<Solid> solid = Solid::build(mesh);
-    if (!solid) return solid.error();
-    const auto impl = impl_of<Impl>(&mesh, inside, cover);
-    impl->surface = std::make_unique<BodySurface>(std::move(solid).value(), impl->centre, options.threads);
-    return Body(impl);
+    BuildWatch watch(progress, stop);
+    try {
+      Result<Solid> solid = Solid::build(mesh);
+      if (!solid) return solid.error();
+      const auto impl = impl_of<Impl>(&mesh, inside, cover);
+      impl->surface = std::make_unique<BodySurface>(std::move(solid).value(), impl->centre, options.threads, watch);
+      return Body(impl);
+    } catch (const BuildStopped&) {
+      return Error{ErrorCode::kInterrupted, "interrupted"};
+    }
   });
 }
 

@@ -89,7 +89,7 @@ struct NodeTree::Builder {
 };
 
 NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
-                         std::span<const double> radii) {
+                         std::span<const double> radii, BuildWatch* watch) {
   NodeTree tree;
   if (positions.empty()) return tree;
   std::vector<std::uint32_t> all(positions.size());
@@ -100,11 +100,13 @@ NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& bal
   parallel_for(tree.nodes_.size(), kNodesOfBlock, threads, [&](std::size_t i) {
     BodyNode& node = tree.nodes_[i];
     for (std::uint32_t k = 0; k < node.count; ++k) {
+      if (watch) watch->check();
       const FloatBall ball = ball_around(builder.items_of[i][k]);
       for (std::size_t axis = 0; axis < 3; ++axis) node.centre[axis][k] = ball.centre[axis];
       node.radius[k] = ball.radius;
       node.excess[k] = ball.excess;
     }
+    if (watch) watch->finish(1, tree.nodes_.size());
   });
   for (const BodyNode& node : tree.nodes_) {
     for (std::size_t k = 0; k < node.count; ++k) {

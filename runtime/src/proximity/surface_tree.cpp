@@ -146,7 +146,7 @@ class BallsOfTriangles {
 
 }  // namespace
 
-SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned threads) {
+SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned threads, BuildWatch& watch) {
   SurfaceTree tree(solid.mesh().mesh);
   std::vector<Point> middles;
   middles.reserve(tree.size());
@@ -156,7 +156,7 @@ SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned
   }
   const BallsOfTriangles balls(solid, centre);
   tree.nodes_ = NodeTree::build(
-      middles, [&](std::span<const std::uint32_t> triangles) { return balls.around(triangles); }, threads);
+      middles, [&](std::span<const std::uint32_t> triangles) { return balls.around(triangles); }, threads, &watch);
   tree.collect_triangles(centre);
   return tree;
 }

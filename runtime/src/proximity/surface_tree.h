@@ -24,8 +24,8 @@ class SurfaceTree {
   /// Corner c of eight triangles, relative to the centre: [c][axis].
   using EightTriangles = std::array<std::array<std::array<float, BodyNode::kWidth>, 3>, 3>;
 
-  /// Keeps a reference to the solid. Balls are relative to `centre`. Throws std::bad_alloc.
-  static SurfaceTree build(const Solid& solid, const Point& centre, unsigned threads);
+  /// Keeps a reference to the solid. Balls are relative to `centre`. Throws std::bad_alloc, BuildStopped.
+  static SurfaceTree build(const Solid& solid, const Point& centre, unsigned threads, BuildWatch& watch);
 
   const NodeTree& nodes() const { return nodes_; }
   std::size_t size() const { return mesh_->triangles.size(); }

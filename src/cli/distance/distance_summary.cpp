@@ -12,17 +12,19 @@ namespace {
 
 std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
-std::string states_text(std::span<const Distance> distances) {
+template <class Interval>
+std::string states_text(std::span<const Interval> distances) {
   std::string text;
   for (const Collision state : {Collision::kFree, Collision::kHit, Collision::kUndecided}) {
-    const auto count = std::ranges::count(distances, state, &Distance::collision);
+    const auto count = std::ranges::count(distances, state, &Interval::collision);
     text +=
         fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(static_cast<std::uint64_t>(count)), name_of(state));
   }
   return text;
 }
 
-std::string interval_text(const Distance& distance) {
+template <class Interval>
+std::string interval_text(const Interval& distance) {
   if (distance.upper == 0) return "0: the solids have a common point";
   return fmt::format("{:.9g} to {:.9g}", distance.lower, distance.upper);
 }
@@ -36,10 +38,15 @@ std::string one_pose(const Distance& distance) {
   return text + line("points", fmt::format("{} of A, {} of B", point_text(distance.on_a), point_text(distance.on_b)));
 }
 
-std::string many_poses(std::span<const Distance> distances) {
+std::string one_pose(const DistanceBounds& bounds) {
+  return line("state", name_of(bounds.collision())) + line("distance", interval_text(bounds));
+}
+
+template <class Interval>
+std::string many_poses(std::span<const Interval> distances) {
   std::string text = line("poses", grouped(distances.size()));
   text += line("states", states_text(distances));
-  const auto least = std::ranges::min_element(distances, {}, &Distance::upper);
+  const auto least = std::ranges::min_element(distances, {}, &Interval::upper);
   return text + line("least", fmt::format("{} (pose {})", interval_text(*least), least - distances.begin() + 1));
 }
 
@@ -64,6 +71,20 @@ std::string times_text(const std::vector<StageTime>& times, bool verbose) {
   return fmt::format("{} ({})", duration(all), steps);
 }
 
+template <class Interval>
+std::string summary_of(const DistanceCommandOptions& options, std::span<const Interval> distances,
+                       const std::vector<StageTime>& times, std::span<const OutputFile> files) {
+  std::string text = distances.size() == 1 ? one_pose(distances.front()) : many_poses(distances);
+  const auto time = std::ranges::find(times, "distances", &StageTime::stage);
+  const double each = 1e6 * time->seconds / static_cast<double>(distances.size());
+  if (distances.size() > 1) text += line("each", fmt::format("{:.3g} microseconds a pose", each));
+  text += line("time", times_text(times, options.verbose));
+  for (const OutputFile& file : files) {
+    if (file.path != "-") text += line("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string distance_opening(const std::string& path, const MeshReport& report, bool verbose) {
@@ -75,14 +96,20 @@ std::string distance_opening(const std::string& path, const MeshReport& report, 
   return text;
 }
 
+std::string body_file_opening(const std::string& path, const LoadedBody& body, bool verbose) {
+  return distance_opening(path, body.mesh.prepared().report, verbose) +
+         line("balls", fmt::format("{} inside and {} that cover it, proved again", grouped(body.inside.size()),
+                                   grouped(body.cover.size())));
+}
+
 std::string distance_summary(const DistanceCommandOptions& options, std::span<const Distance> distances,
-                             const std::vector<StageTime>& times, std::size_t bytes) {
-  std::string text = distances.size() == 1 ? one_pose(distances.front()) : many_poses(distances);
-  const double each = 1e6 * times.back().seconds / static_cast<double>(distances.size());
-  if (distances.size() > 1) text += line("each", fmt::format("{:.3g} microseconds a pose", each));
-  text += line("time", times_text(times, options.verbose));
-  if (options.output != "-") text += line("written", fmt::format("{} ({})", options.output, byte_size(bytes)));
-  return text;
+                             const std::vector<StageTime>& times, std::span<const OutputFile> files) {
+  return summary_of(options, distances, times, files);
+}
+
+std::string bounds_summary(const DistanceCommandOptions& options, std::span<const DistanceBounds> bounds,
+                           const std::vector<StageTime>& times, std::span<const OutputFile> files) {
+  return summary_of(options, bounds, times, files);
 }
 
 }  // namespace medial_vk::cli

@@ -12,12 +12,15 @@ collide. It needs no Vulkan.
 
 Usage:
   medial-vk distance [options] A B    meshes: OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
-                                      FBX, COLLADA ...; "-": standard input
+                                      FBX, COLLADA ...; "-": standard input; or
+                                      body files (.npz), with balls
 
 Examples:
   medial-vk distance part.stl turtle.obj    where they are, as two lines of CSV
   medial-vk distance part.stl part.stl --poses poses.csv -o distances.csv
   medial-vk distance part.stl turtle.obj --tolerance 0.001 --check
+  medial-vk spheres part.stl --contract both --count 500    part.body.npz
+  medial-vk distance part.body.npz part.body.npz --poses poses.csv --balls
 
 Where B is:
       --poses FILE      a table (CSV) with a pose of B in the frame of A per
@@ -32,8 +35,10 @@ What is computed:
       --limit L         prove no more than that a distance is at least L
       --surfaces        the distance of the surfaces: a solid inside another one
                         is not at distance 0
+      --balls           bounds by the balls of two body files alone, without
+                        triangles: wider intervals, in microseconds
       --keep-inner-faces
-                        take faces inside the solid, such as those of a part
+                        of meshes: take faces inside the solid, such as those of a part
                         that reaches into another one, for its boundary, too
       --check           also test every interval against all pairs of triangles,
                         by the independent CPU reference; seconds a pose for
@@ -43,7 +48,14 @@ Output:
   -o, --output FILE     a .csv; "-": standard output (default). A line per pose:
                         lower and upper end of the interval, the state (free,
                         hit or undecided), and the nearest points of A and B, in
-                        the frame of A
+                        the frame of A; with --balls without points
+      --picture FILE    a .png of both solids in the pose of the least distance,
+                        with their nearest points and the balls that decided
+      --html FILE       a page with that picture, the states of all poses and a
+                        histogram of their distances
+      --view FROM       of the picture: front, back, left, right, top, bottom,
+                        iso or x,y,z, the direction towards the viewer
+      --up AXIS         of the picture: x, y, z, -x, -y or -z (default y)
       --threads N       CPU threads, 0 for all (default 0)
 
 Other:

@@ -3,23 +3,31 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
 
 #include "cli/options/declarations.h"
+#include "common/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {
 
 constexpr double kGreatestLength = 1e30;
 
-void declare_distance(CLI::App& app, DistanceCommandOptions& options) {
+void declare_distance(CLI::App& app, DistanceCommandOptions& options, ViewChoice& view) {
   Declarations add(app);
   add.text("A", "file", options.a);
   add.text("B", "file", options.b);
   add.text("--poses", "file", options.poses);
   add.text("-o,--output", "file", options.output);
+  add.text("--picture", "file", options.picture);
+  add.text("--html", "file", options.html);
+  add.view("--view", view);
+  add.up("--up", options.view.up);
   add.real("--tolerance", {0, kGreatestLength, true}, " (units of the mesh)", options.tolerance);
   add.real("--limit", {0, kGreatestLength, false}, " (units of the mesh)", options.limit);
   add.flag("--surfaces", options.surfaces);
+  add.flag("--balls", options.balls);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.flag("--check", options.check);
   add.whole("--threads", 0, 1024, " threads", options.threads);
@@ -35,9 +43,31 @@ Status check_distance_inputs(const DistanceCommandOptions& options) {
   return {};
 }
 
+/// Balls alone prove intervals of their own width, and know no surface.
+Status check_balls(const DistanceCommandOptions& options) {
+  if (!options.balls) return {};
+  for (const std::string& file : {options.a, options.b}) {
+    if (file_extension(file) == ".npz") continue;
+    return usage_error(
+        fmt::format("--balls: '{}' is no body file; medial-vk spheres MESH --contract both makes one", file));
+  }
+  const std::pair<const char*, bool> of_triangles[] = {
+      {"--tolerance", options.tolerance > 0}, {"--limit", options.limit > 0}, {"--surfaces", options.surfaces}};
+  for (const auto& [name, is_given] : of_triangles) {
+    if (is_given) return usage_error(fmt::format("--balls answers without triangles: it has no {}", name));
+  }
+  return {};
+}
+
 Status check_distance_outputs(const DistanceCommandOptions& options) {
   if (!may_end_in(options.output, ".csv")) {
     return usage_error(fmt::format("--output: '{}' does not end in .csv", options.output));
+  }
+  if (!may_end_in(options.picture, ".png")) {
+    return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
+  }
+  if (!may_end_in(options.html, ".html")) {
+    return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
   }
   for (const std::string* input : {&options.a, &options.b, &options.poses}) {
     if (input->empty()) continue;
@@ -56,18 +86,21 @@ DistanceOptions distance_options(const DistanceCommandOptions& options) {
   return of_library;
 }
 
-std::vector<NamedOutput> outputs_of(const DistanceCommandOptions& options) { return {{"--output", &options.output}}; }
+std::vector<NamedOutput> outputs_of(const DistanceCommandOptions& options) {
+  return {{"--output", &options.output}, {"--picture", &options.picture}, {"--html", &options.html}};
+}
 
 /// The application writes to the options, so both stay together and do not move.
 struct DistanceOptionParser::Declared {
   ReusableApp app;
   DistanceCommandOptions options;
+  ViewChoice view;
 };
 
 DistanceOptionParser::DistanceOptionParser() : declared_(std::make_unique<Declared>()) {
   declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported with a suggestion.
-  declare_distance(declared_->app, declared_->options);
+  declare_distance(declared_->app, declared_->options, declared_->view);
 }
 
 DistanceOptionParser::~DistanceOptionParser() = default;
@@ -75,12 +108,19 @@ DistanceOptionParser::~DistanceOptionParser() = default;
 Result<DistanceCommandOptions> DistanceOptionParser::parse(const std::vector<std::string>& arguments) {
   declared_->app.forget();
   DistanceCommandOptions& options = declared_->options = DistanceCommandOptions();
+  declared_->view = ViewChoice();
   if (Status status = parse_arguments(declared_->app, arguments, "two meshes, A and B, at a time"); !status) {
     return status.error();
   }
   if (options.help) return options;
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (Status status = check_distance_inputs(options); !status) return status.error();
+  if (Status status = check_balls(options); !status) return status.error();
+  const bool looks = declared_->view != ViewChoice() || options.view.up != PictureView().up;
+  if (looks && options.picture.empty() && options.html.empty()) {
+    return usage_error("--view and --up are about the picture: use them with --picture FILE.png or --html FILE.html");
+  }
+  options.view = view_of(declared_->view, options.view.up);
   if (options.output.empty()) options.output = "-";
   if (Status status = check_distance_outputs(options); !status) return status.error();
   return options;

@@ -7,20 +7,25 @@
 #include <vector>
 
 #include "cli/options/output_names.h"
+#include "cli/options/parse_picture.h"
 #include "medial_vk/proximity.h"
 #include "medial_vk/result.h"
+#include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
 
 struct DistanceCommandOptions {
   bool help = false;
-  std::string a, b;    ///< Meshes.
-  std::string poses;   ///< A table of poses; "-": standard input; empty: b stays where it is.
-  std::string output;  ///< "-": standard output.
+  std::string a, b;           ///< Meshes or body files.
+  std::string poses;          ///< A table of poses; "-": standard input; empty: b stays where it is.
+  std::string output;         ///< "-": standard output.
+  std::string picture, html;  ///< Empty: none; "-": standard output.
+  PictureView view;
 
   double tolerance = 0;
   double limit = 0;  ///< 0: none.
   bool surfaces = false;
+  bool balls = false;  ///< Bounds by balls alone.
   bool keep_inner_faces = false;
   unsigned threads = 0;
   bool check = false;

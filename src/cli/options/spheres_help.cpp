@@ -38,7 +38,8 @@ What they guarantee:
       --contract WHAT   inside: no sphere reaches out of the solid (default);
                         cover: all of the solid is covered, for safety;
                         balanced: neither, the least volume between spheres and
-                        solid
+                        solid; both: inside and cover, N of each, with the mesh
+                        in a body file (part.body.npz), for medial-vk distance
       --method HOW      best: chosen and moved for the least volume uncovered, or
                         as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N
@@ -58,7 +59,8 @@ Robots:
 
 Output:
   -o, --output FILE     .csv, .json, .urdf (the robot with spheres for
-                        collision), .yml (cuRobo) or .xrdf; "-": standard output
+                        collision), .yml (cuRobo) or .xrdf, with --contract both
+                        a body file, .npz; "-": standard output
                         (default: the input's name with .spheres.csv, of a robot
                         .spheres.urdf, with --levels .spheres.json, here)
       --each            a set for each mesh of a scene (glTF, 3MF, FBX ...)

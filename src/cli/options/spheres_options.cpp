@@ -22,6 +22,7 @@ constexpr std::uint64_t kMostSpheres = 1'000'000;
 /// Arguments that do not correspond to a single field.
 struct Given {
   std::optional<SphereFormat> format;
+  std::optional<SphereContract> contract = SphereContract::kInside;  // no value: both
   bool collision = false;
   double object_angle = 0;  // 0: not given
   ViewChoice view;
@@ -48,10 +49,12 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", fit.max_gap);
   add.whole("--resolution", 1, 4096, " voxels", fit.resolution);
   add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}}, fit.method);
-  add.choice<SphereContract>(
-      "--contract",
-      {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}, {"balanced", SphereContract::kBalanced}},
-      fit.contract);
+  add.choice<std::optional<SphereContract>>("--contract",
+                                            {{"inside", SphereContract::kInside},
+                                             {"cover", SphereContract::kCover},
+                                             {"balanced", SphereContract::kBalanced},
+                                             {"both", std::nullopt}},
+                                            given.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.spheres.levels);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
@@ -124,7 +127,18 @@ Status check_goals(const SpheresOptions& options) {
                                       : "no goal is given: use --count N, --error E or --max-gap G");
 }
 
+/// Of a body file there is one form.
+Status complete_body_output(SpheresOptions& options) {
+  if (options.output.empty()) {
+    options.output = (options.input == "-" ? "stdin" : fs::path(options.input).stem().string()) + ".body.npz";
+  }
+  if (may_end_in(options.output, ".npz")) return {};
+  return usage_error(fmt::format("--output: with --contract both a body file is written, and '{}' does not end in .npz",
+                                 options.output));
+}
+
 Status complete_output(SpheresOptions& options, const Given& given) {
+  if (options.both) return complete_body_output(options);
   const SphereFormat usual = options.spheres.levels ? SphereFormat::kJson
                              : options.is_robot     ? SphereFormat::kUrdf
                                                     : SphereFormat::kCsv;
@@ -164,7 +178,31 @@ Status complete_files(SpheresOptions& options, const Given& given) {
   return check_outputs_differ(outputs_of(options), options.input);
 }
 
+/// A body is one solid with two sets.
+Status check_both(const SpheresOptions& options, const Given& given) {
+  if (!options.both) return {};
+  if (file_extension(options.input) == ".urdf") {
+    return usage_error("--contract both makes a body of one mesh; give the meshes of a robot one by one");
+  }
+  const std::pair<const char*, bool> of_one_set[] = {{"--each", options.each},
+                                                     {"--levels", options.spheres.levels},
+                                                     {"--max-gap", options.spheres.max_gap > 0},
+                                                     {"--format", given.format.has_value()},
+                                                     {"--report", !options.report.empty()},
+                                                     {"--picture", !options.picture.empty()},
+                                                     {"--histogram", !options.histogram.empty()}};
+  for (const auto& [name, is_given] : of_one_set) {
+    if (is_given) {
+      return usage_error(
+          fmt::format("{} is about one set of spheres: use it with --contract inside, cover or balanced", name));
+    }
+  }
+  if (options.spheres.method == SphereMethod::kBest) return {};
+  return usage_error("--method source: with --contract both only --method best is supported");
+}
+
 Status check_combinations(const SpheresOptions& options, const Given& given) {
+  if (Status status = check_both(options, given); !status) return status;
   if (options.check && options.spheres.contract == SphereContract::kBalanced) {
     return usage_error("--check: spheres of the contract balanced guarantee nothing that could be checked");
   }
@@ -219,6 +257,8 @@ Result<SpheresOptions> SpheresOptionParser::parse(const std::vector<std::string>
     return status.error();
   if (options.help) return options;
   if (given.object_angle > 0) options.spheres.object_angle = given.object_angle;
+  options.both = !given.contract;
+  options.spheres.contract = given.contract.value_or(SphereContract::kInside);
   if (Status status = check_combinations(options, given); !status) return status.error();
   if (Status status = check_input(options, given); !status) return status.error();
   if (Status status = check_goals(options); !status) return status.error();

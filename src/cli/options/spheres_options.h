@@ -24,6 +24,8 @@ struct SpheresOptions {
   bool each = false;      ///< Results for each mesh of the input.
   std::string output;     ///< Never empty after parsing; "-": standard output.
   SphereFormat format = SphereFormat::kCsv;
+  /// A body file: balls inside and a cover, of `spheres.count` each. `format` and `spheres.contract` are not read.
+  bool both = false;
 
   bool keep_inner_faces = false;
   SphereFitOptions spheres;        ///< `threads` is the number for the whole run.

@@ -14,6 +14,7 @@
 #include "cli/shared/load.h"
 #include "cli/shared/reference_with_estimate.h"
 #include "cli/shared/shared_of_run.h"
+#include "cli/spheres/run_body.h"
 #include "cli/spheres/spheres_summary.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -346,6 +347,7 @@ Status run_spheres(const std::vector<std::string>& arguments) {
   const Result<SpheresOptions> options = parse_spheres_options(arguments);
   if (!options) return options.error();
   if (options.value().help) return print_result(spheres_help_text());
+  if (options.value().both) return run_body(options.value());
   return SpheresRuns(options.value()).run();
 }
 

@@ -59,6 +59,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"radius", "--radius", "the radius threshold", "the radius threshold"},
     library_only("removal_orders"),
     {"resolution", "--resolution", "--resolution", "--resolution", "the resolution"},
+    library_only("rotation"),
     library_only("samples"),
     library_only("sheets"),
     library_only("sphere"),

@@ -15,4 +15,7 @@ const char* name_of(Collision collision);
 /// a). Numbers read back as the same doubles; an infinite one is "inf".
 std::string encode_distances_csv(std::span<const Distance> distances);
 
+/// The same for bounds by balls: lower, upper, state.
+std::string encode_bounds_csv(std::span<const DistanceBounds> bounds);
+
 }  // namespace medial_vk

@@ -51,7 +51,7 @@ TEST(DistanceOptions, AllAtOnce) {
   EXPECT_EQ(of_library.tolerance, 0.5);
   EXPECT_EQ(of_library.limit, 2000);
   EXPECT_TRUE(of_library.surfaces_only);
-  ASSERT_EQ(outputs_of(options).size(), 1u);
+  ASSERT_EQ(outputs_of(options).size(), 3u);
   EXPECT_EQ(*outputs_of(options)[0].file, "d.CSV");
   EXPECT_TRUE(parsed_distance({"-q", "a.obj", "a.obj"}).quiet);
   EXPECT_TRUE(parsed_distance({"--help"}).help);
@@ -108,6 +108,25 @@ TEST(DistanceOptions, HelpNamesEveryOption) {
                              "--output", "--threads", "--quiet", "--verbose", "--help", " -o", " -q", " -v", " -h"}) {
     EXPECT_THAT(help, HasSubstr(option));
   }
+}
+
+TEST(DistanceOptions, BallsNeedBodyFilesAndNoOptionOfTriangles) {
+  EXPECT_TRUE(parsed_distance({"a.body.npz", "b.npz", "--balls"}).balls);
+  EXPECT_THAT(distance_message({"a.npz", "b.obj", "--balls"}), HasSubstr("'b.obj' is no body file"));
+  EXPECT_THAT(distance_message({"a.npz", "b.npz", "--balls", "--surfaces"}), HasSubstr("--surfaces"));
+  EXPECT_THAT(distance_message({"a.npz", "b.npz", "--balls", "--limit", "1"}), HasSubstr("--limit"));
+}
+
+TEST(DistanceOptions, PicturesAndPages) {
+  const DistanceCommandOptions options =
+      parsed_distance({"a.obj", "b.obj", "--picture", "p.png", "--html", "p.html", "--up", "z"});
+  EXPECT_EQ(options.picture, "p.png");
+  EXPECT_EQ(options.html, "p.html");
+  EXPECT_EQ(options.view.up, UpAxis::kZ);
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--picture", "p.jpg"}), HasSubstr("does not end in .png"));
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--html", "p.htm"}), HasSubstr("does not end in .html"));
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--up", "z"}), HasSubstr("--view and --up"));
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--html", "-"}), HasSubstr("are the same file"));
 }
 
 }  // namespace

@@ -43,13 +43,14 @@ struct Layers {
 class Composer {
  public:
   Composer(const Scene& scene, const Panel& panel, const Camera& camera, const Layers& layers)
-      : balls_(panel.balls), camera_(camera), layers_(layers) {
+      : balls_(panel.balls || panel.in_glass), in_glass_(panel.in_glass), camera_(camera), layers_(layers) {
     for (const Vector3f& colour : scene.palette) palette_.push_back(to_light(colour));
   }
 
   Vector3f sample(std::uint32_t x, std::uint32_t y, float height_share) const {
     const std::size_t pixel = std::size_t{y} * layers_.front.width + x;
     Vector3f colour = background(height_share);
+    if (in_glass_) return ball_in_glass(colour, x, y, pixel);
     if (layers_.back.nearness[pixel] > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
     // A disc reaches in front of the wall only by its own size, so the wall is drawn in front of it.
@@ -58,6 +59,22 @@ class Composer {
   }
 
  private:
+  /// A ball may lie before both walls, between them or behind them.
+  Vector3f ball_in_glass(Vector3f colour, std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
+    const float back = layers_.back.nearness[pixel], front = layers_.front.nearness[pixel];
+    const float ball = layers_.marks.surface.nearness[pixel];
+    const auto draw_ball = [&](bool is_next) {
+      if (ball > 0 && is_next) colour = mark(x, y, pixel);
+    };
+    draw_ball(ball <= back);
+    if (back > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
+    draw_ball(ball > back && ball <= front);
+    if (front > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
+    if (on_line(x, y)) colour = mix(colour, kInk, 0.60f);
+    draw_ball(ball > std::max(back, front));
+    return colour;
+  }
+
   Vector3f palette_colour(float value) const {
     const std::size_t below = std::min(static_cast<std::size_t>(value), palette_.size() - 1);
     const std::size_t above = std::min(below + 1, palette_.size() - 1);
@@ -148,7 +165,7 @@ class Composer {
            (y + kStep < wall.height && ends_before(std::size_t{kStep} * wall.width));
   }
 
-  bool balls_;
+  bool balls_, in_glass_;
   const Camera& camera_;
   const Layers& layers_;
   std::vector<Vector3f> palette_;
@@ -179,7 +196,11 @@ void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, c
   } else {
     draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
     draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);
-    draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);
+    if (panel.in_glass) {
+      draw_balls(balls_in(balls, band), camera, kCpuSamples, layers.marks);
+    } else {
+      draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);
+    }
   }
 }
 
@@ -213,8 +234,8 @@ void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, con
 }  // namespace
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
-  if (show != PictureShow::kBoth) return {{0, width, show == PictureShow::kBalls}};
-  return {{0, width / 2, false}, {width / 2, width - width / 2, true}};
+  if (show != PictureShow::kBoth) return {{0, width, show == PictureShow::kBalls, false}};
+  return {{0, width / 2, false, false}, {width / 2, width - width / 2, true, false}};
 }
 
 std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture) {
@@ -225,7 +246,8 @@ std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const Pict
 void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
                 std::uint64_t samples_at_once) {
   const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
-  const std::vector<Mark> balls = panel.balls ? panel_balls(scene, panel, view, picture) : std::vector<Mark>();
+  const bool has_balls = panel.balls || panel.in_glass;
+  const std::vector<Mark> balls = has_balls ? panel_balls(scene, panel, view, picture) : std::vector<Mark>();
   const std::uint64_t samples_of_row = std::uint64_t{kCpuSamples} * kCpuSamples * panel.width;
   const auto rows = static_cast<std::uint32_t>(std::max<std::uint64_t>(samples_at_once / samples_of_row, 1));
   for (std::uint32_t top = 0; top < picture.height; top += std::min(rows, picture.height - top)) {

@@ -15,7 +15,8 @@ namespace medial_vk::picture {
 struct Panel {
   std::uint32_t left = 0;  // In the picture, pixels; panels are as high as the picture.
   std::uint32_t width = 0;
-  bool balls = false;  // Otherwise the mesh with the discs.
+  bool balls = false;     // Otherwise the mesh with the discs.
+  bool in_glass = false;  // The mesh with balls, inside and outside of it, instead of discs. The CPU alone draws this.
 };
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width);

@@ -1,4 +1,4 @@
-#include "output/medial_formats/zip_archive.h"
+#include "output/numpy_files/zip_archive.h"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -20,7 +20,7 @@ struct DiscardArchive {
 
 // Memory is the only cause of failure.
 Error failed(const char* message) {
-  return {ErrorCode::kOutOfMemory, fmt::format("cannot make the zip archive of the points: {}", message)};
+  return {ErrorCode::kOutOfMemory, fmt::format("cannot make the zip archive: {}", message)};
 }
 
 Status add(zip_t* archive, const ZipMember& member) {

@@ -1,0 +1,31 @@
+// A page that shows distances of two solids: a picture, the states of all poses, and a histogram.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "medial_vk/proximity.h"
+
+namespace medial_vk {
+
+/// The interval of a pose, from triangles or from balls.
+struct PoseInterval {
+  double lower = 0, upper = 0;
+  Collision collision = Collision::kUndecided;
+};
+
+struct DistancePage {
+  std::string a, b;                         ///< Names of the files.
+  std::span<const PoseInterval> intervals;  ///< At least one.
+  std::size_t shown = 0;                    ///< The pose of the picture.
+  std::string png;                          ///< The picture.
+  bool by_balls = false;                    ///< Intervals are those of balls alone.
+};
+
+/// One HTML file that works from disk, loads nothing and runs no script.
+std::string encode_distance_page(const DistancePage& page);
+
+/// A histogram of the upper ends, as SVG. Poses that are hit, or whose upper end is infinite, are not among them.
+std::string encode_distances_svg(std::span<const PoseInterval> intervals);
+
+}  // namespace medial_vk

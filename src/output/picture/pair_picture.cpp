@@ -1,0 +1,115 @@
+#include "output/picture/pair_picture.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "medial_vk/medial_spheres.h"
+#include "output/colours/colour_map.h"
+#include "output/picture/panels/panel.h"
+#include "output/picture/panels/scene.h"
+
+namespace medial_vk {
+namespace {
+
+using Eigen::Vector3d;
+
+// Colours of sheets, by number.
+constexpr int kOfA = 0, kOfB = 1, kLine = 4;
+
+Vector3d vector(const Point& p) { return Vector3d(p.data()); }
+
+/// Balls of the picture in the form in which scenes take them.
+class Marks {
+ public:
+  /// `size` is the diagonal of everything: marks are thick in proportion.
+  Marks(double size, const Vector3d& towards) : size_(size), across_(towards.unitOrthogonal()) {
+    along_ = towards.normalized().cross(across_);
+  }
+
+  void ball(const Vector3d& centre, double radius, int colour) {
+    MedialSphere mark{};
+    for (Eigen::Index k = 0; k < 3; ++k) mark.centre[static_cast<std::size_t>(k)] = centre[k];
+    mark.radius = radius;
+    mark.sheet = colour;
+    marks_.push_back(mark);
+  }
+
+  void point(const Point& p, int colour) { ball(vector(p), 0.012 * size_, colour); }
+
+  /// A tube of balls that overlap.
+  void line(const Point& from, const Point& to) {
+    const Vector3d a = vector(from), b = vector(to);
+    const int count = count_along((b - a).norm());
+    for (int i = 0; i <= count; ++i) ball(a + (b - a) * i / count, kThin * size_, kLine);
+  }
+
+  /// The circle in which a ball is seen, nearly.
+  void circle(const Ball& of, int colour) {
+    const int count = count_along(2 * std::numbers::pi * of.radius);
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      const Vector3d at = std::cos(angle) * across_ + std::sin(angle) * along_;
+      ball(vector(of.centre) + of.radius * at, 0.5 * kThin * size_, colour);
+    }
+  }
+
+  const std::vector<MedialSphere>& marks() const { return marks_; }
+
+ private:
+  static constexpr double kThin = 0.004;
+  int count_along(double length) const {
+    constexpr double kMost = 4000;
+    return static_cast<int>(std::clamp(std::ceil(length / (0.4 * kThin * size_)), 1.0, kMost));
+  }
+
+  double size_;
+  Vector3d across_, along_;
+  std::vector<MedialSphere> marks_;
+};
+
+double diagonal_of(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Point& p : mesh.vertices) box.extend(vector(p));
+  return box.isEmpty() ? 0 : box.diagonal().stableNorm();
+}
+
+std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& view) {
+  Marks marks(diagonal_of(pair.mesh), Vector3d(view.towards.data()));
+  for (const Ball& ball : pair.inside_a) marks.ball(vector(ball.centre), ball.radius, kOfA);
+  for (const Ball& ball : pair.inside_b) marks.ball(vector(ball.centre), ball.radius, kOfB);
+  for (const Ball& ball : pair.cover_a) marks.circle(ball, kOfA);
+  for (const Ball& ball : pair.cover_b) marks.circle(ball, kOfB);
+  if (pair.on_a == pair.on_b) {
+    marks.point(pair.on_a, kLine);
+    return marks.marks();
+  }
+  marks.line(pair.on_a, pair.on_b);
+  marks.point(pair.on_a, kOfA);
+  marks.point(pair.on_b, kOfB);
+  return marks.marks();
+}
+
+}  // namespace
+
+Picture draw_pair(const PairPicture& pair, const PictureView& view) {
+  PictureOptions options;
+  options.view = view;
+  options.show = PictureShow::kBalls;
+  options.colour = PictureColour::kSheet;
+  picture::Scene scene = picture::make_scene(pair.mesh, marks_of(pair, view), 0, options);
+  const auto colour = [](int sheet) { return picture::sheet_colour_index(sheet); };
+  const char* const third = pair.on_a == pair.on_b ? "common point" : "nearest points";
+  scene.legend = {pair.title, "", "", {{colour(kOfA), "a"}, {colour(kOfB), "b"}, {colour(kLine), third}}};
+  Picture out;
+  out.width = 1200;
+  out.height = 900;
+  out.rgb.assign(std::size_t{out.width} * out.height * 3, 255);
+  picture::draw_panel(scene, {0, out.width, false, true}, view, out);
+  picture::draw_legend(scene, out);
+  return out;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,27 @@
+// A picture of two solids with what is nearest between them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial_vk/ball.h"
+#include "medial_vk/mesh.h"
+#include "output/picture/panels/image.h"
+#include "output/picture/panels/options.h"
+
+namespace medial_vk {
+
+/// All in one frame.
+struct PairPicture {
+  Mesh mesh;                                 ///< Of both solids.
+  Point on_a = {0, 0, 0}, on_b = {0, 0, 0};  ///< The nearest points, joined by a line; or one common point.
+  std::vector<Ball> inside_a, inside_b;      ///< Drawn as balls in the glass of the meshes.
+  std::vector<Ball> cover_a, cover_b;        ///< Drawn as circles, since they would hide what they hold.
+  std::string title;                         ///< Lower case letters, digits, blanks and points.
+};
+
+/// Drawn on the CPU, on one thread: 1200 x 900 pixels.
+Picture draw_pair(const PairPicture& pair, const PictureView& view);
+
+}  // namespace medial_vk

@@ -1,0 +1,87 @@
+// `medial-vk distance` with body files from outside: answers by balls, files that are refused, pictures and pages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "body_files/body_file.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+#include "tool_test.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A unit box with a ball in it, and one around it.
+class BodyFiles : public test::ToolTest {
+ protected:
+  BodyFiles() {
+    body_.version = "0";
+    body_.mesh = test::make_box({1, 1, 1});
+    body_.inside = {{{0.5, 0.5, 0.5}, 0.49}};
+    body_.cover = {{{0.5, 0.5, 0.5}, 0.88}};
+    write("box.npz", body_);
+    test::write_file(path("box.obj"), test::to_obj(body_.mesh));
+    test::write_file(path("poses.csv"), "x,y,z\n3,0,0\n1.2,0,0\n0.5,0,0\n");
+  }
+  void write(const char* name, const BodyFile& body) const {
+    test::write_file(path(name), encode_body_file(body).value());
+  }
+  test::ToolResult distance(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "distance");
+    return run(std::move(arguments));
+  }
+
+  BodyFile body_;
+};
+
+TEST_F(BodyFiles, AnswerByBallsAlone) {
+  const test::ToolResult result = distance({"box.npz", "box.npz", "--poses", "poses.csv", "--balls", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("lower,upper,state\n"));
+  EXPECT_THAT(result.out, HasSubstr(",free\n0,"));
+  EXPECT_THAT(result.out, HasSubstr(",undecided\n0,0,hit\n"));
+  EXPECT_THAT(result.err, HasSubstr("1 inside and 1 that cover it, proved again"));
+}
+
+TEST_F(BodyFiles, AnswerByTrianglesBesideAMesh) {
+  const test::ToolResult of_mesh = distance({"box.obj", "box.obj", "--poses", "poses.csv"});
+  const test::ToolResult result = distance({"box.npz", "box.obj", "--poses", "poses.csv", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(",free,"));
+  EXPECT_THAT(of_mesh.out, HasSubstr(",hit,"));
+  EXPECT_THAT(result.out, HasSubstr("\n0,0,hit,"));
+}
+
+TEST_F(BodyFiles, AreRefusedIfABallReachesOutOrAPointIsLeftOut) {
+  BodyFile out = body_, open = body_;
+  out.inside[0].radius = 0.51;
+  open.cover[0].radius = 0.86;
+  write("out.npz", out);
+  write("open.npz", open);
+  const test::ToolResult reaches = distance({"out.npz", "box.obj"}), leaves = distance({"box.npz", "open.npz"});
+  EXPECT_EQ(reaches.exit_code, 3);
+  EXPECT_THAT(reaches.err, HasSubstr("out.npz: ball 0 of those inside reaches out of the solid"));
+  EXPECT_EQ(leaves.exit_code, 3);
+  EXPECT_THAT(leaves.err, HasSubstr("open.npz: the balls of the cover are not proved to cover"));
+}
+
+TEST_F(BodyFiles, APictureAndAPage) {
+  const test::ToolResult result = distance(
+      {"box.npz", "box.npz", "--poses", "poses.csv", "-o", "d.csv", "--picture", "d.png", "--html", "d.html", "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(test::read_file(path("d.png")), StartsWith("\x89PNG"));
+  const std::string page = test::read_file(path("d.html"));
+  EXPECT_THAT(page, StartsWith("<!doctype html>"));
+  EXPECT_THAT(page, HasSubstr("Pose 3 of 3, that of the least distance"));
+  EXPECT_THAT(page, HasSubstr("<td>2</td><td>66.67 %</td>"));
+  EXPECT_THAT(page, HasSubstr("</svg>"));
+}
+
+}  // namespace
+}  // namespace medial_vk
