@@ -8,6 +8,7 @@
 #include "medial_vk/body_group.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/certify.h"
+#include "medial_vk/collisions.h"
 #include "medial_vk/context.h"
 #include "medial_vk/dual_complex.h"
 #include "medial_vk/dynamic_union.h"

@@ -1,4 +1,4 @@
-// Proofs that given balls lie inside a solid, or cover it, whoever made them (docs/theory.md, "Tight spheres").
+// Proofs that given balls lie inside a solid, or cover it, of any origin (docs/theory.md, "Tight spheres").
 #pragma once
 
 #include <span>

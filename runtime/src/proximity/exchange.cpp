@@ -29,8 +29,7 @@ class Exchange {
   const Members& members(std::size_t part) const { return parts_[part].members; }
 
  private:
-  // Of three solids with 500 balls, trees compare three fifths as many pairs of nodes as without exchanges, with more
-  // of each hardly fewer.
+  // Larger numbers hardly reduce the pairs of nodes that searches compare (docs/decisions.md).
   static constexpr std::size_t kSteps = 24, kTries = 3, kNearParts = 4, kMostRounds = 32;
 
   struct Part {
