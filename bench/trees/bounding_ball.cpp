@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/point_ops.h"
-#include "proximity/smallest_ball_centre.h"
+#include "proximity/groups/smallest_ball_centre.h"
 
 namespace medial_vk::bench {
 

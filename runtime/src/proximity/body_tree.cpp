@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "proximity/smallest_ball_centre.h"
+#include "proximity/groups/smallest_ball_centre.h"
 
 namespace medial_vk {
 namespace {

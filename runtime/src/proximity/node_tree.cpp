@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "proximity/exchange.h"
+#include "proximity/groups/exchange.h"
 
 namespace medial_vk {
 namespace {

@@ -59,8 +59,8 @@ class NodeTree {
   using BallAround = std::function<FloatBall(std::span<const std::uint32_t> items)>;
 
   /// Items are grouped by their positions; with radii, as balls, into tighter groups, which takes a tenth of a
-  /// millisecond for each. No item, no node. The tree does not depend on the number of threads (0: one per core). Throws
-  /// BuildStopped if `watch` is stopped; null: it runs to its end.
+  /// millisecond for each. No item, no node. The tree does not depend on the number of threads (0: one per core).
+  /// Throws BuildStopped if `watch` is stopped; null: it runs to its end.
   static NodeTree build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
                         std::span<const double> radii = {}, BuildWatch* watch = nullptr);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "proximity/groups/smallest_ball_centre.h"
 #include "proximity/placed_distance.h"
-#include "proximity/smallest_ball_centre.h"
 
 namespace medial_vk {
 namespace {

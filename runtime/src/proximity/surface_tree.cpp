@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/smallest_ball_centre.h"
+#include "proximity/groups/smallest_ball_centre.h"
 
 namespace medial_vk {
 namespace {
@@ -156,7 +156,7 @@ SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned
   }
   const BallsOfTriangles balls(solid, centre);
   tree.nodes_ = NodeTree::build(
-      middles, [&](std::span<const std::uint32_t> triangles) { return balls.around(triangles); }, threads, &watch);
+      middles, [&](std::span<const std::uint32_t> triangles) { return balls.around(triangles); }, threads, {}, &watch);
   tree.collect_triangles(centre);
   return tree;
 }

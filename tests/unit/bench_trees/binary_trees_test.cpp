@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
+#include "../../../bench/trees/binary_tree.h"
 #include "base/point_ops.h"
 #include "support/random_poses.h"
-#include "../../../bench/trees/binary_tree.h"
 
 namespace medial_vk {
 namespace {

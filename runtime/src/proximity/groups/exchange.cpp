@@ -1,10 +1,10 @@
-#include "proximity/exchange.h"
+#include "proximity/groups/exchange.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "proximity/smallest_ball_centre.h"
+#include "proximity/groups/smallest_ball_centre.h"
 
 namespace medial_vk {
 namespace {
