@@ -92,7 +92,9 @@ def outputs_of(words):
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
         if not {"-o", "--output"} & set(arguments):
-            files += [pathlib.Path(a).stem + (".spheres.urdf" if robots else ".spheres.csv") for a in robots or meshes]
+            both = "both" in words and words[words.index("both") - 1] == "--contract"
+            ending = ".spheres.urdf" if robots else ".body.npz" if both else ".spheres.csv"
+            files += [pathlib.Path(a).stem + ending for a in robots or meshes]
     elif meshes and not {"-o", "--output"} & set(arguments):
         files.append(pathlib.Path(meshes[0]).stem + (".spheres.ply" if "--mesh-spheres" in arguments else ".medial.ply"))
     return files
