@@ -42,13 +42,13 @@ Status place(std::size_t index, const GroupPart& part, PlacedPart& placed) {
 Status check_link(const char* list, std::size_t index, std::uint32_t link, std::size_t links) {
   if (link < links) return {};
   return Error{ErrorCode::kUsage,
-               fmt::format("element {} of `{}` names link {} of {} `links`", index, list, link, links)};
+               fmt::format("element {} of {} names link {} of {} `links`", index, list, link, links)};
 }
 
 Status check_pairs(std::span<const LinkPair> pairs, std::size_t links) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (Status status = check_link("pairs", i, pairs[i].a, links); !status) return status;
-    if (Status status = check_link("pairs", i, pairs[i].b, links); !status) return status;
+    if (Status status = check_link("`pairs`", i, pairs[i].a, links); !status) return status;
+    if (Status status = check_link("`pairs`", i, pairs[i].b, links); !status) return status;
     if (pairs[i].a != pairs[i].b) continue;
     return Error{ErrorCode::kUsage, fmt::format("element {} of `pairs` is link {} and itself", i, pairs[i].a)};
   }
@@ -87,7 +87,7 @@ Result<BodyGroup> BodyGroup::create(std::span<const GroupPart> parts, std::size_
                                     std::span<const LinkPair> pairs) {
   if (Status status = check_pairs(pairs, links); !status) return status.error();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (Status status = check_link("parts", i, parts[i].link, links); !status) return status.error();
+    if (Status status = check_link("`parts`", i, parts[i].link, links); !status) return status.error();
   }
   return catch_out_of_memory("indexing a group of bodies", [&]() -> Result<BodyGroup> {
     auto impl = std::make_shared<Impl>();
