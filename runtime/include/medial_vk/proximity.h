@@ -39,8 +39,8 @@ class Body {
                              const ProgressCallback& progress = {}, const std::stop_token& stop = {});
   /// A body of balls alone. Either set may be empty: without `inside` there are no upper bounds, without `cover` no
   /// lower ones. Centres and radii are finite, radii are not negative, and no coordinate of a ball's surface is beyond
-  /// 1e18. Copies the balls. Time: n log n, a second for 100,000 balls. Errors: kUsage (names the ball; also for two
-  /// empty sets, and for more than kMostBodyBalls), kOutOfMemory.
+  /// 1e18. Copies the balls. Time: n log n, a second or two for 8,192 or 100,000 balls. Errors: kUsage (names the ball;
+  /// also for two empty sets, and for more than kMostBodyBalls), kOutOfMemory.
   static Result<Body> create(std::span<const Ball> inside, std::span<const Ball> cover);
 
   std::span<const Ball> inside() const;
