@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/quoted.h"
+
 namespace medial_vk {
 namespace {
 
@@ -95,7 +97,7 @@ std::string parse_npy(std::string_view npy, NpyArray& array) {
   if (npy.size() - kPrefix < length) return "ends within its header";
   if (!read_header(npy.substr(kPrefix, length), array)) return "has a header that NumPy does not write for C order";
   const std::uint64_t size = size_of(array.type);
-  if (size == 0) return fmt::format("holds elements of the type {:.20}, which is not read here", array.type);
+  if (size == 0) return fmt::format("holds elements of the type {}, which is not read here", quoted(array.type));
   array.bytes = npy.substr(kPrefix + length);
   if (array.bytes.size() % size != 0 || !has_elements(array.shape, array.bytes.size() / size)) {
     return fmt::format("has {} bytes, not as many as its shape requires", array.bytes.size());
@@ -114,7 +116,9 @@ class Archive {
     zip_.reset(::zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error));
     if (!zip_) {
       ::zip_source_free(source);  // which an open archive owns
-      return wrong(fmt::format("it is no .npz: {}", ::zip_error_strerror(&error)));
+      const Error no_zip = wrong(fmt::format("it is no .npz: {}", ::zip_error_strerror(&error)));
+      ::zip_error_fini(&error);
+      return no_zip;
     }
     return {};
   }
