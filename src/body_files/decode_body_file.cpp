@@ -152,6 +152,10 @@ class Decoder {
     balls.resize(radius.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
       if (radius[i] < 0) return wrong(radii, fmt::format("is negative for ball {}", i));
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (std::fabs(centre[3 * i + k]) + radius[i] <= kLargest) continue;
+        return wrong(radii, fmt::format("reaches beyond {:g} for ball {}", kLargest, i));
+      }
       balls[i] = {{centre[3 * i], centre[3 * i + 1], centre[3 * i + 2]}, radius[i]};
     }
     return {};

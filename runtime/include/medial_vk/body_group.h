@@ -43,7 +43,7 @@ class BodyGroup {
  public:
   /// `links` is the number of links; a link may have no part. Bodies are shared, not copied. Errors: kUsage (a link of
   /// `parts` or `pairs` that is not below `links`, a pair of a link and itself, a body with neither a mesh nor a cover,
-  /// a pose that is no rigid motion, a part that reaches beyond 1e18), kOutOfMemory.
+  /// a pose whose rows have products farther than 3e-13 from 0 and 1, a part that reaches beyond 1e18), kOutOfMemory.
   static Result<BodyGroup> create(std::span<const GroupPart> parts, std::size_t links, std::span<const LinkPair> pairs);
 
   std::size_t links() const;

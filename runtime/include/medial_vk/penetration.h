@@ -41,8 +41,9 @@ struct Penetration {
 /// upper one and the translation come from the covers, and there is none, with an infinite bound, where a body has no
 /// cover. The translation is the shortest that was found, which need not be the shortest. Solids that are proved to be
 /// apart, by balls or by triangles, have zeros throughout. Time: 0.05 to 0.7 s for bodies of 500 balls that overlap;
-/// that of all pairs where many balls are equal. Precondition: as for distance_bounds(); where a coordinate of the
-/// shift is beyond 1e18, or no number, nothing is proved. Errors: kUsage (an option out of range), kOutOfMemory.
+/// it grows with the square of their number where most balls overlap. Precondition: as for distance_bounds(); where a
+/// coordinate of the shift is beyond 1e18, or no number, nothing is proved. Errors: kUsage (an option out of range),
+/// kOutOfMemory.
 Result<Penetration> penetration(const Body& a, const Body& b, const Pose& pose, const PenetrationOptions& options = {});
 
 }  // namespace medial_vk

@@ -194,7 +194,8 @@ class LeastSearch {
       // Only collisions are to be decided, and these parts are free.
       if (options_.limit == 0 && lower > 0) return;
       shorten_lower(lower, parts, covers);
-    } else {  // there are still the balls around the parts
+    } else if (close.separation > -kFarther) {
+      // There are still the balls around the parts. Of a start they are unknown, and the sweep finds them.
       shorten_lower(std::max(0.0, static_cast<double>(close.separation)), parts, {});
     }
     if (!query.has_insides()) return;

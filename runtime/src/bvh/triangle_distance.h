@@ -50,15 +50,18 @@ struct WeightedOffset {
 /// edges `ab` and `ac`, whose part across ab is `h`. Where it is not inside, it may be inexact.
 ///
 /// A pass finds the weights of the residual offset. h has an error of about u |ac| (u = 2^-53), its direction one of
-/// e = u |ac| / |h|, and a pass divides the error of the weights by 1 / e. As long as e < 1/2 the rest is less than the
-/// last correction, which tells when enough is known. If that is the case after two passes, and the foot is inside, the
-/// weights of the first pass were below 2, so the sums in the offset have few roundings of lengths of edges; later
-/// passes begin with an offset that is computed anew from the weights.
+/// e = u |ac| / |h|, and a pass divides the error of the weights by 1 / e. Weights of size W are rounded, which leaves
+/// an error of u W along ab, and e times that across it, in the next pass. So the rest is below the last correction and
+/// e^2 times the one before, both of which tell when enough is known; the code takes 8 e for e. If that is the case
+/// after two passes, and the foot is inside, the weights of the first pass were below 2, so the sums in the offset have
+/// few roundings of lengths of edges; later passes begin with an offset that is computed anew from the weights.
 inline WeightedOffset foot_on_plane(const Point& a, const Point& ab, const Point& ac, const Point& h, double ab_ab,
                                     double h_h) {
   constexpr double kSmallCorrection = 0x1p-44;
-  constexpr int kMostPasses = 8;
+  constexpr int kMostPasses = 12;
+  const double squared_e = 0x1p-100 * dot(ac, ac) / h_h;
   WeightedOffset foot = {0, 0, a};
+  double last = 0;
   for (int pass = 1;; ++pass) {
     const double dw = -dot(foot.offset, h) / h_h;
     foot.offset = foot.offset + dw * ac;
@@ -66,11 +69,14 @@ inline WeightedOffset foot_on_plane(const Point& a, const Point& ab, const Point
     foot.offset = foot.offset + dv * ab;
     foot.v += dv;
     foot.w += dw;
-    if (pass == 1) continue;
     const double correction = std::fabs(dv) + std::fabs(dw);
-    const bool is_outside = foot.v < -correction || foot.w < -correction || foot.v + foot.w > 1 + correction;
-    if (is_outside || correction <= kSmallCorrection || pass == kMostPasses) return foot;
+    const double margin = correction + squared_e * last;
+    last = correction;
+    if (pass == 1) continue;
+    const bool is_outside = foot.v < -margin || foot.w < -margin || foot.v + foot.w > 1 + margin;
+    if (is_outside || correction <= kSmallCorrection) return foot;
     foot.offset = a + foot.v * ab + foot.w * ac;
+    if (pass == kMostPasses) return foot;
   }
 }
 
@@ -78,13 +84,13 @@ inline WeightedOffset foot_on_plane(const Point& a, const Point& ab, const Point
 ///
 /// Accuracy. Every candidate is start + (a convex combination of the edges), a point of the triangle up to rounding,
 /// so the distance is never below the exact one by more than a few u (u = 2^-53) of edge lengths and distance, for any
-/// thin triangle. It is not far above it either. Let e = u |ac| / |h| be the error of a direction in foot_on_plane().
-/// No point of the triangle is farther than |h| from its edges, so where a foot is wrong or wrongly found outside, the
-/// edges are within |h|. The weights of a foot that is returned after a small correction c are off by about e c, and
-/// those of one that follows from an exact offset of length D by e D / |ac|: the foot is off by s = e (D + c |ac|)
-/// across the triangle. The squared distance is thus too large by at most min(s, |h|)^2 <= s |h| = u |ac| (D + c |ac|),
-/// and the distance by u |ac| / 2 + sqrt(u c) |ac|, with sqrt(u c) <= 2^-48. Corrections that are still not small in
-/// the last pass, the eighth, shrink by a factor of less than 2^6 a pass: then |h| < 2^6 u |ac|.
+/// thin triangle. It is not far above it either. Let L be the longest edge and e = u |ac| / |h| the error of a
+/// direction in foot_on_plane(). No point of the triangle is farther than |h| from its edges, so where a foot is wrong
+/// or wrongly found outside, the edges are within |h|. The weights of a foot that is returned after a small correction
+/// c are off by about e c, and those of one that follows from an exact offset of length D by e D / L: the foot is off
+/// by s = e (D + c L) across the triangle. The squared distance is thus too large by at most min(s, |h|)^2 <= s |h| = u
+/// |ac| (D + c L), and the distance by u |ac| / 2 + sqrt(u c) L, with sqrt(u c) <= 2^-48. Corrections that are still
+/// not small in the last pass shrink by a factor of less than 2^5 a pass: then |h| < 2^5 u |ac|.
 inline NearestOffset nearest_on_triangle(const Point& p, const std::array<Point, 3>& corners) {
   const Point a = corners[0] - p;
   const Point b = corners[1] - p;

@@ -54,7 +54,7 @@ Fatness fatness_at(const VoxelGraph& graph, double object_angle, double voxel) {
   fatness.largest_voxel = fatness.least_radius * std::numbers::inv_sqrt3;
   fatness.components = components_of(graph, is_in);
   // Centres in voxels with a common corner are at most 2 sqrt(3) voxel sides apart, and the spheres touch if both radii
-  // are at least half of that. The margin is for the rounding of the voxel of a centre, and of this comparison.
+  // are at least half of that. The margin is for the rounding of this comparison.
   fatness.proves_connected = fatness.components == 1 && fatness.largest_voxel >= voxel * (1 + 0x1p-30);
   return fatness;
 }
@@ -69,7 +69,11 @@ Result<std::vector<Fatness>> measure_fatness(std::span<const MedialSphere> spher
   return catch_out_of_memory("measuring how fat a solid is", [&]() -> Result<std::vector<Fatness>> {
     const VoxelGraph graph(spheres, options.threads);
     std::vector<Fatness> all;
-    for (const double angle : object_angles) all.push_back(fatness_at(graph, angle, grid.voxel_size));
+    // A centre may lie outside its voxel by the roundings of the voxel's corners, whose indices are below 2^20.
+    const auto& o = grid.origin;
+    const double rounding = 0x1p-49 * (std::fabs(o[0]) + std::fabs(o[1]) + std::fabs(o[2]));
+    const double voxel = grid.voxel_size * (1 + 0x1p-28) + rounding;
+    for (const double angle : object_angles) all.push_back(fatness_at(graph, angle, voxel));
     return all;
   });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/point_ops.h"
@@ -53,6 +54,9 @@ void add_balls(const DistanceView& view, const Pose& pose, PairPicture& picture)
 
 /// In the letters that the font of pictures has.
 std::string title_of(const PoseInterval& interval) {
+  if (!std::isfinite(interval.upper)) {
+    return interval.lower > 0 ? fmt::format("distance at least {:.6g}", interval.lower) : "undecided";
+  }
   switch (interval.collision) {
     case Collision::kFree:
       return fmt::format("distance {:.6g} to {:.6g}", interval.lower, interval.upper);
@@ -71,6 +75,8 @@ PairPicture picture_of(const DistanceView& view, std::size_t shown, const PoseIn
   append_mesh(view.side_b.mesh.prepared().mesh, pose, picture.mesh);
   add_balls(view, pose, picture);
   picture.title = title_of(interval);
+  picture.has_points = std::isfinite(interval.upper);
+  picture.is_hit = interval.collision == Collision::kHit;
   if (view.distances.empty()) {
     if (!picture.inside_a.empty()) nearest_of_balls(picture.inside_a[0], picture.inside_b[0], picture);
   } else {

@@ -87,7 +87,10 @@ class DistanceRun {
   Status load_file(const std::string& path, std::optional<LoadedBody>& side) {
     progress_.update("read", 0);
     Stopwatch stopwatch;
-    const Result<BodyFile> file = read_body_file(path);
+    const Result<BodyFile> file = [&] {
+      const EndAtOnce guard;  // a pipe may wait
+      return read_body_file(path);
+    }();
     if (!file) return file.error();
     times_.push_back({"read", stopwatch.lap()});
     progress_.update("prove", 0);
@@ -101,7 +104,11 @@ class DistanceRun {
 
   /// With --balls, trees of triangles are not needed.
   Result<Body> body_of(const LoadedBody& side) {
-    if (options_.balls) return Body::create(side.inside, side.cover);
+    if (options_.balls) {
+      const EndAtOnce guard;  // trees over balls are not stopped half-way
+      if (interrupted()) return stopped();
+      return Body::create(side.inside, side.cover);
+    }
     std::stop_source stop;
     const auto on_progress = [&](double done) {
       progress_.update("bodies", done);

@@ -37,7 +37,7 @@ void declare_distance(CLI::App& app, DistanceCommandOptions& options, ViewChoice
 }
 
 Status check_distance_inputs(const DistanceCommandOptions& options) {
-  if (options.a.empty() || options.b.empty()) return usage_error("give two meshes, A and B");
+  if (options.a.empty() || options.b.empty()) return usage_error("give two meshes or body files, A and B");
   const int streams = (options.a == "-") + (options.b == "-") + (options.poses == "-");
   if (streams > 1) return usage_error("only one of A, B and --poses can be standard input");
   return {};
@@ -109,7 +109,8 @@ Result<DistanceCommandOptions> DistanceOptionParser::parse(const std::vector<std
   declared_->app.forget();
   DistanceCommandOptions& options = declared_->options = DistanceCommandOptions();
   declared_->view = ViewChoice();
-  if (Status status = parse_arguments(declared_->app, arguments, "two meshes, A and B, at a time"); !status) {
+  if (Status status = parse_arguments(declared_->app, arguments, "two meshes or body files, A and B, at a time");
+      !status) {
     return status.error();
   }
   if (options.help) return options;

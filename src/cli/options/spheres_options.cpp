@@ -124,6 +124,7 @@ Status check_goals(const SpheresOptions& options) {
                    fit.max_gap > 0 || by_resolution;
   if (any) return {};
   return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
+                     : options.both   ? "no goal is given: use --count N or --error E"
                                       : "no goal is given: use --count N, --error E or --max-gap G");
 }
 

@@ -22,6 +22,7 @@ std::string point_text(const Point& p) { return fmt::format("({:.6g}, {:.6g}, {:
 /// A cover of an open mesh covers its surface, which is all of it that a body knows.
 Status accept(const SphereProofs& proofs, const LoadedBody& body, const std::string& path) {
   const bool is_closed = body.mesh.prepared().report.closed;
+  if (body.inside.empty() && body.cover.empty()) return wrong(path, "the file has no balls");
   if (!is_closed && !body.inside.empty()) {
     return wrong(path, "the mesh is not closed and encloses nothing, but the file has balls inside it");
   }
@@ -56,7 +57,9 @@ Result<LoadedBody> load_body(const BodyFile& file, const std::string& path, unsi
   if (!indexed) return wrong(path, indexed.error().message);
   LoadedBody body = {std::move(indexed).value(), file.inside, file.cover};
   const Result<SphereProofs> proofs = prove_spheres(body.mesh, body.inside, body.cover, {threads});
-  if (!proofs) return Error{proofs.error().code, fmt::format("{}: {}", path, proofs.error().message)};
+  // Numbers out of range are those of the file.
+  const auto code_of = [](ErrorCode code) { return code == ErrorCode::kUsage ? ErrorCode::kInvalidMesh : code; };
+  if (!proofs) return Error{code_of(proofs.error().code), fmt::format("{}: {}", path, proofs.error().message)};
   if (Status status = accept(proofs.value(), body, path); !status) return status.error();
   times.push_back({"prove", stopwatch.lap()});
   return body;

@@ -78,6 +78,9 @@ std::string shown_text(const DistancePage& page) {
                                                       : fmt::format("Pose {} of {}, that of the least distance",
                                                                     page.shown + 1, page.intervals.size());
   if (shown.collision == Collision::kHit) return pose + ": the solids have a common point.";
+  if (!std::isfinite(shown.upper)) {
+    return fmt::format("{}: the distance is at least {:.9g}, in units of the mesh.", pose, shown.lower);
+  }
   return fmt::format("{}: the distance is between {:.9g} and {:.9g}, in units of the mesh.", pose, shown.lower,
                      shown.upper);
 }

@@ -82,6 +82,7 @@ std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& v
   for (const Ball& ball : pair.inside_b) marks.ball(vector(ball.centre), ball.radius, kOfB);
   for (const Ball& ball : pair.cover_a) marks.circle(ball, kOfA);
   for (const Ball& ball : pair.cover_b) marks.circle(ball, kOfB);
+  if (!pair.has_points) return marks.marks();
   if (pair.on_a == pair.on_b) {
     marks.point(pair.on_a, kLine);
     return marks.marks();
@@ -101,8 +102,9 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   options.colour = PictureColour::kSheet;
   picture::Scene scene = picture::make_scene(pair.mesh, marks_of(pair, view), 0, options);
   const auto colour = [](int sheet) { return picture::sheet_colour_index(sheet); };
-  const char* const third = pair.on_a == pair.on_b ? "common point" : "nearest points";
-  scene.legend = {pair.title, "", "", {{colour(kOfA), "a"}, {colour(kOfB), "b"}, {colour(kLine), third}}};
+  scene.legend = {pair.title, "", "", {{colour(kOfA), "a"}, {colour(kOfB), "b"}}};
+  if (pair.has_points)
+    scene.legend.swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
   Picture out;
   out.width = 1200;
   out.height = 900;

@@ -15,10 +15,12 @@ namespace medial_vk {
 /// All in one frame.
 struct PairPicture {
   Mesh mesh;                                 ///< Of both solids.
+  bool has_points = false;                   ///< Whether there are nearest points.
+  bool is_hit = false;                       ///< They are proved to be one common point.
   Point on_a = {0, 0, 0}, on_b = {0, 0, 0};  ///< The nearest points, joined by a line; or one common point.
   std::vector<Ball> inside_a, inside_b;      ///< Drawn as balls in the glass of the meshes.
   std::vector<Ball> cover_a, cover_b;        ///< Drawn as circles, since they would hide what they hold.
-  std::string title;                         ///< Lower case letters, digits, blanks and points.
+  std::string title;                         ///< In the letters of panels/text.h.
 };
 
 /// Drawn on the CPU, on one thread: 1200 x 900 pixels.

@@ -51,7 +51,8 @@ double exact_distance(const Point& p, const std::array<Point, 3>& corners) {
   return std::sqrt(static_cast<double>(squared));
 }
 
-/// A triangle whose width is between 1 and 1e-14 of its length, and a point above it.
+/// A triangle whose width is between 1 and 2^-53 of its length, and a point above it; one in four is among the
+/// thinnest.
 struct Sliver {
   std::array<Point, 3> corners;
   Point p;
@@ -60,32 +61,50 @@ struct Sliver {
     std::uniform_real_distribution<double> share(0, 1), coordinate(-1, 1);
     const auto vector = [&] { return Point{coordinate(random), coordinate(random), coordinate(random)}; };
     const auto tiny = [&](double digits) { return std::pow(10.0, -digits * share(random)); };
+    const bool is_thinnest = share(random) < 0.25;
     const Point along = tiny(3) * vector();
     corners[0] = vector();
     corners[1] = corners[0] + along;
-    corners[2] = corners[0] + (tiny(6) * (0.3 + share(random))) * along + (length(along) * tiny(14)) * vector();
+    corners[2] = corners[0] + (tiny(6) * (0.3 + share(random))) * along +
+                 (length(along) * (is_thinnest ? 1e-13 * tiny(3) : tiny(14))) * vector();
     std::ranges::shuffle(corners, random);
     const Point ab = corners[1] - corners[0], ac = corners[2] - corners[0], normal = cross(ab, ac);
     const double v = share(random), w = share(random) * (1 - v), size = length(normal);
     p = corners[0] + v * ab + w * ac;
-    if (size > 0) p = p + (tiny(10) / size) * normal;
+    if (size > 0) p = p + ((is_thinnest ? 1e-12 * tiny(4) : tiny(10)) / size) * normal;
   }
 };
 
-/// In units of 2^-53 times the lengths in question. The bound below is that of the docstring of nearest_on_triangle():
-/// offset, edges and their weighted sum take fewer than eight roundings of these lengths. The bound above adds 1/2 and
-/// 2^5 for sqrt(u c), and 2^6 where the height has no correct digit.
+/// In units of 2^-53 times the lengths in question.
+double error_of(const Point& p, const std::array<Point, 3>& corners) {
+  const double computed = std::sqrt(nearest_on_triangle(p, corners).squared_distance);
+  const Point &a = corners[0], &b = corners[1], &c = corners[2];
+  const double unit = 0x1p-53 * (length(b - a) + length(c - a) + length(a - p));
+  return (computed - exact_distance(p, corners)) / unit;
+}
+
+// The bound below is that of the docstring of nearest_on_triangle(): offset, edges and their weighted sum take fewer
+// than eight roundings of these lengths. The bound above adds 1/2, and 2^5 twice: for sqrt(u c), and where the height
+// has no correct digit.
+constexpr double kMostBelow = 8, kMostAbove = 72;
+
 TEST(TriangleDistance, IsThatOfTheTriangleForSliversToo) {
   std::mt19937_64 random(20261127);
   for (int i = 0; i < 200'000; ++i) {
     const Sliver sliver(random);
-    const double computed = std::sqrt(nearest_on_triangle(sliver.p, sliver.corners).squared_distance);
-    const Point &a = sliver.corners[0], &b = sliver.corners[1], &c = sliver.corners[2];
-    const double unit = 0x1p-53 * (length(b - a) + length(c - a) + length(a - sliver.p));
-    const double error = (computed - exact_distance(sliver.p, sliver.corners)) / unit;
-    ASSERT_GE(error, -8) << "sliver " << i;
-    ASSERT_LE(error, 72) << "sliver " << i;
+    const double error = error_of(sliver.p, sliver.corners);
+    ASSERT_GE(error, -kMostBelow) << "sliver " << i;
+    ASSERT_LE(error, kMostAbove) << "sliver " << i;
   }
+}
+
+/// Where the weights of the first pass are in the thousands, and the second pass would find the foot outside.
+TEST(TriangleDistance, DoesNotTakeAFootForOutsideTooSoon) {
+  const std::array<Point, 3> corners = {{{0.00025587970188831817, 0.00072874494100885626, 8.2238853720313635e-05},
+                                         {0.61812787922740964, 0.61359121027077013, 0.61802373864170057},
+                                         {1.002608678632845, 0.99495474636992942, 1.0025477857047445}}};
+  const Point p = {0.70056246443345516, 0.69535743880463374, 0.70046759635955558};
+  EXPECT_LE(error_of(p, corners), kMostAbove);
 }
 
 }  // namespace

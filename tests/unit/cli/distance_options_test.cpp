@@ -59,9 +59,10 @@ TEST(DistanceOptions, AllAtOnce) {
 }
 
 TEST(DistanceOptions, WrongOnesAreNamed) {
-  EXPECT_EQ(distance_message({}), "give two meshes, A and B");
-  EXPECT_EQ(distance_message({"a.obj"}), "give two meshes, A and B");
-  EXPECT_THAT(distance_message({"a.obj", "b.obj", "c.obj"}), HasSubstr("unexpected 'c.obj': two meshes, A and B"));
+  EXPECT_EQ(distance_message({}), "give two meshes or body files, A and B");
+  EXPECT_EQ(distance_message({"a.obj"}), "give two meshes or body files, A and B");
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "c.obj"}),
+              HasSubstr("unexpected 'c.obj': two meshes or body files, A and B"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--surface"}), HasSubstr("did you mean --surfaces?"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--tolerance", "-1"}), HasSubstr("--tolerance: -1 is not between 0"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--tolerance", "nan"}), HasSubstr("--tolerance"));

@@ -54,6 +54,8 @@ class DepthSearch {
       Cell cell = cells_.top();
       bound.lower = std::max(bound.lower, std::min(cell.least, upper));
       if (cell.least >= upper) break;
+      // Far below the errors of overlaps. Above it, middles are multiples of a half by numbers below 2^46, and exact.
+      if (cell.half <= 0x1p-44 * cell.least) break;
       cells_.pop();
       const double diagonal = std::sqrt(3.0) * cell.half * (1 + 8 * 0x1p-53);
       if (overlap_at(cell.middle, diagonal, cell.pair) < diagonal) divide(cell, overlap);
@@ -76,6 +78,7 @@ class DepthSearch {
     const float as_deep = static_cast<float>(-std::min(enough * (1 + 0x1p-20) + 2 * error, kNone));
     pair = closest_balls(tree_a, tree_b, placement.float_pose(), pair, as_deep).balls;
     const Ball &ball_a = a_.inside[pair.a], &ball_b = b_.inside[pair.b];
+    if (!(ball_a.radius > 0 && ball_b.radius > 0)) return -kNone;  // a point need not be in the interior
     const Point away = ball_a.centre - moved * ball_b.centre;
     // The roundings are those of distance_bounds.cpp, and that of the sum of the shift and the translation.
     const double size = length(ball_a.centre) + length(ball_b.centre) + length(pose_.shift) + length(translation) +
@@ -89,7 +92,7 @@ class DepthSearch {
     return 2 * (placement.distance() + a_.inside_tree.nodes().reach() + b_.inside_tree.nodes().reach());
   }
 
-  /// The parts are exact: halves are powers of two.
+  /// The parts are exact: halves are powers of two, and not too small.
   void divide(const Cell& cell, double first_overlap) {
     const double half = 0.5 * cell.half;
     for (unsigned octant = 0; octant < 8; ++octant) {

@@ -27,7 +27,7 @@ struct QueryFrame {
       : longest(placement.distance() + reach_a + reach_b), error(0x1p-46 * (placement.lengths() + 2 * longest)) {}
 
   /// Any translation of this length, and one error, ends in a pose with no common point.
-  double longest_translation() const { return longest * (1 + 0x1p-40) + 8 * error; }
+  double longest_translation() const { return longest * (1 + 0x1p-37) + 8 * error; }
 
   static constexpr double kStretch = 4e-12;
 
