@@ -4,69 +4,31 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "input/text_scanner.h"
+#include "robots/model/joint_motions.h"
+#include "robots/model/robot_xml.h"
 
 namespace medial_vk {
 namespace {
 
 using tinyxml2::XMLElement;
 
-/// The parser compares each attribute with those before it. Elements of a URDF have six at most.
-constexpr std::size_t kMostAttributes = 1000;
-
-/// The end of the construct that begins at `from`, or the end of the bytes.
-std::size_t after(std::string_view bytes, std::string_view end, std::size_t from) {
-  const std::size_t found = bytes.find(end, from);
-  return found == std::string_view::npos ? bytes.size() : found + end.size();
-}
-
-/// True if a tag has more than kMostAttributes values in quotes; comments and the like are skipped as by the parser.
-bool has_too_many_attributes(std::string_view bytes) {
-  for (std::size_t i = bytes.find('<'); i < bytes.size(); i = bytes.find('<', i)) {
-    const std::string_view rest = bytes.substr(i);
-    if (rest.starts_with("<!--")) {
-      i = after(bytes, "-->", i + 4);
-    } else if (rest.starts_with("<![CDATA[")) {
-      i = after(bytes, "]]>", i);
-    } else if (rest.starts_with("<?")) {
-      i = after(bytes, "?>", i);
-    } else if (rest.starts_with("<!")) {
-      i = after(bytes, ">", i);
-    } else {
-      std::size_t attributes = 0;
-      for (++i; i < bytes.size() && bytes[i] != '>'; ++i) {
-        if (bytes[i] != '"' && bytes[i] != '\'') continue;
-        if (++attributes > kMostAttributes) return true;
-        i = after(bytes, bytes.substr(i, 1), i + 1) - 1;
-      }
-    }
-  }
-  return false;
-}
-
 /// Reads one URDF; the first fault ends it.
 class UrdfReader {
  public:
-  explicit UrdfReader(const std::string& name) : name_(name) {}
+  UrdfReader(const std::string& name, UrdfDetail detail) : name_(name), detail_(detail) {}
 
   Result<Robot> read(std::string_view bytes) {
-    if (has_too_many_attributes(bytes)) {
-      return file_error(name_, fmt::format("this is no URDF: an element has more than {} attributes", kMostAttributes));
-    }
     tinyxml2::XMLDocument document;
-    if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) return no_xml(document);
+    if (Status status = parse_robot_xml(bytes, name_, "URDF", document); !status) return status.error();
     const XMLElement* root = document.RootElement();
-    if (root == nullptr || std::strcmp(root->Name(), "robot") != 0) {
-      return file_error(name_, "this is no URDF: its outermost element is not <robot>");
-    }
     if (const char* name = root->Attribute("name")) robot_.name = name;
     if (Status status = read_links(*root); !status) return status.error();
     if (Status status = read_joints(*root); !status) return status.error();
@@ -75,23 +37,7 @@ class UrdfReader {
   }
 
  private:
-  Error at(const XMLElement& element, std::string_view what) const {
-    return line_error(name_, static_cast<std::uint64_t>(std::max(element.GetLineNum(), 0)), what);
-  }
-
-  Error no_xml(const tinyxml2::XMLDocument& document) const {
-    // "XML_ERROR_MISMATCHED_ELEMENT": words of the library, never of the file.
-    std::string words = document.ErrorName();
-    if (words.starts_with("XML_")) words.erase(0, 4);
-    if (words.starts_with("ERROR_")) words.erase(0, 6);
-    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
-      return line_error(name_, static_cast<std::uint64_t>(std::max(document.ErrorLineNum(), 0)),
-                        "this is no URDF: its elements are nested too deeply");
-    }
-    for (char& c : words) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const auto line = static_cast<std::uint64_t>(std::max(document.ErrorLineNum(), 0));
-    return line_error(name_, line, fmt::format("this is no well-formed XML: {}", words));
-  }
+  Error at(const XMLElement& element, std::string_view what) const { return element_error(name_, element, what); }
 
   Status read_links(const XMLElement& root) {
     for (const XMLElement* e = root.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
@@ -160,7 +106,8 @@ class UrdfReader {
     const char* text = element.Attribute(attribute);
     if (text == nullptr) return at(element, fmt::format("a <{}> has no {}", element.Name(), attribute));
     Point numbers = {0, 0, 0};
-    if (Status status = read_numbers(element, attribute, text, 1, numbers); !status) return status;
+    if (Status status = read_numbers(name_, element, attribute, text, std::span(numbers).first(1)); !status)
+      return status;
     length = numbers[0];
     return check_positive(element, attribute, numbers, 1);
   }
@@ -188,26 +135,7 @@ class UrdfReader {
   /// Leaves `numbers` unchanged if the attribute is missing.
   Status read_triple(const XMLElement& element, const char* attribute, Point& numbers) {
     const char* text = element.Attribute(attribute);
-    return text == nullptr ? Status() : read_numbers(element, attribute, text, 3, numbers);
-  }
-
-  Status read_numbers(const XMLElement& element, const char* attribute, std::string_view text, std::size_t count,
-                      Point& numbers) {
-    const auto fault = [&](std::string_view what) {
-      const char* hint = text.find("${") == text.npos ? "" : "; expand the file with xacro first";
-      return at(element, fmt::format("{} of <{}>: {}{}", attribute, element.Name(), what, hint));
-    };
-    TextScanner scanner(text, 0, false);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::string_view word = scanner.word_across_lines();
-      if (word.empty()) return fault(fmt::format("{} has {} of {} numbers", quoted(text), i, count));
-      std::string_view why;
-      if (!parse_coordinate(word, numbers[i], why)) return fault(fmt::format("{} {}", quoted(word), why));
-    }
-    if (!scanner.word_across_lines().empty()) {
-      return fault(fmt::format("{} has more than {}", quoted(text), count == 1 ? "one number" : "three numbers"));
-    }
-    return {};
+    return text == nullptr ? Status() : read_numbers(name_, element, attribute, text, numbers);
   }
 
   Status read_joints(const XMLElement& root) {
@@ -219,7 +147,7 @@ class UrdfReader {
       if (Status status = read_origin(*e, joint.origin); !status) return status;
       robot_.joints.push_back(std::move(joint));
     }
-    return {};
+    return detail_ == UrdfDetail::kMotion ? read_motions(root, name_, robot_.joints) : Status();
   }
 
   Status read_end(const XMLElement& joint, const char* end, std::uint32_t& link) {
@@ -258,15 +186,16 @@ class UrdfReader {
   }
 
   const std::string& name_;
+  UrdfDetail detail_;
   Robot robot_;
   std::map<std::string, std::uint32_t, std::less<>> numbers_;  // of links, by name
 };
 
 }  // namespace
 
-Result<Robot> read_urdf(std::string_view bytes, const std::string& name) {
+Result<Robot> read_urdf(std::string_view bytes, const std::string& name, UrdfDetail detail) {
   if (bytes.empty()) return file_error(name, "the file is empty");
-  return UrdfReader(name).read(bytes);
+  return UrdfReader(name, detail).read(bytes);
 }
 
 Result<std::string> read_urdf_bytes(const std::string& path) {
@@ -286,10 +215,10 @@ Result<std::string> read_urdf_bytes(const std::string& path) {
   return bytes;
 }
 
-Result<Robot> read_urdf_file(const std::string& path) {
+Result<Robot> read_urdf_file(const std::string& path, UrdfDetail detail) {
   const Result<std::string> bytes = read_urdf_bytes(path);
   if (!bytes) return bytes.error();
-  return read_urdf(bytes.value(), path);
+  return read_urdf(bytes.value(), path, detail);
 }
 
 }  // namespace medial_vk

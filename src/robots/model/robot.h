@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,11 +29,25 @@ struct Link {
   std::vector<Geometry> visual;
 };
 
+enum class JointKind { kFixed, kRevolute, kContinuous, kPrismatic };
+
+/// The position of a joint that follows another one: multiplier times its position, plus the offset.
+struct Mimic {
+  std::uint32_t joint = 0;  ///< Index of the other joint.
+  double multiplier = 1, offset = 0;
+};
+
 struct Joint {
   std::string name;
   std::uint32_t parent = 0;  ///< Index of a link.
   std::uint32_t child = 0;
   Pose origin;  ///< From the child's frame to the parent's, at position zero.
+  // With UrdfDetail::kMotion:
+  JointKind kind = JointKind::kFixed;
+  Point axis = {1, 0, 0};  ///< A unit vector in the child's frame: of the rotation, or of the shift.
+  /// Of revolute and prismatic joints, in radians and metres.
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  std::optional<Mimic> mimic;
 };
 
 struct Robot {
