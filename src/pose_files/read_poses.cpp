@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <optional>
 
 #include "base/quoted.h"
+#include "input/csv_lines.h"
 #include "input/text_scanner.h"
 
 namespace medial_vk {
@@ -21,29 +18,12 @@ constexpr std::array<std::string_view, 7> kNames = {"x", "y", "z", "qx", "qy", "
 constexpr std::size_t kShift = 3;  // the first names are the shift
 constexpr double kLargest = 1e18;  // distances are computed up to here
 
-std::string_view trimmed(std::string_view word) {
-  const std::size_t first = word.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return word.substr(first, word.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// The words between commas; the separator of lines is not among them.
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t begin = 0;;) {
-    const std::size_t comma = line.find(',', begin);
-    words.push_back(trimmed(line.substr(begin, comma - begin)));
-    if (comma == std::string_view::npos) return words;
-    begin = comma + 1;
-  }
-}
-
 class PoseTable {
  public:
   explicit PoseTable(std::string name) : name_(std::move(name)) {}
 
   Status read_names(std::string_view line, std::uint64_t number) {
-    const std::vector<std::string_view> words = words_of(line);
+    const std::vector<std::string_view> words = csv_words(line);
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       const auto count = std::ranges::count(words, kNames[i]);
       if (count > 1) return line_error(name_, number, fmt::format("two columns are named {}", kNames[i]));
@@ -59,7 +39,7 @@ class PoseTable {
   }
 
   Result<Pose> read_pose(std::string_view line, std::uint64_t number) const {
-    const std::vector<std::string_view> words = words_of(line);
+    const std::vector<std::string_view> words = csv_words(line);
     if (words.size() != columns_) {
       return line_error(name_, number, fmt::format("{} values, where the first line names {}", words.size(), columns_));
     }
@@ -92,22 +72,16 @@ class PoseTable {
 }  // namespace
 
 Result<std::vector<Pose>> parse_poses(std::string_view text, const std::string& name) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   PoseTable table(name);
   std::vector<Pose> poses;
   bool has_names = false;
-  for (std::uint64_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.empty()) continue;
+  for (CsvLines lines(text); lines.next();) {
     if (!has_names) {
-      if (Status status = table.read_names(line, number); !status) return status.error();
+      if (Status status = table.read_names(lines.line(), lines.number()); !status) return status.error();
       has_names = true;
       continue;
     }
-    const Result<Pose> pose = table.read_pose(line, number);
+    const Result<Pose> pose = table.read_pose(lines.line(), lines.number());
     if (!pose) return pose.error();
     poses.push_back(pose.value());
   }
@@ -116,23 +90,9 @@ Result<std::vector<Pose>> parse_poses(std::string_view text, const std::string& 
 }
 
 Result<std::vector<Pose>> read_poses(const std::string& path) {
-  const bool is_stream = path == "-";
-  errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stream ? nullptr : std::fopen(path.c_str(), "rb"),
-                                                               [](std::FILE* file) { return std::fclose(file); });
-  std::FILE* file = is_stream ? stdin : opened.get();
-  std::string bytes;
-  if (file) {
-    std::array<char, 1 << 16> part;
-    for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), file)) > 0;) {
-      bytes.append(part.data(), count);
-    }
-  }
-  if (!file || std::ferror(file)) {
-    return file_error(is_stream ? "stdin" : path,
-                      fmt::format("cannot be read: {}", std::strerror(errno == 0 ? EIO : errno)));
-  }
-  return parse_poses(bytes, is_stream ? "stdin" : path);
+  const Result<std::string> text = read_table(path);
+  if (!text) return text.error();
+  return parse_poses(text.value(), path == "-" ? "stdin" : path);
 }
 
 }  // namespace medial_vk
