@@ -95,9 +95,10 @@ double facet_share(GeometryKind kind) {
 Mesh make_primitive(const Geometry& geometry, FacetSide side) {
   if (geometry.kind == GeometryKind::kBox) return make_box(geometry.size);
   const bool around = side == FacetSide::kCircumscribed;
-  const double share = facet_share(geometry.kind);
+  const bool is_sphere = geometry.kind == GeometryKind::kSphere;  // a capsule of length 0, with one equator
+  const double share = facet_share(is_sphere ? GeometryKind::kCapsule : geometry.kind);
   const double radius = geometry.size[0] * (around ? (1 + room(geometry)) / (1 - share) : 1 - room(geometry));
-  const double half = 0.5 * geometry.size[1];
+  const double half = is_sphere ? 0 : 0.5 * geometry.size[1];
   Revolution mesh;
   if (geometry.kind == GeometryKind::kCylinder) {
     mesh.add_ring(radius, -half);
@@ -105,7 +106,7 @@ Mesh make_primitive(const Geometry& geometry, FacetSide side) {
     return mesh.close();
   }
   for (int end : {-1, 1}) {
-    for (std::uint32_t i = 0; i <= kCapRings; ++i) {
+    for (std::uint32_t i = is_sphere && end > 0 ? 1 : 0; i <= kCapRings; ++i) {
       const double turn = 0.5 * pi * (end < 0 ? kCapRings - i : i) / kCapRings;
       const bool is_pole = end < 0 ? i == 0 : i == kCapRings;
       const double height = half + radius * std::sin(turn);

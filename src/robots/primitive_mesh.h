@@ -1,4 +1,4 @@
-// Box, cylinder and capsule as triangle meshes that keep a contract: inside the shape, or around it.
+// Box, cylinder, capsule and sphere as triangle meshes that keep a contract: inside the shape, or around it.
 #pragma once
 
 #include "medial_vk/mesh.h"
@@ -20,7 +20,8 @@ inline constexpr std::uint32_t kCapRings = 24;
 /// capsule 1 - cos(pi/96) cos(pi/96) = 1.1e-3. Circumscribed meshes are 1/(1 - share) - 1 outside. A box is exact.
 double facet_share(GeometryKind kind);
 
-/// A closed mesh of a box, cylinder or capsule in its own frame, inside or around it for any rounding.
+/// A closed mesh of a box, cylinder, capsule or sphere in its own frame, inside or around it for any rounding. The mesh
+/// of a sphere is as far from it as that of a capsule from its caps.
 Mesh make_primitive(const Geometry& geometry, FacetSide side);
 
 /// The volume of the shape itself, also of a sphere, in cubic metres. 0 for a mesh.
