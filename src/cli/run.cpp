@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/clearance/run_clearance.h"
 #include "cli/distance/run_distance.h"
 #include "cli/doctor/run_doctor.h"
 #include "cli/extract/run_extract.h"
@@ -45,12 +46,14 @@ Command command_of(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Command::kExtract;
   if (arguments[0] == "spheres") return Command::kSpheres;
   if (arguments[0] == "distance") return Command::kDistance;
+  if (arguments[0] == "clearance") return Command::kClearance;
   return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
 }
 
 Status parse_and_run(Command command, const std::vector<std::string>& arguments) {
   if (command == Command::kSpheres) return run_spheres({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDistance) return run_distance({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();

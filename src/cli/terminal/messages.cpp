@@ -88,6 +88,7 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
     case Command::kRobotSpheres:
       return parameter.robot_spheres;
     case Command::kDistance:
+    case Command::kClearance:
       return parameter.distance;
     case Command::kDoctor:
       return parameter.doctor;
@@ -104,6 +105,8 @@ const char* name_of(Command command) {
       return "medial-vk spheres";
     case Command::kDistance:
       return "medial-vk distance";
+    case Command::kClearance:
+      return "medial-vk clearance";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

@@ -19,6 +19,7 @@ enum class Command {
   kSpheres,       ///< medial-vk spheres, of a mesh
   kRobotSpheres,  ///< medial-vk spheres, of a robot
   kDistance,      ///< medial-vk distance
+  kClearance,     ///< medial-vk clearance
   kDoctor,        ///< medial-vk doctor
 };
 
@@ -28,7 +29,7 @@ struct ParameterWords {
   std::string_view parameter;
   std::string_view extract, spheres, robot_spheres;
   std::string_view doctor = {};    ///< Of few: its small extraction has options that cannot be at fault.
-  std::string_view distance = {};  ///< Of few.
+  std::string_view distance = {};  ///< Of few. Those of clearance have the same names.
 };
 
 /// Every parameter that messages of the library name.

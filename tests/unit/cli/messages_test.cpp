@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/options/clearance_options.h"
 #include "cli/options/distance_options.h"
 #include "cli/options/doctor_options.h"
 #include "cli/options/options.h"
@@ -123,6 +124,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");
+  EXPECT_EQ(printed(Command::kClearance), "medial-vk: no\nTry medial-vk clearance --help.\n");
   EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }
 
@@ -155,12 +157,14 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
   const std::set<std::string> of_extract = options_in(help_text()), of_spheres = options_in(spheres_help_text());
   const std::set<std::string> of_doctor = options_in(doctor_help_text());
   const std::set<std::string> of_distance = options_in(distance_help_text());
+  const std::set<std::string> of_clearance = options_in(clearance_help_text());
   for (const ParameterWords& parameter : parameter_words()) {
     EXPECT_THAT(of_extract, testing::IsSupersetOf(options_in(std::string(parameter.extract))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.spheres))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.robot_spheres))));
     EXPECT_THAT(of_doctor, testing::IsSupersetOf(options_in(std::string(parameter.doctor))));
     EXPECT_THAT(of_distance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
+    EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
   }
 }
 

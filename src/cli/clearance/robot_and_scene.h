@@ -1,0 +1,41 @@
+// What `medial-vk clearance` compares: the solids of links and scene, and the pairs of links.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/options/clearance_options.h"
+#include "medial_vk/body_group.h"
+#include "medial_vk/measurements.h"
+#include "medial_vk/result.h"
+#include "robots/link_solids.h"
+#include "robots/model/kinematics.h"
+#include "robots/model/robot.h"
+
+namespace medial_vk::cli {
+
+/// A robot in its surroundings. The files of the scene are further links, after those of the robot.
+struct RobotAndScene {
+  Robot robot;
+  LinkSolids solids;
+  std::vector<std::string> names;          ///< Of links, then of files.
+  std::vector<LinkPair> joined, touching;  ///< Links that are not compared, unless there is an SRDF,
+  std::vector<LinkPair> from_srdf;         ///< and those that it names.
+  std::vector<LinkPair> pairs;             ///< Those that are compared.
+
+  std::size_t links() const { return names.size(); }
+};
+
+/// Reads the robot, the meshes of its links and the scene. Errors: kInvalidMesh, kUsage, kOutOfMemory, kInterrupted.
+Result<RobotAndScene> load_robot_and_scene(const ClearanceOptions& options, std::vector<StageTime>& times);
+
+/// Fills the lists of pairs. Links that joints do not move relative to the root are not compared with the scene.
+/// `parts` are the bodies of solids.around. Errors: kInvalidMesh, kInterrupted.
+Status find_pairs(const ClearanceOptions& options, const Kinematics& kinematics, std::span<const GroupPart> parts,
+                  RobotAndScene& all, const ProgressCallback& progress, const std::stop_token& stop);
+
+/// The SRDF of `--write-srdf`.
+std::string encode_left_out(const RobotAndScene& all);
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,76 @@
+// The text of `medial-vk clearance --help`.
+#include <string>
+
+#include "cli/options/clearance_options.h"
+
+namespace medial_vk::cli {
+
+std::string clearance_help_text() {
+  return R"(medial-vk clearance holds the least distance among the links of a robot and
+its surroundings, for each configuration of the joints, in an interval that
+no rounding error of distances leaves, and decides whether anything collides.
+It needs no Vulkan.
+
+Usage:
+  medial-vk clearance [options] ROBOT.urdf --joints FILE.csv
+
+Examples:
+  medial-vk clearance robot.urdf --joints joints.csv
+  medial-vk clearance robot.urdf --scene part.stl --joints joints.csv -o c.csv
+  medial-vk clearance robot.urdf --joints joints.csv --write-srdf robot.srdf -o self.csv
+  medial-vk clearance robot.urdf --joints joints.csv --srdf robot.srdf --limit 0.05
+
+What is compared:
+      --joints FILE     a table (CSV) with a configuration per line, in radians
+                        and metres. The first line names the columns, in any
+                        order: one for each joint that moves and mimics no other
+                        one; further columns are ignored; "-": standard input
+      --scene FILE      a mesh that the robot must not touch, in metres, in the
+                        frame of the robot's root; as often as needed
+      --srdf FILE       compare all pairs of links but those of the elements
+                        <disable_collisions> (default: all but those that a
+                        joint joins, that never move relative to each other, or
+                        that touch in each of 256 configurations within limits)
+      --visual          the visual shapes of the links, not those for collisions
+      --package NAME=FOLDER  where package://NAME is; as often as needed. Others
+                        are searched along ROS_PACKAGE_PATH and
+                        AMENT_PREFIX_PATH, and around the URDF
+
+What is computed:
+      --tolerance T     intervals may be as wide as T, in metres (default 0: as
+                        narrow as rounding allows)
+      --limit L         prove no more than that a distance is at least L
+      --keep-inner-faces
+                        take faces inside a solid, such as those of a part that
+                        reaches into another one, for its boundary, too
+      --check           also test every interval against all pairs of triangles
+                        of all pairs of links, by the independent CPU reference;
+                        seconds a configuration for large meshes; exit code 7 if
+                        one is wrong
+
+Output:
+  -o, --output FILE     a .csv; "-": standard output (default). A line per
+                        configuration: its number, the state (free, hit or
+                        undecided), lower and upper end of the interval, and
+                        the two links, or link and scene file, that gave it
+      --write-srdf FILE a .srdf with the pairs of links that were not compared
+      --threads N       CPU threads, 0 for all (default 0)
+
+Other:
+  -q, --quiet           only errors
+  -v, --verbose         also the pairs of links that always touch, and the time
+                        of each step
+  -h, --help            print this and exit
+
+Free: no compared solids have a common point. Hit: two of them have one.
+Undecided: neither is proved: they may touch, to within rounding, the tolerance,
+or the facets that stand for cylinders, capsules and spheres. A mesh that is not
+closed counts as a surface that encloses nothing. Files appear whole or not at
+all.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 a file unreadable or
+invalid, 5 out of memory, 6 cannot write, 7 --check failed, 130 interrupted.
+)";
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,67 @@
+// The command line of `medial-vk clearance` as a struct. Names and exit codes are a contract with scripts
+// (docs/command-line.md).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/options/output_names.h"
+#include "medial_vk/body_group.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk::cli {
+
+struct ClearanceOptions {
+  bool help = false;
+  std::string robot;                  ///< A URDF.
+  std::vector<std::string> scenes;    ///< Meshes in the frame of the robot's root.
+  std::vector<std::string> packages;  ///< "name=folder".
+  std::string joints;                 ///< A table of positions; "-": standard input.
+  std::string srdf;                   ///< Pairs of links that are not compared; empty: they are found.
+  std::string write_srdf;             ///< For the pairs that were not compared; empty: none; "-": standard output.
+  std::string output;                 ///< "-": standard output.
+
+  double tolerance = 0;
+  double limit = 0;     ///< 0: none.
+  bool visual = false;  ///< Visual shapes of links instead of those for collisions.
+  bool keep_inner_faces = false;
+  unsigned threads = 0;
+  bool check = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const ClearanceOptions&) const = default;
+};
+
+/// In the form that the library takes.
+GroupOptions group_options(const ClearanceOptions& options);
+
+/// `arguments` without the program's name and without "clearance". Errors: kUsage with a message that names the option.
+Result<ClearanceOptions> parse_clearance_options(const std::vector<std::string>& arguments);
+
+/// Parses many command lines, as OptionParser does.
+class ClearanceOptionParser {
+ public:
+  ClearanceOptionParser();
+  ~ClearanceOptionParser();
+  ClearanceOptionParser(const ClearanceOptionParser&) = delete;
+  ClearanceOptionParser& operator=(const ClearanceOptionParser&) = delete;
+
+  Result<ClearanceOptions> parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct Declared;  // keeps CLI11 out of this header
+  std::unique_ptr<Declared> declared_;
+};
+
+/// Every file to be written, with its option.
+std::vector<NamedOutput> outputs_of(const ClearanceOptions& options);
+
+/// Every file to be read that the command line names.
+std::vector<std::string> inputs_of(const ClearanceOptions& options);
+
+/// The output of `medial-vk clearance --help`.
+std::string clearance_help_text();
+
+}  // namespace medial_vk::cli

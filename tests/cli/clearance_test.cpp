@@ -1,0 +1,310 @@
+// `medial-vk clearance` from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+#include "tool_test.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::ToolCall;
+using test::ToolResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// The rounding of least_distance() for sums of lengths below 20: some 2e-14 of them for the distance, and 3 defects of
+/// rotations, of 108 * 2^-53 each, plus 40 * 2^-53 for the relative pose; twice that is less than 3e-12.
+constexpr double kRounding = 3e-12;
+constexpr const char* kClearanceColumns = "configuration,state,lower,upper,first,second\n";
+
+struct ClearanceLine {
+  std::string state;
+  double lower = 0, upper = 0;
+  std::string first, second;
+};
+
+std::vector<ClearanceLine> clearances_in(const std::string& table) {
+  EXPECT_THAT(table, StartsWith(kClearanceColumns));
+  std::vector<ClearanceLine> lines;
+  std::istringstream text(table);
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    std::istringstream in(line + ",");
+    std::vector<std::string> words;
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    EXPECT_EQ(words.size(), 6u) << line;
+    if (words.size() != 6) continue;
+    EXPECT_EQ(words[0], std::to_string(lines.size() + 1));
+    lines.push_back({words[1], std::stod(words[2]), std::stod(words[3]), words[4], words[5]});
+  }
+  return lines;
+}
+
+std::vector<std::string> states_in(const std::string& table) {
+  std::vector<std::string> states;
+  for (const ClearanceLine& line : clearances_in(table)) states.push_back(line.state);
+  return states;
+}
+
+/// A unit box, a small one that slides and turns inside it, and a unit box that this carries, which comes out and moves
+/// to the right. A link without a shape is between the first two.
+constexpr const char* kRobot = R"(<robot name="rail">
+<link name="base"><collision><geometry><mesh filename="box.obj"/></geometry></collision></link>
+<link name="between"/>
+<link name="slider"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+<link name="hand"><collision><origin xyz="1.5 0 0"/><geometry><box size="1 1 1"/></geometry></collision></link>
+<joint name="slide" type="prismatic"><parent link="base"/><child link="between"/><axis xyz="1 0 0"/>
+  <limit lower="-0.25" upper="0.25"/></joint>
+<joint name="turn" type="continuous"><parent link="between"/><child link="slider"/><origin xyz="0.5 0.5 0.5"/>
+  <axis xyz="0 0 1"/></joint>
+<joint name="reach" type="prismatic"><parent link="slider"/><child link="hand"/><axis xyz="1 0 0"/>
+  <limit lower="-1" upper="3"/></joint>
+</robot>)";
+
+class ClearanceCommand : public test::ToolTest {
+ protected:
+  ClearanceCommand() {
+    Mesh box = test::make_box({1, 1, 1}), wall = box;
+    test::translate(wall, {5, 0, 0});
+    test::write_file(path("box.obj"), test::to_obj(box));
+    test::write_file(path("wall.obj"), test::to_obj(wall));
+    test::write_file(path("rail.urdf"), kRobot);
+    test::write_file(path("q.csv"), "slide,turn,reach\n0,0,0\n0.25,0,-1\n0,0,1.5\n0,0,3\n");
+  }
+
+  ToolResult clearance(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "clearance");
+    return run(std::move(arguments));
+  }
+};
+
+TEST_F(ClearanceCommand, HelpGoesToStandardOutput) {
+  const ToolResult help = clearance({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, StartsWith("medial-vk clearance "));
+  EXPECT_THAT(help.err, IsEmpty());
+  EXPECT_THAT(run({"--help"}).out, HasSubstr("medial-vk clearance"));
+}
+
+/// The hand is 0.5 to the right of the box of the base, plus slide and reach.
+TEST_F(ClearanceCommand, LinksAmongEachOther) {
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<ClearanceLine> lines = clearances_in(result.out);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_THAT(states_in(result.out), ElementsAre("free", "hit", "free", "free"));
+  const double expected[] = {0.5, 0, 2, 3.5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LE(lines[i].lower, expected[i]);
+    EXPECT_GE(lines[i].upper, expected[i]);
+    EXPECT_LT(lines[i].upper - lines[i].lower, 2 * kRounding);
+    EXPECT_EQ(lines[i].first, "base");
+    EXPECT_EQ(lines[i].second, "hand");
+  }
+  EXPECT_THAT(result.err, HasSubstr("rail.urdf: 4 links, 3 free joints, 3 solids\n"));
+  EXPECT_THAT(result.err, HasSubstr("1 compared; 1 joined and 1 that always touch are not\n"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("states +3 free, 1 hit, 0 undecided\n"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("least +0 \\(configuration 2, base and hand\\)\n"));
+  EXPECT_THAT(clearance({"rail.urdf", "--joints", "q.csv", "-v"}).err,
+              testing::AllOf(testing::ContainsRegex("touch +base and slider\n"), testing::ContainsRegex("pairs .* s")));
+}
+
+TEST_F(ClearanceCommand, TheSceneIsInTheFrameOfTheRoot) {
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv", "--scene", "wall.obj", "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  const std::vector<ClearanceLine> lines = clearances_in(result.out);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[2].first, "hand");
+  EXPECT_EQ(lines[2].second, "wall.obj");
+  EXPECT_NEAR(lines[2].lower, 1, kRounding);
+  EXPECT_EQ(lines[3].state, "hit");
+  EXPECT_EQ(lines[0].second, "hand");
+}
+
+TEST_F(ClearanceCommand, AnSrdfNamesThePairsThatAreLeftOut) {
+  const ToolResult found = clearance({"rail.urdf", "--joints", "q.csv", "--write-srdf", "r.srdf", "-o", "c.csv"});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_THAT(found.out, IsEmpty());
+  const std::string srdf = read_file(path("r.srdf"));
+  EXPECT_THAT(srdf, HasSubstr("<disable_collisions link1=\"slider\" link2=\"hand\" reason=\"Adjacent\"/>"));
+  EXPECT_THAT(srdf, HasSubstr("<disable_collisions link1=\"base\" link2=\"slider\" reason=\"Always\"/>"));
+  const ToolResult again = clearance({"rail.urdf", "--joints", "q.csv", "--srdf", "r.srdf"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, read_file(path("c.csv")));
+  test::write_file(path("none.srdf"), "<robot name='rail'/>");
+  const ToolResult all = clearance({"rail.urdf", "--joints", "q.csv", "--srdf", "none.srdf"});
+  EXPECT_THAT(states_in(all.out), ElementsAre("hit", "hit", "hit", "hit"));
+}
+
+TEST_F(ClearanceCommand, MimicsFollowAndLimitsAreNoted) {
+  std::string robot = kRobot;
+  const std::string limit = "<limit lower=\"-1\" upper=\"3\"/>";
+  robot.replace(robot.find(limit), limit.size(), limit + "<mimic joint='slide' multiplier='2' offset='1'/>");
+  test::write_file(path("mimic.urdf"), robot);
+  test::write_file(path("slide.csv"), "turn,slide,reach\n0,0,100\n0,0.5,100\n");
+  const ToolResult result = clearance({"mimic.urdf", "--joints", "slide.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<ClearanceLine> lines = clearances_in(result.out);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NEAR(lines[0].upper, 1.5, kRounding);
+  EXPECT_NEAR(lines[1].upper, 3, kRounding);
+  EXPECT_THAT(result.err, testing::ContainsRegex("limits +beyond them in 1 configuration\n"));
+}
+
+/// Facets around the sphere prove the lower end, those inside it the upper one.
+TEST_F(ClearanceCommand, ASphereIsBetweenItsFacets) {
+  test::write_file(path("ball.urdf"), R"(<robot name="b"><link name="a"/>
+<link name="ball"><collision><geometry><sphere radius="0.5"/></geometry></collision></link>
+<joint name="x" type="prismatic"><parent link="a"/><child link="ball"/><limit lower="-9" upper="9"/></joint></robot>)");
+  test::write_file(path("x.csv"), "x\n2\n4.4998\n4.6\n");
+  test::write_file(path("tall.obj"), test::to_obj([] {
+                     Mesh tall = test::make_box({1, 4, 4});
+                     test::translate(tall, {5, -2, -2});
+                     return tall;
+                   }()));
+  const ToolResult result =
+      clearance({"ball.urdf", "--joints", "x.csv", "--scene", "tall.obj", "--check", "-o", "c.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  const std::vector<ClearanceLine> lines = clearances_in(read_file(path("c.csv")));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0].state, "free");
+  EXPECT_LE(lines[0].lower, 2.5);
+  EXPECT_GE(lines[0].upper, 2.5);
+  EXPECT_LT(lines[0].upper - lines[0].lower, 0.0012);
+  EXPECT_EQ(lines[1].state, "undecided");
+  EXPECT_EQ(lines[2].state, "hit");
+  EXPECT_THAT(result.err, HasSubstr("between facets"));
+}
+
+TEST_F(ClearanceCommand, CheckPassesAndItsTableIsTheResult) {
+  const ToolResult result =
+      clearance({"rail.urdf", "--joints", "q.csv", "--scene", "wall.obj", "--check", "-o", "c.csv", "--limit", "1.75"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.out, StartsWith("condition "));
+  EXPECT_THAT(result.out, testing::ContainsRegex("\nlower end <= least distance [^\n]* 4 +0 "));
+  EXPECT_THAT(result.out, testing::ContainsRegex("\nhit: some have one +2 +0 "));
+}
+
+TEST_F(ClearanceCommand, ToleranceAndLimitWidenTheInterval) {
+  const std::vector<ClearanceLine> limited =
+      clearances_in(clearance({"rail.urdf", "--joints", "q.csv", "--limit", "1"}).out);
+  ASSERT_EQ(limited.size(), 4u);
+  EXPECT_NEAR(limited[0].upper, 0.5, kRounding);
+  EXPECT_GE(limited[3].lower, 1);
+  EXPECT_EQ(limited[3].state, "free");
+  const std::vector<ClearanceLine> tolerant =
+      clearances_in(clearance({"rail.urdf", "--joints", "q.csv", "--tolerance", "0.1"}).out);
+  ASSERT_EQ(tolerant.size(), 4u);
+  EXPECT_LE(tolerant[0].lower, 0.5);
+  EXPECT_GE(tolerant[0].upper, 0.5);
+  EXPECT_LE(tolerant[0].upper - tolerant[0].lower, 0.1 + kRounding);
+}
+
+TEST_F(ClearanceCommand, TheSameBytesOnAnyNumberOfThreads) {
+  std::string q = "slide,turn,reach\n";
+  for (int i = 0; i < 300; ++i) q += "0.1," + std::to_string(i) + "," + std::to_string(i % 7 - 1) + "\n";
+  ToolCall call_one = call({"clearance", "rail.urdf", "--joints", "-", "--threads", "1"});
+  call_one.standard_input = q;
+  const ToolResult one = test::run_tool(call_one);
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(std::ranges::count(one.out, '\n'), 301);
+  call_one.arguments.back() = "3";
+  EXPECT_EQ(test::run_tool(call_one).out, one.out);
+}
+
+TEST_F(ClearanceCommand, WrongUsageIs2) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"rail.urdf"},
+                                                    {"box.obj", "--joints", "q.csv"},
+                                                    {"rail.urdf", "--joints", "q.csv", "--package", "x"},
+                                                    {"rail.urdf", "--joints", "q.csv", "-o", "q.csv"}}) {
+    const ToolResult result = clearance(arguments);
+    EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments) << result.err;
+    EXPECT_THAT(result.out, IsEmpty());
+    EXPECT_THAT(result.err, HasSubstr("\nTry medial-vk clearance --help.\n"));
+  }
+}
+
+TEST_F(ClearanceCommand, UnreadableFilesAre3AndSayWhy) {
+  test::write_file(path("bad.csv"), "slide,turn,reach\n0,0,0\n0,zero,0\n");
+  test::write_file(path("few.csv"), "slide,turn\n0,0\n");
+  test::write_file(path("far.csv"), "slide,turn,reach\n1e18,0,1e18\n");
+  test::write_file(path("bad.srdf"), "<robot>\n<disable_collisions link1='base' link2='foot'/></robot>");
+  test::write_file(path("floats.urdf"),
+                   "<robot><link name='a'/><link name='b'/>\n<joint type='floating'>"
+                   "<parent link='a'/><child link='b'/></joint></robot>");
+  const auto fails_with = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const ToolResult result = clearance(arguments);
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.out, IsEmpty());
+    EXPECT_THAT(result.err, HasSubstr(message));
+  };
+  fails_with({"none.urdf", "--joints", "q.csv"}, "medial-vk: none.urdf: cannot be read: No such file or directory\n");
+  fails_with({"floats.urdf", "--joints", "q.csv"}, "medial-vk: floats.urdf:2: the type \"floating\" of a joint");
+  fails_with({"rail.urdf", "--joints", "none.csv"}, "medial-vk: none.csv: cannot be read");
+  fails_with({"rail.urdf", "--joints", "bad.csv"}, "medial-vk: bad.csv:3: \"turn\": \"zero\" is not a number\n");
+  fails_with({"rail.urdf", "--joints", "few.csv"}, "medial-vk: few.csv:1: there is no column for the joint \"reach\"");
+  fails_with({"rail.urdf", "--joints", "q.csv", "--scene", "none.obj"}, "medial-vk: none.obj: ");
+  fails_with({"rail.urdf", "--joints", "q.csv", "--srdf", "bad.srdf", "-o", "c.csv"},
+             "medial-vk: bad.srdf:2: the robot has no link \"foot\"\n");
+  // Whether a file is written depends on all of them.
+  EXPECT_THAT(folder_.names(), Not(testing::Contains("c.csv")));
+  // Beyond the range of distances nothing is proved.
+  const ToolResult far = clearance({"rail.urdf", "--joints", "far.csv", "-q"});
+  EXPECT_EQ(far.exit_code, 0) << far.err;
+  EXPECT_THAT(states_in(far.out), ElementsAre("undecided"));
+}
+
+TEST_F(ClearanceCommand, LimitsBeyondNumbersLeaveNoPairOut) {
+  std::string robot = kRobot;
+  const std::string limits = "lower=\"-0.25\" upper=\"0.25\"";
+  robot.replace(robot.find(limits), limits.size(), "lower=\"-1e30\" upper=\"1e30\"");
+  test::write_file(path("far.urdf"), robot);
+  const ToolResult result = clearance({"far.urdf", "--joints", "q.csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 compared; 1 joined and 0 that always touch are not"));
+  const std::string limit = "lower=\"-1e30\"";
+  robot.replace(robot.find(limit), limit.size(), "lower=\"1e308\"");
+  robot.replace(robot.find("upper=\"1e30\""), 12, "upper=\"1e308\"");
+  const std::string reach = "lower=\"-1\" upper=\"3\"";
+  robot.replace(robot.find(reach), reach.size(), "lower=\"1e308\" upper=\"1e308\"");
+  const std::string axis = "<axis xyz=\"0 0 1\"/>";
+  robot.replace(robot.find(axis), axis.size(), "<axis xyz=\"1 0 0\"/>");
+  test::write_file(path("farther.urdf"), robot);
+  const ToolResult farther = clearance({"farther.urdf", "--joints", "q.csv"});
+  EXPECT_EQ(farther.exit_code, 3);
+  EXPECT_THAT(farther.err, HasSubstr("medial-vk: farther.urdf: within the limits of the joints, the pose of the link"));
+}
+
+TEST_F(ClearanceCommand, AnOpenMeshIsASurface) {
+  Mesh open = test::make_box({20, 20, 20});
+  test::translate(open, {-9, -9, -9});
+  open.triangles.pop_back();
+  test::write_file(path("open.obj"), test::to_obj(open));
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv", "--scene", "open.obj"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::ContainsRegex("open +1 mesh is not closed"));
+  EXPECT_THAT(states_in(result.out), ElementsAre("free", "hit", "free", "free"));
+}
+
+TEST_F(ClearanceCommand, CannotWriteIs6) {
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv", "-o", "no/such/folder/c.csv"});
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_THAT(result.err, StartsWith("medial-vk: cannot write no/such/folder/c.csv"));
+}
+
+}  // namespace
+}  // namespace medial_vk

@@ -1,0 +1,104 @@
+// The command line of `medial-vk clearance`: defaults, ranges, files that collide, and helpful messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cli/options/clearance_options.h"
+#include "unit/cli/parse_results.h"
+
+namespace medial_vk::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ClearanceOptions parsed_clearance(const std::vector<std::string>& arguments) {
+  return value_of(parse_clearance_options(arguments), arguments);
+}
+
+std::string clearance_message(const std::vector<std::string>& arguments) {
+  return message_of(parse_clearance_options(arguments), arguments);
+}
+
+TEST(ClearanceOptions, Defaults) {
+  ClearanceOptions expected;
+  expected.robot = "r.urdf";
+  expected.joints = "q.csv";
+  expected.output = "-";
+  const ClearanceOptions options = parsed_clearance({"r.urdf", "--joints", "q.csv"});
+  EXPECT_EQ(options, expected);
+  const GroupOptions of_library = group_options(options);
+  EXPECT_TRUE(of_library.exact);
+  EXPECT_EQ(of_library.tolerance, 0);
+  EXPECT_EQ(of_library.limit, std::numeric_limits<double>::infinity());
+}
+
+TEST(ClearanceOptions, AllAtOnce) {
+  const ClearanceOptions options = parsed_clearance({"--scene",
+                                                     "a.obj",
+                                                     "r.URDF",
+                                                     "--scene",
+                                                     "b.stl",
+                                                     "--joints",
+                                                     "-",
+                                                     "--package",
+                                                     "p=/x",
+                                                     "--package",
+                                                     "q=/y",
+                                                     "--srdf",
+                                                     "r.srdf",
+                                                     "--write-srdf",
+                                                     "w.srdf",
+                                                     "-o",
+                                                     "c.csv",
+                                                     "--tolerance",
+                                                     "0.5",
+                                                     "--limit",
+                                                     "2",
+                                                     "--visual",
+                                                     "--keep-inner-faces",
+                                                     "--check",
+                                                     "--threads",
+                                                     "3",
+                                                     "-v"});
+  ClearanceOptions expected;
+  expected.robot = "r.URDF";
+  expected.scenes = {"a.obj", "b.stl"};
+  expected.packages = {"p=/x", "q=/y"};
+  expected.joints = "-";
+  expected.srdf = "r.srdf";
+  expected.write_srdf = "w.srdf";
+  expected.output = "c.csv";
+  expected.tolerance = 0.5;
+  expected.limit = 2;
+  expected.visual = expected.keep_inner_faces = expected.check = expected.verbose = true;
+  expected.threads = 3;
+  EXPECT_EQ(options, expected);
+  EXPECT_EQ(group_options(options).limit, 2);
+  EXPECT_EQ(group_options(options).tolerance, 0.5);
+  EXPECT_THAT(inputs_of(options), ElementsAre("a.obj", "b.stl", "r.URDF", "-", "r.srdf"));
+  EXPECT_TRUE(parsed_clearance({"--help"}).help);
+}
+
+TEST(ClearanceOptions, Messages) {
+  EXPECT_THAT(clearance_message({}), HasSubstr("ROBOT.urdf"));
+  EXPECT_THAT(clearance_message({"r.obj", "--joints", "q.csv"}), HasSubstr("'r.obj' does not end in .urdf"));
+  EXPECT_THAT(clearance_message({"r.urdf"}), HasSubstr("--joints FILE.csv"));
+  EXPECT_THAT(clearance_message({"r.urdf", "s.urdf", "--joints", "q.csv"}), HasSubstr("one robot at a time"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "-", "--scene", "-"}), HasSubstr("standard input"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--srdf", "-"}), HasSubstr("--srdf"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--limit", "0"}), HasSubstr("--limit"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--tolerance", "-1"}), HasSubstr("--tolerance"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "-o", "c.json"}), HasSubstr(".csv"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--write-srdf", "c.xml"}), HasSubstr(".srdf"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "-o", "q.csv"}), HasSubstr("overwrite the input"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--srdf", "r.srdf", "--write-srdf", "r.srdf"}),
+              HasSubstr("overwrite the input"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--write-srdf", "-"}), HasSubstr("same file"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "-q", "-v"}), HasSubstr("-q and -v"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joint", "q.csv"}), HasSubstr("did you mean --joints?"));
+}
+
+}  // namespace
+}  // namespace medial_vk::cli
