@@ -33,6 +33,7 @@ NOT_RUN = {
     r"node tests/page/look.mjs PAGE": "names no file; with files it is run",
     r"medial-vk spheres( MESH| ROBOT.urdf)?$": "names the command; a run of it has a goal",
     r"medial-vk distance( A B)?$": "names the command; a run of it has two meshes",
+    r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
     r"medial-vk VERSION": "is not a command but a comment of the PLY",
     r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
@@ -67,7 +68,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"], ["distance"], ["doctor"]):
+    for words in ([], ["spheres"], ["distance"], ["clearance"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -85,8 +86,8 @@ def outputs_of(words):
     if program == "node":
         return arguments[2:3]
     files = [b for a, b in zip(arguments, arguments[1:])
-             if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram")]
-    if arguments[:1] == ["distance"]:
+             if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf")]
+    if arguments[:1] in (["distance"], ["clearance"]):
         return files
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
@@ -147,6 +148,7 @@ class Folder:
             shutil.copy(self.path / "turtle.obj", self.path / name)
         self.write_part()
         (self.path / "poses.csv").write_text("x,y,z,qx,qy,qz,qw\n3,0,0,0,0,0,1\n0,4,0,0.6,0,0,0.8\n")
+        (self.path / "joints.csv").write_text("joint1,joint2,joint3,joint4,joint5,joint6\n0,0,0,0,0,0\n0.5,1,-1,0.25,0,1\n")
         self.call(["make_arm.py", "."])
         shutil.copytree(self.path / "robot_arm/meshes", self.path / "meshes")
         for name in ("arm.urdf", "robot.urdf"):
