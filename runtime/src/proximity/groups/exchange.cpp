@@ -80,10 +80,9 @@ class Exchange {
     for (std::size_t q = 0; q < parts_.size(); ++q) {
       if (q != p) order.emplace_back(reach(parts_[q], i) - parts_[q].radius, q);
     }
-    const std::size_t count = std::min(kNearParts, order.size());
-    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+    std::ranges::sort(order);
     std::vector<std::size_t> chosen;
-    for (std::size_t k = 0; k < count; ++k) chosen.push_back(order[k].second);
+    for (std::size_t k = 0; k < std::min(kNearParts, order.size()); ++k) chosen.push_back(order[k].second);
     return chosen;
   }
 
