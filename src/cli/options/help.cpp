@@ -17,7 +17,7 @@ Usage:
                                or of a robot's links: medial-vk spheres --help
   medial-vk distance [options] A B   the distance between two solids, in many
                                poses: medial-vk distance --help
-  medial-vk clearance [options] ROBOT.urdf   the same among the links of a robot:
+  medial-vk clearance [options] ROBOT.urdf   the same among links of a robot:
                                medial-vk clearance --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
