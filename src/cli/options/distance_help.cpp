@@ -19,7 +19,7 @@ Examples:
   medial-vk distance part.stl turtle.obj    where they are, as two lines of CSV
   medial-vk distance part.stl part.stl --poses poses.csv -o distances.csv
   medial-vk distance part.stl turtle.obj --tolerance 0.001 --check
-  medial-vk spheres part.stl --contract both    writes part.body.npz
+  medial-vk spheres part.stl --contract both --count 100    part.body.npz
   medial-vk distance part.body.npz part.body.npz --poses poses.csv --balls
 
 Where B is:
