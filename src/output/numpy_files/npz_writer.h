@@ -16,15 +16,15 @@ namespace medial_vk {
 template <class T>
 constexpr const char* kNumpyType = nullptr;
 template <>
-constexpr const char* kNumpyType<double> = "<f8";
+inline constexpr const char* kNumpyType<double> = "<f8";
 template <>
-constexpr const char* kNumpyType<float> = "<f4";
+inline constexpr const char* kNumpyType<float> = "<f4";
 template <>
-constexpr const char* kNumpyType<std::int32_t> = "<i4";
+inline constexpr const char* kNumpyType<std::int32_t> = "<i4";
 template <>
-constexpr const char* kNumpyType<std::uint32_t> = "<u4";
+inline constexpr const char* kNumpyType<std::uint32_t> = "<u4";
 template <>
-constexpr const char* kNumpyType<std::uint64_t> = "<u8";
+inline constexpr const char* kNumpyType<std::uint64_t> = "<u8";
 
 /// Collects arrays. They are stored, not compressed: the bytes of a compressed archive would depend on the installed
 /// zlib. The same arrays give the same bytes.
