@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
 #include "output/distance_files/distances_csv.h"
 
 namespace medial_vk::cli {
 namespace {
-
-std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
 std::string states_text(std::span<const Clearance> clearances) {
   std::string text;
@@ -32,33 +31,13 @@ std::string least_text(std::span<const Clearance> clearances) {
   return fmt::format("{} (configuration {}{})", interval, least - clearances.begin() + 1, links);
 }
 
-std::string times_text(const std::vector<StageTime>& times, bool verbose) {
-  double all = 0;
-  std::vector<StageTime> sums;
-  for (const StageTime& time : times) {
-    all += time.seconds;
-    const auto sum = std::ranges::find(sums, time.stage, &StageTime::stage);
-    if (sum == sums.end()) {
-      sums.push_back(time);
-    } else {
-      sum->seconds += time.seconds;
-    }
-  }
-  if (!verbose) return duration(all);
-  std::string steps;
-  for (const StageTime& sum : sums) {
-    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", sum.stage, duration(sum.seconds));
-  }
-  return fmt::format("{} ({})", duration(all), steps);
-}
-
 }  // namespace
 
 std::string clearance_opening(const ClearanceOptions& options, const RobotAndScene& all, std::size_t joints) {
   std::string text = fmt::format("{}: {}, {}, {}\n", options.robot, counted(all.robot.links.size(), "link", "links"),
                                  counted(joints, "free joint", "free joints"),
                                  counted(all.solids.around.size() - options.scenes.size(), "solid", "solids"));
-  if (!options.scenes.empty()) text += line("scene", counted(options.scenes.size(), "mesh", "meshes"));
+  if (!options.scenes.empty()) text += labelled("scene", counted(options.scenes.size(), "mesh", "meshes"));
   std::string pairs = fmt::format("{} compared", grouped(all.pairs.size()));
   if (options.srdf.empty()) {
     pairs += fmt::format("; {} joined and {} that always touch are not", grouped(all.joined.size()),
@@ -66,21 +45,22 @@ std::string clearance_opening(const ClearanceOptions& options, const RobotAndSce
   } else {
     pairs += fmt::format("; {} of {} are not", grouped(all.from_srdf.size()), options.srdf);
   }
-  text += line("pairs", pairs);
+  text += labelled("pairs", pairs);
   const auto open = std::ranges::count_if(all.solids.around,
                                           [](const LinkSolid& solid) { return !solid.mesh.prepared().report.closed; });
   if (open > 0) {
-    text +=
-        line("open", counted(static_cast<std::uint64_t>(open), "mesh is not closed: a surface that encloses nothing",
+    text += labelled("open",
+                     counted(static_cast<std::uint64_t>(open), "mesh is not closed: a surface that encloses nothing",
                              "meshes are not closed: surfaces that enclose nothing"));
   }
   if (all.solids.facet_share > 0) {
-    text += line("note", fmt::format("cylinders, capsules and spheres are between facets within {:.2g} of their radius",
+    text +=
+        labelled("note", fmt::format("cylinders, capsules and spheres are between facets within {:.2g} of their radius",
                                      all.solids.facet_share));
   }
   if (!options.verbose) return text;
   for (const LinkPair& pair : all.touching) {
-    text += line("touch", fmt::format("{} and {}", all.names[pair.a], all.names[pair.b]));
+    text += labelled("touch", fmt::format("{} and {}", all.names[pair.a], all.names[pair.b]));
   }
   return text;
 }
@@ -88,16 +68,16 @@ std::string clearance_opening(const ClearanceOptions& options, const RobotAndSce
 std::string clearance_summary(const ClearanceOptions& options, std::span<const Clearance> clearances,
                               std::size_t beyond, const std::vector<StageTime>& times,
                               std::span<const OutputFile> files) {
-  std::string text = line("states", states_text(clearances)) + line("least", least_text(clearances));
+  std::string text = labelled("states", states_text(clearances)) + labelled("least", least_text(clearances));
   if (beyond > 0) {
-    text += line("limits", fmt::format("beyond them in {}", counted(beyond, "configuration", "configurations")));
+    text += labelled("limits", fmt::format("beyond them in {}", counted(beyond, "configuration", "configurations")));
   }
   const auto time = std::ranges::find(times, "distances", &StageTime::stage);
   const double each = 1e6 * time->seconds / static_cast<double>(clearances.size());
-  text += line("each", fmt::format("{:.3g} microseconds a configuration", each));
-  text += line("time", times_text(times, options.verbose));
+  text += labelled("each", fmt::format("{:.3g} microseconds a configuration", each));
+  text += labelled("time", times_text(times, options.verbose));
   for (const OutputFile& file : files) {
-    if (file.path != "-") text += line("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
+    if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
   }
   return text;
 }

@@ -204,13 +204,7 @@ class ClearanceRun {
 
   Status report_check() const {
     if (!options_.check) return {};
-    const std::string table = check_table(check_);
-    if (std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; })) {
-      print_message(table);
-    } else if (Status status = print_result(table); !status) {
-      return status;
-    }
-    return verdict(check_);
+    return print_check(check_, std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; }));
   }
 
   const ClearanceOptions& options_;

@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
 #include "output/distance_files/distances_csv.h"
 
 namespace medial_vk::cli {
 namespace {
-
-std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
 template <class Interval>
 std::string states_text(std::span<const Interval> distances) {
@@ -32,43 +31,23 @@ std::string interval_text(const Interval& distance) {
 std::string point_text(const Point& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]); }
 
 std::string one_pose(const Distance& distance) {
-  std::string text = line("state", name_of(distance.collision()));
-  text += line("distance", interval_text(distance));
-  if (distance.upper == 0) return text + line("point", point_text(distance.on_a));
-  return text + line("points", fmt::format("{} of A, {} of B", point_text(distance.on_a), point_text(distance.on_b)));
+  std::string text = labelled("state", name_of(distance.collision()));
+  text += labelled("distance", interval_text(distance));
+  if (distance.upper == 0) return text + labelled("point", point_text(distance.on_a));
+  return text +
+         labelled("points", fmt::format("{} of A, {} of B", point_text(distance.on_a), point_text(distance.on_b)));
 }
 
 std::string one_pose(const DistanceBounds& bounds) {
-  return line("state", name_of(bounds.collision())) + line("distance", interval_text(bounds));
+  return labelled("state", name_of(bounds.collision())) + labelled("distance", interval_text(bounds));
 }
 
 template <class Interval>
 std::string many_poses(std::span<const Interval> distances) {
-  std::string text = line("poses", grouped(distances.size()));
-  text += line("states", states_text(distances));
+  std::string text = labelled("poses", grouped(distances.size()));
+  text += labelled("states", states_text(distances));
   const auto least = std::ranges::min_element(distances, {}, &Interval::upper);
-  return text + line("least", fmt::format("{} (pose {})", interval_text(*least), least - distances.begin() + 1));
-}
-
-/// Both meshes have the same stages, which are summed.
-std::string times_text(const std::vector<StageTime>& times, bool verbose) {
-  double all = 0;
-  std::vector<StageTime> sums;
-  for (const StageTime& time : times) {
-    all += time.seconds;
-    const auto sum = std::ranges::find(sums, time.stage, &StageTime::stage);
-    if (sum == sums.end()) {
-      sums.push_back(time);
-    } else {
-      sum->seconds += time.seconds;
-    }
-  }
-  if (!verbose) return duration(all);
-  std::string steps;
-  for (const StageTime& sum : sums) {
-    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", sum.stage, duration(sum.seconds));
-  }
-  return fmt::format("{} ({})", duration(all), steps);
+  return text + labelled("least", fmt::format("{} (pose {})", interval_text(*least), least - distances.begin() + 1));
 }
 
 template <class Interval>
@@ -77,10 +56,10 @@ std::string summary_of(const DistanceCommandOptions& options, std::span<const In
   std::string text = distances.size() == 1 ? one_pose(distances.front()) : many_poses(distances);
   const auto time = std::ranges::find(times, "distances", &StageTime::stage);
   const double each = 1e6 * time->seconds / static_cast<double>(distances.size());
-  if (distances.size() > 1) text += line("each", fmt::format("{:.3g} microseconds a pose", each));
-  text += line("time", times_text(times, options.verbose));
+  if (distances.size() > 1) text += labelled("each", fmt::format("{:.3g} microseconds a pose", each));
+  text += labelled("time", times_text(times, options.verbose));
   for (const OutputFile& file : files) {
-    if (file.path != "-") text += line("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
+    if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
   }
   return text;
 }
@@ -92,14 +71,14 @@ std::string distance_opening(const std::string& path, const MeshReport& report, 
       fmt::format("{}: {} triangles, {}\n", path == "-" ? "standard input" : path, grouped(report.triangles),
                   report.closed ? "closed" : "not closed: a surface that encloses nothing");
   if (!verbose) return text;
-  for (const std::string& assumption : report.assumptions) text += line("note", assumption);
+  for (const std::string& assumption : report.assumptions) text += labelled("note", assumption);
   return text;
 }
 
 std::string body_file_opening(const std::string& path, const LoadedBody& body, bool verbose) {
   return distance_opening(path, body.mesh.prepared().report, verbose) +
-         line("balls", fmt::format("{} inside and {} that cover it, proved again", grouped(body.inside.size()),
-                                   grouped(body.cover.size())));
+         labelled("balls", fmt::format("{} inside and {} that cover it, proved again", grouped(body.inside.size()),
+                                       grouped(body.cover.size())));
 }
 
 std::string distance_summary(const DistanceCommandOptions& options, std::span<const Distance> distances,

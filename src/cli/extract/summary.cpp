@@ -10,8 +10,6 @@
 namespace medial_vk::cli {
 namespace {
 
-std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
-
 std::string mesh_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 std::string describe_mesh(const MeshReport& mesh) {
@@ -109,40 +107,40 @@ std::string opening(const RunRecord& record) {
   const std::string part = record.part.empty() ? "" : record.part + ": ";
   std::string text =
       fmt::format("{}: {}{} {:.5g}\n", mesh_name(record.input), part, describe_mesh(record.mesh), record.longest_side);
-  for (const std::string& assumption : record.mesh.assumptions) text += line("note", assumption);
-  text += line("device", where(record));
+  for (const std::string& assumption : record.mesh.assumptions) text += labelled("note", assumption);
+  text += labelled("device", where(record));
   if (record.backend == Backend::kVulkan) {
-    text += line("memory", fmt::format("at most {} of the device's {}", memory_size(record.options.memory_budget),
-                                       record.device ? memory_size(record.device->memory_bytes) : "memory"));
+    text += labelled("memory", fmt::format("at most {} of the device's {}", memory_size(record.options.memory_budget),
+                                           record.device ? memory_size(record.device->memory_bytes) : "memory"));
   }
   return text;
 }
 
 std::string summary(const RunRecord& record, std::span<const OutputFile> files) {
-  std::string text = line("points", describe_points(record));
-  text += line("voxels", describe_voxels(record));
-  if (record.points > 0) text += line("sheets", describe_sheets(record.sheets));
-  if (record.ball_union) text += line("volume", describe_union(record));
-  if (record.removal) text += line("kept", describe_removal(*record.removal));
-  if (record.medial_mesh) text += line("mesh", describe_medial_mesh(record));
-  text += line("radius", range_text(record.radii));
-  text += line("time", describe_times(record.host_times));
+  std::string text = labelled("points", describe_points(record));
+  text += labelled("voxels", describe_voxels(record));
+  if (record.points > 0) text += labelled("sheets", describe_sheets(record.sheets));
+  if (record.ball_union) text += labelled("volume", describe_union(record));
+  if (record.removal) text += labelled("kept", describe_removal(*record.removal));
+  if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));
+  text += labelled("radius", range_text(record.radii));
+  text += labelled("time", describe_times(record.host_times));
   for (const OutputFile& file : files) {
     const std::string where = file.path == "-" ? "standard output" : file.path;
-    text += line("written", fmt::format("{} ({})", where, byte_size(file.bytes.size())));
+    text += labelled("written", fmt::format("{} ({})", where, byte_size(file.bytes.size())));
   }
   return text;
 }
 
 std::string details(const RunRecord& record) {
-  std::string text = line("angle", range_text(record.object_angles) + " rad");
-  text += line("grid", fmt::format("{} x {} x {} voxels of {:.5g}", record.grid.size[0], record.grid.size[1],
-                                   record.grid.size[2], record.grid.voxel_size));
-  text += line("queries", grouped(record.counters.queries));
-  if (!record.picture_drawn_by.empty()) text += line("picture", "drawn by " + record.picture_drawn_by);
-  if (record.counters.retries > 0) text += line("retries", grouped(record.counters.retries));
+  std::string text = labelled("angle", range_text(record.object_angles) + " rad");
+  text += labelled("grid", fmt::format("{} x {} x {} voxels of {:.5g}", record.grid.size[0], record.grid.size[1],
+                                       record.grid.size[2], record.grid.voxel_size));
+  text += labelled("queries", grouped(record.counters.queries));
+  if (!record.picture_drawn_by.empty()) text += labelled("picture", "drawn by " + record.picture_drawn_by);
+  if (record.counters.retries > 0) text += labelled("retries", grouped(record.counters.retries));
   for (const StageTime& time : record.device_times) {
-    text += line("on device", fmt::format("{:<24} {}", time.stage, duration(time.seconds)));
+    text += labelled("on device", fmt::format("{:<24} {}", time.stage, duration(time.seconds)));
   }
   return text + level_table(record.counters);
 }

@@ -3,27 +3,16 @@
 #include <fmt/format.h>
 
 #include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
 
 namespace medial_vk::cli {
 namespace {
-
-std::string labelled(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
 /// The number of balls, and an upper bound of the distance that they leave or reach out, which is proved.
 std::string set_text(const SphereFit& fit, double greatest, const char* what) {
   return fmt::format("{}; at most {:.4g} {} ({:.3g} % of the diagonal)",
                      counted(fit.levels.back().size(), "sphere", "spheres"), greatest, what,
                      100 * greatest / fit.measures.diagonal);
-}
-
-std::string times_text(const std::vector<StageTime>& times, bool verbose) {
-  double all = 0;
-  std::string steps;
-  for (const StageTime& time : times) {
-    all += time.seconds;
-    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", time.stage, duration(time.seconds));
-  }
-  return verbose ? fmt::format("{} ({})", duration(all), steps) : duration(all);
 }
 
 }  // namespace

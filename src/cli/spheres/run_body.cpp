@@ -149,13 +149,7 @@ class BodyRun {
 
   Status report_check() const {
     if (!options_.check) return {};
-    const std::string table = check_table(check_);
-    if (options_.output == "-") {
-      print_message(table);
-    } else if (Status status = print_result(table); !status) {
-      return status;
-    }
-    return verdict(check_);
+    return print_check(check_, options_.output == "-");
   }
 
   const SpheresOptions& options_;

@@ -13,8 +13,6 @@
 namespace medial_vk::cli {
 namespace {
 
-std::string line(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
-
 /// A name from a file in a form for the terminal: without control characters.
 std::string printable(std::string name) {
   std::ranges::replace_if(
@@ -152,12 +150,12 @@ std::string spheres_opening(const SpheresOptions& options, const FitsRecord& rec
   }
   for (const FittedSolid& solid : record.solids) {
     for (const std::string& assumption : solid.report().assumptions) {
-      text += line("note", options.is_robot
-                               ? fmt::format("{}, {}: {}", printable(solid.link), printable(solid.name), assumption)
-                               : assumption);
+      text += labelled("note", options.is_robot
+                                   ? fmt::format("{}, {}: {}", printable(solid.link), printable(solid.name), assumption)
+                                   : assumption);
     }
   }
-  return text + line("device", where(options, record));
+  return text + labelled("device", where(options, record));
 }
 
 std::string spheres_summary(const SpheresOptions& options, const FitsRecord& record,
@@ -165,33 +163,33 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
   const SphereFitOptions& fit = options.spheres;
   std::string spheres = grouped(count_spheres(record));
   if (options.spheres.levels) spheres += fmt::format(", in {} levels", record.solids.front().levels.size());
-  std::string text = line("spheres", spheres);
-  text += line("contract", description_of(fit.contract));
-  text += line("certified", certificate_text(fit.contract, record));
+  std::string text = labelled("spheres", spheres);
+  text += labelled("contract", description_of(fit.contract));
+  text += labelled("certified", certificate_text(fit.contract, record));
   if (const std::optional<Share> error = uncovered_share(record)) {
-    text += line(
+    text += labelled(
         "error",
         fmt::format("{} of the volume is left uncovered{}", percent(error),
                     error->is_estimate ? "; measured at random points where a mesh is open or crosses itself" : ""));
   }
   if (fit.contract != SphereContract::kInside) {
     const std::optional<std::string> difference = difference_text(fit.contract, record);
-    if (difference) text += line("error", *difference);
+    if (difference) text += labelled("error", *difference);
   }
   const double facets = std::ranges::max(record.solids, {}, &FittedSolid::facet_share).facet_share;
   if (facets > 0) {
     const bool contract_is_exact = fit.contract != SphereContract::kBalanced;
-    text +=
-        line("note", fmt::format("Round primitives are {} {:.2g} of their radius{}.",
+    text += labelled("note",
+                     fmt::format("Round primitives are {} {:.2g} of their radius{}.",
                                  fit.contract == SphereContract::kCover ? "wrapped in facets that stand off by up to"
                                                                         : "filled with facets that fall short by up to",
                                  facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
   }
-  text += line("gap", gap_text(record));
-  text += line("time", duration(seconds(record)));
+  text += labelled("gap", gap_text(record));
+  text += labelled("time", duration(seconds(record)));
   for (const OutputFile& file : files) {
     const std::string name = file.path == "-" ? "standard output" : file.path;
-    text += line("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
+    text += labelled("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
   }
   return text;
 }

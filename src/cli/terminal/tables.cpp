@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/terminal/messages.h"
 #include "cli/terminal/numbers.h"
 #include "common/tool_errors.h"
 
@@ -67,6 +68,38 @@ std::string check_table(const CheckReport& check) {
 Status verdict(const CheckReport& check) {
   if (check.passed()) return {};
   return Error{kCheckFailed, "--check failed: the table names what does not hold"};
+}
+
+Status print_check(const CheckReport& check, bool standard_output_has_results) {
+  const std::string table = check_table(check);
+  if (standard_output_has_results) {
+    print_message(table);
+  } else if (Status status = print_result(table); !status) {
+    return status;
+  }
+  return verdict(check);
+}
+
+std::string labelled(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
+
+std::string times_text(const std::vector<StageTime>& times, bool verbose) {
+  double all = 0;
+  std::vector<StageTime> sums;
+  for (const StageTime& time : times) {
+    all += time.seconds;
+    const auto sum = std::ranges::find(sums, time.stage, &StageTime::stage);
+    if (sum == sums.end()) {
+      sums.push_back(time);
+    } else {
+      sum->seconds += time.seconds;
+    }
+  }
+  if (!verbose) return duration(all);
+  std::string steps;
+  for (const StageTime& sum : sums) {
+    steps += fmt::format("{}{} {}", steps.empty() ? "" : ", ", sum.stage, duration(sum.seconds));
+  }
+  return fmt::format("{} ({})", duration(all), steps);
 }
 
 std::string level_table(const ExtractionCounters& counters) {

@@ -24,6 +24,12 @@ std::string device_table(const std::vector<DeviceDescription>& devices);
 std::string check_table(const CheckReport& check);
 /// The result of --check: ok, or kCheckFailed.
 Status verdict(const CheckReport& check);
+/// Prints the table of --check to standard output, or to standard error where that holds results; then the verdict.
+Status print_check(const CheckReport& check, bool standard_output_has_results);
+/// A line of a summary.
+std::string labelled(const char* label, const std::string& text);
+/// The sum; verbose: also the sum of each stage, since several meshes have the same stages.
+std::string times_text(const std::vector<StageTime>& times, bool verbose);
 std::string level_table(const ExtractionCounters& counters);
 
 }  // namespace medial_vk::cli
