@@ -87,6 +87,12 @@ struct BatchOptions {
   unsigned threads = 0;  ///< Of the host, 0: one per core.
 };
 
+/// Two of many bodies, by their indices, and a pose that takes the frame of `b` to the frame of `a`.
+struct PosedPair {
+  Pose pose;
+  std::uint32_t a = 0, b = 0;
+};
+
 /// Bounds of the distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`. The
 /// bounds include all rounding errors: they hold if the balls inside are inside and the covers cover. They are within
 /// 3e-6 M + 1e-17 of the distances of the sets, where M is the distance of the bodies' middles plus the size of both.
@@ -100,6 +106,10 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
 /// The same for every pose; most searches start from the result before them. Precondition: `bounds` has the size of
 /// `poses`.
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,
+                     const BatchOptions& options = {});
+
+/// The same for pairs of `bodies`, whose indices they hold. Searches start from nothing.
+void distance_bounds(std::span<const Body> bodies, std::span<const PosedPair> pairs, std::span<DistanceBounds> bounds,
                      const BatchOptions& options = {});
 
 struct DistanceOptions {

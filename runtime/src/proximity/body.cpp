@@ -103,6 +103,7 @@ std::shared_ptr<Impl> impl_of(const IndexedMesh* mesh, std::span<const Ball> ins
   impl->cover.assign(cover.begin(), cover.end());
   impl->inside_tree = BodyTree::build(inside, impl->centre);
   impl->cover_tree = BodyTree::build(cover, impl->centre);
+  impl->large_inside = LargeBalls(impl->inside_tree);
   return impl;
 }
 

@@ -7,6 +7,7 @@
 #include "base/internals.h"
 #include "medial_vk/proximity.h"
 #include "proximity/body_tree.h"
+#include "proximity/large_balls.h"
 #include "proximity/surface_tree.h"
 #include "solid/solid.h"
 
@@ -26,6 +27,7 @@ struct Body::Impl {
   Point centre = {0, 0, 0};  ///< The origin of the trees' frame.
   std::vector<Ball> inside, cover;
   BodyTree inside_tree, cover_tree;
+  LargeBalls large_inside;
   std::unique_ptr<const BodySurface> surface;  ///< Null: without a mesh.
 };
 

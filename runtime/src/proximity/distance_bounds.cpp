@@ -9,6 +9,7 @@
 namespace medial_vk {
 namespace {
 
+constexpr std::size_t kBlock = 256;  // poses that one thread takes at a time
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// No separation in float below this is less than `most`, whose errors are up to `error`.
@@ -60,11 +61,18 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
 
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,
                      const BatchOptions& options) {
-  constexpr std::size_t kBlock = 256;
   parallel_blocks(poses.size(), kBlock, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       bounds[i] = distance_bounds(a, b, poses[i], i > begin ? bounds[i - 1] : DistanceBounds{});
     }
+  });
+}
+
+void distance_bounds(std::span<const Body> bodies, std::span<const PosedPair> pairs, std::span<DistanceBounds> bounds,
+                     const BatchOptions& options) {
+  parallel_for(pairs.size(), kBlock, options.threads, [&](std::size_t i) {
+    const auto& [pose, a, b] = pairs[i];
+    bounds[i] = distance_bounds(bodies[a], bodies[b], pose);
   });
 }
 
