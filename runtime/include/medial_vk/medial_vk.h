@@ -1,5 +1,5 @@
-// The whole library. Headers with types of Vulkan (extraction_job.h, host_device.h) are for programs with a device of
-// their own, which include them by name.
+// The whole library. Headers with types of Vulkan (extraction_job.h, host_device.h, proximity_job.h) are for programs
+// with a device of their own, which include them by name.
 #pragma once
 
 #include "medial_vk/analysis.h"
@@ -10,6 +10,7 @@
 #include "medial_vk/certify.h"
 #include "medial_vk/collisions.h"
 #include "medial_vk/context.h"
+#include "medial_vk/device_bodies.h"
 #include "medial_vk/dual_complex.h"
 #include "medial_vk/dynamic_union.h"
 #include "medial_vk/extraction.h"

@@ -11,6 +11,7 @@
 
 #include "ball_types.h"
 #include "device/embedded_shaders.h"
+#include "proximity_types.h"
 #include "support/device/spirv_structs.h"
 #if __has_include("thesis_types.h")
 #include "thesis_types.h"
@@ -74,6 +75,31 @@ const std::vector<Layout>& shared_layouts() {
         MEDIAL_VK_MEMBER(UndecidedCell, kind), MEDIAL_VK_MEMBER(UndecidedCell, width),
         MEDIAL_VK_MEMBER(UndecidedCell, padding_0), MEDIAL_VK_MEMBER(UndecidedCell, padding_1),
         MEDIAL_VK_MEMBER(UndecidedCell, padding_2)}},
+      {"ProximityNode",
+       sizeof(gpu::ProximityNode),
+       {MEDIAL_VK_MEMBER(ProximityNode, balls), MEDIAL_VK_MEMBER(ProximityNode, below)}},
+      {"ProximityTree",
+       sizeof(gpu::ProximityTree),
+       {MEDIAL_VK_MEMBER(ProximityTree, root), MEDIAL_VK_MEMBER(ProximityTree, levels),
+        MEDIAL_VK_MEMBER(ProximityTree, reach), MEDIAL_VK_MEMBER(ProximityTree, unused)}},
+      {"ProximityBody",
+       sizeof(gpu::ProximityBody),
+       {MEDIAL_VK_MEMBER(ProximityBody, inside), MEDIAL_VK_MEMBER(ProximityBody, cover),
+        MEDIAL_VK_MEMBER(ProximityBody, centre)}},
+      {"ProximityPose",
+       sizeof(gpu::ProximityPose),
+       {MEDIAL_VK_MEMBER(ProximityPose, row_x), MEDIAL_VK_MEMBER(ProximityPose, row_y),
+        MEDIAL_VK_MEMBER(ProximityPose, row_z), MEDIAL_VK_MEMBER(ProximityPose, a), MEDIAL_VK_MEMBER(ProximityPose, b),
+        MEDIAL_VK_MEMBER(ProximityPose, inside_error), MEDIAL_VK_MEMBER(ProximityPose, cover_error)}},
+      {"ProximityBounds",
+       sizeof(gpu::ProximityBounds),
+       {MEDIAL_VK_MEMBER(ProximityBounds, lower), MEDIAL_VK_MEMBER(ProximityBounds, upper),
+        MEDIAL_VK_MEMBER(ProximityBounds, cover_a), MEDIAL_VK_MEMBER(ProximityBounds, cover_b),
+        MEDIAL_VK_MEMBER(ProximityBounds, inside_a), MEDIAL_VK_MEMBER(ProximityBounds, inside_b)}},
+      {"ProximityConstants",
+       sizeof(gpu::ProximityConstants),
+       {MEDIAL_VK_MEMBER(ProximityConstants, pose_count), MEDIAL_VK_MEMBER(ProximityConstants, body_count),
+        MEDIAL_VK_MEMBER(ProximityConstants, most_steps), MEDIAL_VK_MEMBER(ProximityConstants, leaves_rest)}},
       {"StepConstants",
        sizeof(gpu::StepConstants),
        {MEDIAL_VK_MEMBER(StepConstants, cell_size),

@@ -1,0 +1,226 @@
+// Verdicts and bounds for many poses on the device against all pairs of balls, in double and without a tree.
+#include "medial_vk/device_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "base/point_ops.h"
+#include "medial_vk/collisions.h"
+#include "support/device/device_test.h"
+#include "support/random_poses.h"
+
+namespace medial_vk {
+namespace {
+
+using namespace test;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Beyond this share of M every verdict is proved: twice the error of the kernel, 22.1 * 2^-23 M, in which the growth
+/// of balls that are rounded is included. The same and 2^-20 M, by which the kernel widens bounds, hold for these.
+constexpr double kDecided = 2 * 22.1 * 0x1p-23, kWidth = kDecided + 0x1p-20;
+
+double separation_of_all(std::span<const Ball> a, std::span<const Ball> b, const Pose& pose) {
+  double least = kInfinity;
+  for (const Ball& of_b : b) {
+    const Point centre = pose * of_b.centre;
+    for (const Ball& of_a : a) least = std::min(least, length(of_a.centre - centre) - of_a.radius - of_b.radius);
+  }
+  return least;
+}
+
+/// Balls inside, and balls of the same centres that cover them.
+Body body_of(const std::vector<Ball>& inside) {
+  std::vector<Ball> cover = inside;
+  for (Ball& ball : cover) ball.radius *= 1.5;
+  return Body::create(inside, cover).value();
+}
+
+std::vector<Ball> balls_at_random(Random& random, std::size_t count, const Point& middle, double size) {
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < count; ++i) {
+    balls.push_back({middle + point_in_cube(random, size), uniform(random, 0, 0.2 * size)});
+  }
+  return balls;
+}
+
+class BodiesOnDevice : public DeviceTest {
+ protected:
+  /// `size` is at least M, the sum of the distance of the bodies' middles and of their reaches, for every pair.
+  void expect_answers(std::span<const Body> bodies, std::span<const PosedPair> pairs, double size) {
+    Result<DeviceBodies> there = DeviceBodies::create(*context_, bodies);
+    ASSERT_TRUE(there.ok()) << there.error().message;
+    std::vector<Collision> verdicts(pairs.size());
+    std::vector<DistanceBounds> bounds(pairs.size());
+    ASSERT_TRUE(there.value().collide_by_balls(pairs, verdicts).ok());
+    ASSERT_TRUE(there.value().distance_bounds(pairs, bounds).ok());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "pair " << i);
+      const Body &a = bodies[pairs[i].a], &b = bodies[pairs[i].b];
+      const double cover = separation_of_all(a.cover(), b.cover(), pairs[i].pose),
+                   inside = separation_of_all(a.inside(), b.inside(), pairs[i].pose);
+      ++seen_[static_cast<std::size_t>(verdicts[i])];
+      expect_verdict(verdicts[i], cover, inside, kDecided * size);
+      EXPECT_LE(bounds[i].lower, std::max(0.0, cover));
+      EXPECT_GE(bounds[i].upper, std::max(0.0, inside));
+      EXPECT_GE(bounds[i].lower, cover - kWidth * size);
+      EXPECT_LE(bounds[i].upper, std::max(0.0, inside) + kWidth * size);
+      expect_pair(bounds[i].cover_pair, a.cover(), b.cover(), pairs[i].pose, cover + kWidth * size);
+      if (bounds[i].upper > 0)
+        expect_pair(bounds[i].inside_pair, a.inside(), b.inside(), pairs[i].pose, inside + kWidth * size);
+    }
+  }
+
+  static void expect_verdict(Collision verdict, double cover, double inside, double decided) {
+    if (verdict == Collision::kFree) {
+      EXPECT_GT(cover, 0);
+    } else if (verdict == Collision::kHit) {
+      EXPECT_LE(inside, 0);
+    } else {
+      EXPECT_LE(cover, decided);
+      EXPECT_GE(inside, -decided);
+    }
+  }
+
+  /// Searches end at balls that overlap, so the named pair is only among those that are as close as `most`, or overlap.
+  static void expect_pair(const BallPair& pair, std::span<const Ball> a, std::span<const Ball> b, const Pose& pose,
+                          double most) {
+    ASSERT_LT(pair.a, a.size());
+    ASSERT_LT(pair.b, b.size());
+    EXPECT_LE(separation_of_all(a.subspan(pair.a, 1), b.subspan(pair.b, 1), pose), std::max(0.0, most));
+  }
+
+  std::array<int, 3> seen_ = {0, 0, 0};
+};
+
+TEST_F(BodiesOnDevice, AnswerAsAllPairsDo) {
+  Random random(21);
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    SCOPED_TRACE(testing::Message() << "size " << size);
+    std::vector<Body> bodies;
+    for (const std::size_t count : {1, 8, 9, 65, 300}) {
+      bodies.push_back(body_of(balls_at_random(random, count, point_in_cube(random, 2 * size), size)));
+    }
+    std::vector<PosedPair> pairs;
+    for (std::uint32_t i = 0; i < 500; ++i) {
+      pairs.push_back({any_pose(random, point_in_cube(random, 3 * size)), i % 5, i / 5 % 5});
+    }
+    expect_answers(bodies, pairs, 40 * size);
+  }
+  for (const int times : seen_) EXPECT_GT(times, 20);
+}
+
+// One tree has five levels more than the other; one pose is far away.
+TEST_F(BodiesOnDevice, OfFewBallsAndMany) {
+  Random random(22);
+  const Body bodies[] = {body_of(balls_at_random(random, 20000, {0, 0, 0}, 1)),
+                         body_of(balls_at_random(random, 3, {0, 0, 0}, 0.1))};
+  std::vector<PosedPair> pairs = {{any_pose(random, {1e6, -2e6, 0}), 0, 1}};
+  expect_answers(bodies, pairs, 4e6);
+  pairs.clear();
+  for (std::uint32_t i = 0; i < 24; ++i)
+    pairs.push_back({any_pose(random, point_in_cube(random, 2)), i % 2, 1 - i % 2});
+  expect_answers(bodies, pairs, 40);
+  EXPECT_GT(seen_[0], 0);
+  EXPECT_GT(seen_[1], 0);
+}
+
+// Around the balls of one body lie small balls of the other one in all directions, at nearly the same distance: balls
+// around groups of them overlap the former, so that no group is passed over. A search takes too many steps for
+// lavapipe.
+TEST_F(BodiesOnDevice, TheHostCompletesSearchesThatAreTooLong) {
+  Random random(24);
+  std::vector<Ball> shell, middle;
+  while (shell.size() < 30'000) {
+    const Point p = point_in_cube(random, 1);
+    const double length_of_p = length(p);
+    if (length_of_p > 0.1 && length_of_p < 1) shell.push_back({1 / length_of_p * p, 0.002});
+  }
+  for (int i = 0; i < 9; ++i) middle.push_back({{1e-3 * i, 0, 0}, 0.98});
+  const Body bodies[] = {Body::create(shell, shell).value(), Body::create(middle, middle).value()};
+  const PosedPair pairs[] = {{Pose(), 0, 1}, {make_pose({0, 1e-3, 0}, {1, 2, 3}), 1, 0}};
+  expect_answers(bodies, pairs, 10);
+  EXPECT_EQ(seen_[static_cast<std::size_t>(Collision::kFree)], 2);
+}
+
+TEST_F(BodiesOnDevice, WithoutASetAreUndecided) {
+  const std::vector<Ball> balls = {{{0, 0, 0}, 1}};
+  const Body bodies[] = {Body::create(balls, {}).value(), Body::create({}, balls).value()};
+  const Pose here = make_pose({0, 0, 0}, {0, 0, 0}), there = make_pose({9, 0, 0}, {0, 0, 0});
+  const PosedPair pairs[] = {{here, 0, 0}, {there, 0, 0}, {here, 1, 1}, {there, 1, 1}, {here, 1, 0}, {there, 0, 1}};
+  DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
+  std::vector<Collision> verdicts(6);
+  ASSERT_TRUE(on_device.collide_by_balls(pairs, verdicts).ok());
+  constexpr Collision kNothing = Collision::kUndecided;
+  EXPECT_EQ(verdicts, (std::vector{Collision::kHit, kNothing, kNothing, Collision::kFree, kNothing, kNothing}));
+  std::vector<DistanceBounds> bounds(6);
+  ASSERT_TRUE(on_device.distance_bounds(pairs, bounds).ok());
+  EXPECT_NEAR(bounds[1].upper, 7, 1e-4);
+  EXPECT_EQ(bounds[1].lower, 0);
+  EXPECT_NEAR(bounds[3].lower, 7, 1e-4);
+  EXPECT_EQ(bounds[3].upper, kInfinity);
+  EXPECT_EQ(bounds[5].lower, 0);
+  EXPECT_EQ(bounds[5].upper, kInfinity);
+  EXPECT_EQ(bounds[5].cover_pair, BallPair());
+}
+
+// Poses beyond the range of the kernel are the host's; equal, touching and distant balls.
+TEST_F(BodiesOnDevice, AnswerAsTheHostAtTheEnds) {
+  const Body bodies[] = {body_of({{{0, 0, 0}, 1}}), body_of({{{1e18 - 2e17, 0, 0}, 1e17}}), body_of({{{5, 5, 5}, 0}})};
+  std::vector<PosedPair> pairs;
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    for (const double x : {0.0, 2.0, 1e9, -9e17, 1e19, std::numeric_limits<double>::quiet_NaN()}) {
+      pairs.push_back({make_pose({0, 0, 0}, {0.1, 0.2, 0.3}), i % 3, i / 3});
+      pairs.back().pose.shift = {x, 0, 0};
+    }
+  }
+  DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
+  std::vector<Collision> found(pairs.size()), expected(pairs.size());
+  std::vector<DistanceBounds> bounds(pairs.size()), of_host(pairs.size());
+  ASSERT_TRUE(on_device.collide_by_balls(pairs, found).ok());
+  ASSERT_TRUE(on_device.distance_bounds(pairs, bounds).ok());
+  collide_by_balls(bodies, pairs, expected);
+  distance_bounds(bodies, pairs, of_host);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    SCOPED_TRACE(testing::Message() << "pair " << i);
+    EXPECT_TRUE(found[i] == expected[i] || found[i] == Collision::kUndecided);
+    EXPECT_LE(bounds[i].lower, of_host[i].upper);
+    EXPECT_GE(bounds[i].upper, of_host[i].lower);
+  }
+}
+
+TEST_F(BodiesOnDevice, AnyNumberOfPairs) {
+  Random random(23);
+  const Body bodies[] = {body_of(balls_at_random(random, 5, {0, 0, 0}, 1))};
+  DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
+  EXPECT_TRUE(on_device.collide_by_balls({}, {}).ok());
+  const std::size_t count = 3 * (1u << 18) + 5;  // more than three blocks
+  const PosedPair far = {make_pose({9, 0, 0}, {0, 0, 0}), 0, 0}, near = {make_pose({0, 0, 0}, {0, 0, 0}), 0, 0};
+  std::vector<PosedPair> pairs(count, far);
+  for (std::size_t i = 0; i < count; i += 100'003) pairs[i] = near;
+  pairs.back() = near;
+  std::vector<Collision> verdicts(count, Collision::kUndecided);
+  ASSERT_TRUE(on_device.collide_by_balls(pairs, verdicts).ok());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_near = i % 100'003 == 0 || i + 1 == count;
+    ASSERT_EQ(verdicts[i], is_near ? Collision::kHit : Collision::kFree) << i;
+  }
+}
+
+TEST_F(BodiesOnDevice, RefuseWhatIsWrong) {
+  EXPECT_EQ(DeviceBodies::create(*context_, {}).error().code, ErrorCode::kUsage);
+  const Body bodies[] = {body_of({{{0, 0, 0}, 1}})};
+  DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
+  const PosedPair pairs[] = {{Pose(), 0, 0}, {Pose(), 0, 1}};
+  std::vector<Collision> verdicts(2);
+  const Status status = on_device.collide_by_balls(pairs, verdicts);
+  EXPECT_EQ(status.error().code, ErrorCode::kUsage);
+  EXPECT_NE(status.error().message.find("pair 1"), std::string::npos) << status.error().message;
+}
+
+}  // namespace
+}  // namespace medial_vk
