@@ -20,6 +20,7 @@
 
 #include "device/context_impl.h"
 #include "failing_new.h"
+#include "medial_vk/device_bodies.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/scene.h"
 #include "support/device/device.h"
@@ -123,6 +124,27 @@ inline Answer make_scene_and_query(Context& context, const PreparedMesh& mesh) {
   Result<Scene> scene = in_runtime([&] { return test::make_scene(context, mesh.view()); });
   if (!scene.ok()) return scene.error();
   return query_everything(scene.value());
+}
+
+/// Verdicts and bounds for some pairs of two bodies, on the device.
+inline Answer query_bodies(Context& context) {
+  const std::vector<Ball> few = {{{0, 0, 0}, 1}}, more(9, {{0.5, 0, 0}, 0.5});
+  const std::vector<Body> bodies = {Body::create(few, few).value(), Body::create(more, more).value()};
+  std::vector<PosedPair> pairs;
+  for (std::uint32_t i = 0; i < 8; ++i) pairs.push_back({make_pose({0.5 * i, 0, 0}, {0, 0, 0}), i % 2, 1});
+  std::vector<Collision> verdicts(pairs.size());
+  std::vector<DistanceBounds> bounds(pairs.size());
+  const Status done = in_runtime([&]() -> Status {
+    Result<DeviceBodies> on_device = DeviceBodies::create(context, bodies);
+    if (!on_device.ok()) return on_device.error();
+    if (Status status = on_device.value().collide_by_balls(pairs, verdicts, {1}); !status.ok()) return status;
+    return on_device.value().distance_bounds(pairs, bounds, {1});
+  });
+  if (!done.ok()) return done.error();
+  std::string out;
+  for (const Collision verdict : verdicts) append_bytes(out, verdict);
+  for (const DistanceBounds& of_pair : bounds) append_bytes(out, of_pair);
+  return out;
 }
 
 /// Calls and allocations fail one by one: all of them, or the first and every n-th after it, where the environment

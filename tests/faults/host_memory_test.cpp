@@ -69,6 +69,12 @@ TEST_F(HostMemory, RunsOutInQueries) {
   fail_every_allocation("queries", [&] { return make_scene_and_query(context.value(), mesh); });
 }
 
+TEST_F(HostMemory, RunsOutInManyPoses) {
+  Result<Context> context = open();
+  ASSERT_TRUE(context.ok());
+  fail_every_allocation("many poses", [&] { return query_bodies(context.value()); });
+}
+
 TEST_F(HostMemory, RunsOutInCertifiedExtraction) {
   Result<Context> context = open();
   ASSERT_TRUE(context.ok());

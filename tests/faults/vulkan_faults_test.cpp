@@ -124,6 +124,8 @@ TEST_F(VulkanFaults, OfQueries) {
   fail_every_call_of("queries", [&](Context& context) { return make_scene_and_query(context, mesh); });
 }
 
+TEST_F(VulkanFaults, OfManyPoses) { fail_every_call_of("many poses", query_bodies); }
+
 TEST_F(VulkanFaults, OfCertifiedExtraction) {
   const PreparedMesh mesh = small_box();
   fail_every_call_of("certified extraction",
