@@ -13,12 +13,17 @@ namespace {
 MEDIAL_VK_INLINE bool are_closer(const LargeBalls& of_a, const LargeBalls& of_b, const FloatPose& pose,
                                  float separation) {
   for (const BodyNode& b : of_b.nodes()) {
+    const EightFloats b_x = load(b.centre[0]), b_y = load(b.centre[1]), b_z = load(b.centre[2]);
+    const auto coordinate = [&](std::size_t i) __attribute__((always_inline)) {
+      const std::array<float, 3>& row = pose.rows[i];
+      return stored(row[0] * b_x + row[1] * b_y + row[2] * b_z + pose.shift[i]);
+    };
+    const std::array<float, 8> to_x = coordinate(0), to_y = coordinate(1), to_z = coordinate(2);
     for (const BodyNode& a : of_a.nodes()) {
       EightInts closer{};
       for (std::uint32_t j = 0; j < b.count; ++j) {
-        const std::array<float, 3> to = pose.to_a({b.centre[0][j], b.centre[1][j], b.centre[2][j]});
-        const EightFloats x = load(a.centre[0]) - to[0], y = load(a.centre[1]) - to[1], z = load(a.centre[2]) - to[2],
-                          reach = load(a.radius) + (b.radius[j] + separation);
+        const EightFloats x = load(a.centre[0]) - to_x[j], y = load(a.centre[1]) - to_y[j],
+                          z = load(a.centre[2]) - to_z[j], reach = load(a.radius) + (b.radius[j] + separation);
         closer |= (x * x + y * y + z * z < reach * reach) & (reach > 0);
       }
       if ((bits_of(closer) & ((1u << a.count) - 1u)) != 0) return true;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <type_traits>
 #include <utility>
 
 #include "medial_vk/proximity.h"
@@ -20,7 +21,7 @@ class OverlapSearch {
 
   /// Whether two items have balls with a smaller computed separation than the given one.
   MEDIAL_VK_INLINE bool find() {
-    tasks_[0] = {0, 0, 0, {{0, 0, 0}, kAllOfSpace, 0}};
+    tasks_[0] = {0, 0, 0, 0, 0, 0, kAllOfSpace};
     count_ = 1;
     while (count_ > 0) {
       const Task task = tasks_[--count_];
@@ -34,12 +35,14 @@ class OverlapSearch {
   /// More than the distance of any two points in range (Placement::is_in_range()).
   static constexpr float kAllOfSpace = 1.5e19f;
 
-  /// Two nodes, one of each tree, whose balls are closer.
+  /// Two nodes, one of each tree, whose balls are closer. Without initial values: those of a thousand tasks would take
+  /// longer than most searches.
   struct Task {
     float overlap;  ///< The square of their distance less that of the reach: the less, the more they overlap.
     std::uint32_t node_a, node_b;
-    FloatBall around_a;  ///< Holds the balls of node_a.
+    float x, y, z, radius;  ///< A ball that holds the balls of node_a.
   };
+  static_assert(std::is_trivially_default_constructible_v<Task>);
 
   /// All balls of one node with all of the other one, eight pairs at a time, except those of b that are far from the
   /// ball around those of a. True: two items were found.
@@ -50,10 +53,8 @@ class OverlapSearch {
     const EightFloats in_a_x = row_x[0] * x + row_x[1] * y + row_x[2] * z + pose_.shift[0],
                       in_a_y = row_y[0] * x + row_y[1] * y + row_y[2] * z + pose_.shift[1],
                       in_a_z = row_z[0] * x + row_z[1] * y + row_z[2] * z + pose_.shift[2];
-    std::uint32_t near =
-        bits_of(closer(in_a_x - task.around_a.centre[0], in_a_y - task.around_a.centre[1],
-                       in_a_z - task.around_a.centre[2], load(b.radius) + (task.around_a.radius + separation_))
-                    .where);
+    std::uint32_t near = bits_of(
+        closer(in_a_x - task.x, in_a_y - task.y, in_a_z - task.z, load(b.radius) + (task.radius + separation_)).where);
     if (near == 0) return false;
     const std::array<float, kWidth> to_x = stored(in_a_x), to_y = stored(in_a_y), to_z = stored(in_a_z);
     const EightFloats reach_a = load(a.radius) + separation_;
@@ -87,11 +88,11 @@ class OverlapSearch {
     for (; pairs != 0; pairs &= pairs - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(pairs));
       if (a.is_lowest) {
-        push({overlaps[k], task.node_a, below_b, task.around_a});
+        push({overlaps[k], task.node_a, below_b, task.x, task.y, task.z, task.radius});
         return;  // the others are the same task
       }
-      const FloatBall around = {{a.centre[0][k], a.centre[1][k], a.centre[2][k]}, a.radius[k], 0};
-      const Task below = {overlaps[k], a.below[k], below_b, around};
+      const Task below = {overlaps[k],    a.below[k],     below_b,    a.centre[0][k],
+                          a.centre[1][k], a.centre[2][k], a.radius[k]};
       if (!b.is_lowest || !repeats(below)) push(below);
     }
   }
