@@ -31,17 +31,19 @@ double distance_of_rectangles(const SweptRectangle& a, const SweptRectangle& b, 
 }
 
 template <class Volume>
-BinaryTree<Volume>::BinaryTree(std::span<const Ball> balls, const Pairing& pairing)
+BinaryTree<Volume>::BinaryTree(std::span<const Ball> balls, const Pairing& pairing, std::span<const double> likelihoods)
     : balls_(balls.begin(), balls.end()), nodes_(pairing.nodes()) {
   std::vector<std::vector<std::uint32_t>> below(pairing.nodes());
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     if (is_ball(i)) {
       below[i] = {i};
+      if (!likelihoods.empty()) nodes_[i].likelihood = likelihoods[i];
     } else {
       const auto& [first, second] = nodes_[i].below = pairing.pairs[i - balls_.size()];
       below[i] = below[first];
       below[i].insert(below[i].end(), below[second].begin(), below[second].end());
       below[first] = below[second] = {};
+      nodes_[i].likelihood = nodes_[first].likelihood + nodes_[second].likelihood;
     }
     nodes_[i].volume = Volume::around(balls_, below[i]);
   }
@@ -52,7 +54,8 @@ namespace {
 template <class Volume>
 class Search {
  public:
-  Search(const BinaryTree<Volume>& a, const BinaryTree<Volume>& b, const Pose& pose) : a_(a), b_(b), pose_(pose) {}
+  Search(const BinaryTree<Volume>& a, const BinaryTree<Volume>& b, const Pose& pose, PartOrder order)
+      : a_(a), b_(b), pose_(pose), order_(order) {}
 
   ClosestPair run(const BallPair& start) {
     if (start.a < a_.balls() && start.b < b_.balls()) take(start.a, start.b);
@@ -82,9 +85,18 @@ class Search {
     (divides_a ? second.a : second.b) = (divides_a ? a : b).below[1];
     first.separation = separation_of(first.a, first.b);
     second.separation = separation_of(second.a, second.b);
-    if (second.separation < first.separation) std::swap(first, second);
+    if (comes_before(second, first)) std::swap(first, second);
     visit(first);
     visit(second);
+  }
+
+  bool comes_before(const Nodes& p, const Nodes& q) const {
+    if (order_ == PartOrder::kLikelier) {
+      const double of_p = a_.node(p.a).likelihood * b_.node(p.b).likelihood,
+                   of_q = a_.node(q.a).likelihood * b_.node(q.b).likelihood;
+      if (of_p != of_q) return of_p > of_q;
+    }
+    return p.separation < q.separation;
   }
 
   void take(std::uint32_t i, std::uint32_t j) {
@@ -104,6 +116,7 @@ class Search {
   const BinaryTree<Volume>& a_;
   const BinaryTree<Volume>& b_;
   const Pose& pose_;
+  PartOrder order_;
   ClosestPair best_;
 };
 
@@ -111,15 +124,15 @@ class Search {
 
 template <class Volume>
 ClosestPair closest_pair(const BinaryTree<Volume>& a, const BinaryTree<Volume>& b, const Pose& pose,
-                         const BallPair& start) {
-  return Search<Volume>(a, b, pose).run(start);
+                         const BallPair& start, PartOrder order) {
+  return Search<Volume>(a, b, pose, order).run(start);
 }
 
 template class BinaryTree<BoundingBall>;
 template class BinaryTree<SweptRectangle>;
 template ClosestPair closest_pair(const BinaryTree<BoundingBall>&, const BinaryTree<BoundingBall>&, const Pose&,
-                                  const BallPair&);
+                                  const BallPair&, PartOrder);
 template ClosestPair closest_pair(const BinaryTree<SweptRectangle>&, const BinaryTree<SweptRectangle>&, const Pose&,
-                                  const BallPair&);
+                                  const BallPair&, PartOrder);
 
 }  // namespace medial_vk::bench

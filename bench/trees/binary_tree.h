@@ -18,11 +18,13 @@ namespace medial_vk::bench {
 template <class Volume>
 class BinaryTree {
  public:
-  /// Precondition: the pairing is one of these balls, of which there are one or more.
-  BinaryTree(std::span<const Ball> balls, const Pairing& pairing);
+  /// `likelihoods` of the balls are for searches by likelihood; none: they are 0. Precondition: the pairing is one of
+  /// these balls, of which there are one or more.
+  BinaryTree(std::span<const Ball> balls, const Pairing& pairing, std::span<const double> likelihoods = {});
 
   struct Node {
     Volume volume;
+    double likelihood = 0;  ///< The sum of those of the balls below.
     std::array<std::uint32_t, 2> below = {};
   };
 
@@ -43,18 +45,23 @@ struct ClosestPair {
   std::uint64_t tests = 0;  ///< Of pairs of volumes or balls.
 };
 
+/// Which part of a node comes first.
+enum class PartOrder {
+  kCloser,    ///< That which is closer to the other node.
+  kLikelier,  ///< That which is likelier to hold the answer (Section 8.7.4); of equal ones the closer.
+};
+
 /// The closest two balls, up to rounding; or two that overlap, if some do. Depth first: of two nodes the larger one is
-/// divided, and the closer one of its parts comes first. `start`: two balls with which to begin, such as the last
-/// answer, or none.
+/// divided. `start`: two balls with which to begin, such as the last answer, or none.
 template <class Volume>
 ClosestPair closest_pair(const BinaryTree<Volume>& a, const BinaryTree<Volume>& b, const Pose& pose,
-                         const BallPair& start = {});
+                         const BallPair& start = {}, PartOrder order = PartOrder::kCloser);
 
 extern template class BinaryTree<BoundingBall>;
 extern template class BinaryTree<SweptRectangle>;
 extern template ClosestPair closest_pair(const BinaryTree<BoundingBall>&, const BinaryTree<BoundingBall>&, const Pose&,
-                                         const BallPair&);
+                                         const BallPair&, PartOrder);
 extern template ClosestPair closest_pair(const BinaryTree<SweptRectangle>&, const BinaryTree<SweptRectangle>&,
-                                         const Pose&, const BallPair&);
+                                         const Pose&, const BallPair&, PartOrder);
 
 }  // namespace medial_vk::bench

@@ -28,6 +28,27 @@ std::uint32_t join(std::span<const Ball> balls, std::span<std::uint32_t> chosen,
   return static_cast<std::uint32_t>(pairing.nodes() - 1);
 }
 
+/// The same, with cuts that halve the likelihood.
+std::uint32_t join_likely(std::span<const Ball> balls, std::span<const double> likelihoods,
+                          std::span<std::uint32_t> chosen, Pairing& pairing) {
+  if (chosen.size() == 1) return chosen.front();
+  const PrincipalAxes spread(balls, chosen);
+  std::ranges::sort(chosen, {}, [&](std::uint32_t i) { return dot(spread.axes[0], balls[i].centre); });
+  double all = 0;
+  for (const std::uint32_t i : chosen) all += likelihoods[i];
+  std::size_t cut = 1;
+  for (double before = likelihoods[chosen[0]]; cut + 1 < chosen.size(); ++cut) {
+    // One more on this side, if that is nearer to a half.
+    const double next = likelihoods[chosen[cut]];
+    if (before + next / 2 > all / 2) break;
+    before += next;
+  }
+  const std::uint32_t first = join_likely(balls, likelihoods, chosen.first(cut), pairing);
+  const std::uint32_t second = join_likely(balls, likelihoods, chosen.subspan(cut), pairing);
+  pairing.pairs.push_back({first, second});
+  return static_cast<std::uint32_t>(pairing.nodes() - 1);
+}
+
 /// Nodes that no pair holds yet, each with the partner that gives the smallest ball.
 class Clusters {
  public:
@@ -109,6 +130,14 @@ Pairing pair_top_down(std::span<const Ball> balls) {
   std::vector<std::uint32_t> all(balls.size());
   std::iota(all.begin(), all.end(), 0u);
   if (!all.empty()) join(balls, all, pairing);
+  return pairing;
+}
+
+Pairing pair_by_likelihood(std::span<const Ball> balls, std::span<const double> likelihoods) {
+  Pairing pairing{balls.size(), {}};
+  std::vector<std::uint32_t> all(balls.size());
+  std::iota(all.begin(), all.end(), 0u);
+  if (!all.empty()) join_likely(balls, likelihoods, all, pairing);
   return pairing;
 }
 

@@ -27,4 +27,8 @@ Pairing pair_top_down(std::span<const Ball> balls);
 /// for such a tree).
 Pairing pair_bottom_up(std::span<const Ball> balls);
 
+/// From the root down, with cuts across the same directions where the likelihoods on both sides are closest to equal,
+/// so that likely balls are near the root (Section 8.7.4). Precondition: a likelihood for each ball.
+Pairing pair_by_likelihood(std::span<const Ball> balls, std::span<const double> likelihoods);
+
 }  // namespace medial_vk::bench

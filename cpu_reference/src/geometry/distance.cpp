@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <vector>
+
+#include "cpu_reference/distance_mesh.h"
 
 namespace medial_vk::reference {
 namespace {
@@ -42,7 +43,8 @@ double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
   return (b - a).cross(c - a).dot(d - a);
 }
 
-/// True if the segment passes through the triangle or ends on it, by the signs of five volumes.
+/// True if the segment passes through the triangle or ends on it, by the signs of five volumes. Where the triangle is
+/// smaller than the roundings of the ends, three of these are noise: so the common point must also be at the triangle.
 bool meets(const Vector3d& p, const Vector3d& q, const Corners& triangle, Vector3d& at) {
   const auto& [a, b, c] = triangle;
   const double of_p = volume(a, b, c, p), of_q = volume(a, b, c, q);
@@ -50,7 +52,8 @@ bool meets(const Vector3d& p, const Vector3d& q, const Corners& triangle, Vector
   const double x = volume(p, q, a, b), y = volume(p, q, b, c), z = volume(p, q, c, a);
   if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) return false;
   at = p + of_p / (of_p - of_q) * (q - p);
-  return true;
+  const double rounding = 64 * 0x1p-53 * (p.norm() + q.norm() + a.norm());
+  return closest_point_on_triangle(at, a, b, c).squared_distance <= rounding * rounding;
 }
 
 Corners corners_of(const Mesh& mesh, std::size_t t) {
@@ -78,27 +81,6 @@ std::vector<Around> all_triangles(const Mesh& mesh, const Motion& motion) {
     all.emplace_back(corners);
   }
   return all;
-}
-
-/// One corner of each set of triangles that share corners.
-std::vector<Vector3d> one_of_each_component(const Mesh& mesh) {
-  std::vector<std::size_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    for (const int k : {1, 2}) parent[root(static_cast<std::size_t>(t[0]))] = root(static_cast<std::size_t>(t[k]));
-  }
-  std::vector<Vector3d> corners;
-  std::vector<bool> seen(mesh.vertices.size());
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const std::size_t component = root(static_cast<std::size_t>(t[0]));
-    if (!seen[component]) corners.push_back(mesh.vertices[static_cast<std::size_t>(t[0])]);
-    seen[component] = true;
-  }
-  return corners;
 }
 
 }  // namespace
@@ -133,14 +115,7 @@ NearestPair nearest_of_meshes(const Mesh& a, const Mesh& b, const Motion& motion
 }
 
 bool one_holds_the_other(const Mesh& a, const Mesh& b, const Motion& motion) {
-  const Tree tree_a(a), tree_b(b);
-  const bool b_is_held = a.closed && std::ranges::any_of(one_of_each_component(b), [&](const Vector3d& corner) {
-                           return is_inside(tree_a, motion.rotation * corner + motion.shift);
-                         });
-  if (b_is_held || !b.closed) return b_is_held;
-  return std::ranges::any_of(one_of_each_component(a), [&](const Vector3d& corner) {
-    return is_inside(tree_b, motion.rotation.transpose() * (corner - motion.shift));
-  });
+  return one_holds_the_other(DistanceMesh(a), DistanceMesh(b), motion);
 }
 
 }  // namespace medial_vk::reference

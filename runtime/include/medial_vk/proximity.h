@@ -120,6 +120,10 @@ struct DistanceOptions {
   double limit = std::numeric_limits<double>::infinity();
   /// Of the surfaces, even where one solid lies inside the other.
   bool surfaces_only = false;
+  /// A budget: the search ends after so many comparisons, each of up to 64 pairs of balls around triangles, besides a
+  /// first way down both trees, with the best interval so far. Of two budgets the greater one never gives a wider
+  /// interval. The greatest number: none; the search is then in an order that takes the least time in all.
+  std::uint64_t most_comparisons = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// An interval that contains the distance of two solids, and the points that prove its upper end.

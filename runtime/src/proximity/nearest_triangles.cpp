@@ -112,14 +112,23 @@ class TrianglesGoal {
     test(items, of_a, in_frame_of_a(of_b));
   }
 
+  /// All pairs of triangles that were tested are at least `proved_` apart, those that were passed over at least the
+  /// target of that time, which was no less than now, and the others what their balls are. What was proved once holds.
+  void wait(float separation) {
+    waiting_ = separation < kFarther ? separation - float_error_ : std::numeric_limits<double>::infinity();
+    proved_before_ = std::max(proved_before_, proved_now());
+  }
+
   Distance result() const {
     Distance result = best_;
-    result.lower = result.upper == 0 ? 0 : std::max(0.0, std::min(proved_, target_));
+    result.lower = result.upper == 0 ? 0 : std::max({0.0, proved_before_, proved_now()});
     return result;
   }
 
  private:
   static constexpr std::size_t kMostPlanes = 4;
+
+  double proved_now() const { return std::min({proved_, target_, waiting_}); }
 
   Corners in_frame_of_a(const Corners& corners) const {
     const Pose& pose = placement_.pose();
@@ -203,7 +212,9 @@ class TrianglesGoal {
   double error_;        // of a corner, a point between corners, a distance between such points, and a separation
   Distance best_;
   double target_ = 0;
-  double proved_ = std::numeric_limits<double>::infinity();  // no pair that was taken is closer
+  double proved_ = std::numeric_limits<double>::infinity();   // no pair that was taken is closer
+  double waiting_ = std::numeric_limits<double>::infinity();  // no pair that waits is closer
+  double proved_before_ = 0;                                  // no pair at all is closer
   float reach_ = 0, reach_by_planes_ = 0;
   float between_inner_balls_ = kFarther;  // the distance of the solids is at most this and two errors
   std::size_t count_ = 0;
@@ -220,7 +231,11 @@ Distance nearest_triangles(const SurfaceTree& a, const SurfaceTree& b, const Pla
   TreeSearch search(a.nodes(), b.nodes(), placement.float_pose(), goal);
   const auto run = [&]() __attribute__((always_inline)) {
     if (!has_start) search.dive();
-    search.run();
+    if (options.most_comparisons == DistanceOptions().most_comparisons) {
+      search.run();
+    } else {
+      search.run(options.most_comparisons);
+    }
   };
   search_on_this_processor(run);
   return goal.result();

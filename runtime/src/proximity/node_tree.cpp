@@ -95,7 +95,8 @@ NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& bal
   std::vector<std::uint32_t> all(positions.size());
   std::iota(all.begin(), all.end(), 0u);
   Builder builder{{positions, radii}, tree.nodes_, {}};
-  builder.add_node(all, node_levels(positions.size()));
+  tree.levels_ = node_levels(positions.size());
+  builder.add_node(all, tree.levels_);
   constexpr std::size_t kNodesOfBlock = 8;
   parallel_for(tree.nodes_.size(), kNodesOfBlock, threads, [&](std::size_t i) {
     BodyNode& node = tree.nodes_[i];

@@ -66,6 +66,7 @@ class NodeTree {
 
   bool is_empty() const { return nodes_.empty(); }
   std::size_t size() const { return nodes_.size(); }
+  std::size_t levels() const { return levels_; }  ///< Of nodes.
   /// Node 0 is the root.
   const BodyNode& node(std::uint32_t i) const { return nodes_[i]; }
   /// No point of a ball in the tree is farther from the origin.
@@ -75,6 +76,7 @@ class NodeTree {
   struct Builder;
 
   std::vector<BodyNode> nodes_;
+  std::size_t levels_ = 0;
   double reach_ = 0;
 };
 

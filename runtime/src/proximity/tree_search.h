@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "medial_vk/pose.h"
 #include "proximity/eight_floats.h"
@@ -68,6 +70,8 @@ constexpr float kFarther = 1e30f;
 ///                                       b are known to be too far apart
 ///   void take(const CloseItems&)        two items whose balls are closer; may shorten the reach
 ///   bool is_reached() const             true ends the search
+///   void wait(float separation)         with a budget only: the pairs that are still to be compared have computed
+///                                       separations of at least this
 /// Everything is inlined into its caller, which chooses the processor. Allocates nothing.
 template <class Goal>
 class TreeSearch {
@@ -103,12 +107,31 @@ class TreeSearch {
   }
 
   MEDIAL_VK_INLINE void run() {
-    tasks_[0] = {-kFarther, 0, 0};
-    count_ = 1;
+    begin();
     while (count_ > 0 && !goal_.is_reached()) {
       const Task task = tasks_[--count_];
       if (task.separation < goal_.reach()) compare(task);
     }
+  }
+
+  /// No more than so many comparisons. What remains decides what is known then, so those that are closest come first,
+  /// as long as there is room for a search depth first from there.
+  MEDIAL_VK_INLINE void run(std::uint64_t most_comparisons) {
+    begin();
+    const std::size_t room_below = (kWidth * kWidth - 1) * (a_.levels() + b_.levels()) + 1;
+    while (count_ > 0 && !goal_.is_reached()) {
+      std::size_t closest = count_ - 1;
+      for (std::size_t i = 0; i < count_; ++i)
+        closest = tasks_[i].separation < tasks_[closest].separation ? i : closest;
+      goal_.wait(tasks_[closest].separation);
+      if (most_comparisons == 0 || tasks_[closest].separation >= goal_.reach()) return;
+      if (count_ + room_below <= kMostTasks) std::swap(tasks_[closest], tasks_[count_ - 1]);
+      const Task task = tasks_[--count_];
+      if (task.separation >= goal_.reach()) continue;
+      compare(task);
+      --most_comparisons;
+    }
+    goal_.wait(kFarther);
   }
 
  private:
@@ -120,6 +143,11 @@ class TreeSearch {
     float separation;
     std::uint32_t node_a, node_b;
   };
+
+  MEDIAL_VK_INLINE void begin() {
+    tasks_[0] = {-kFarther, 0, 0};
+    count_ = 1;
+  }
 
   /// The centres of a node's balls in the frame of a.
   struct Centres {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../../../bench/trees/binary_tree.h"
+#include "../../../bench/trees/likelihood.h"
 #include "base/point_ops.h"
 #include "support/random_poses.h"
 
@@ -89,6 +90,36 @@ TEST(BinaryTrees, TakeDegenerateSets) {
   }
 }
 
+TEST(BinaryTrees, FindTheSameByLikelihood) {
+  Random random(7);
+  for (const std::size_t count : {1, 2, 17, 200}) {
+    const std::vector<Ball> balls = balls_of_tree(random, count, 1, 0.2);
+    const std::vector<double> likelihoods = bench::likelihoods_of(balls, 0.5);
+    EXPECT_NEAR(std::accumulate(likelihoods.begin(), likelihoods.end(), 0.0), 1, 1e-12);
+    for (const bench::Pairing& pairing :
+         {bench::pair_by_likelihood(balls, likelihoods), bench::pair_bottom_up(balls)}) {
+      const bench::BinaryTree<bench::BoundingBall> tree(balls, pairing, likelihoods);
+      EXPECT_NEAR(tree.node(tree.root()).likelihood, 1, 1e-12);
+      for (int i = 0; i < 20; ++i) {
+        const Pose pose = any_pose(random, point_in_cube(random, 4));
+        const double found = bench::closest_pair(tree, tree, pose, BallPair{}, bench::PartOrder::kLikelier).separation;
+        EXPECT_NEAR(std::max(0.0, found), std::max(0.0, least_of_pairs(balls, balls, pose)), rounding(20));
+      }
+    }
+  }
+}
+
+// Of three balls in a row the likeliest is one step from the root, at either end.
+TEST(BinaryTrees, LikelyBallsAreNearTheRoot) {
+  const std::vector<Ball> balls = {{{0, 0, 0}, 1}, {{3, 0, 0}, 1}, {{6, 0, 0}, 1}};
+  for (const std::uint32_t likeliest : {0u, 2u}) {
+    std::vector<double> likelihoods(3, 0.1);
+    likelihoods[likeliest] = 0.8;
+    const bench::Pairing pairing = bench::pair_by_likelihood(balls, likelihoods);
+    EXPECT_EQ(std::ranges::count(pairing.pairs.back(), likeliest), 1);
+  }
+}
+
 /// Every node is in one pair, except the root.
 void expect_tree(const bench::Pairing& pairing) {
   std::vector<int> uses(pairing.nodes(), 0);
@@ -106,7 +137,9 @@ TEST(BinaryTrees, EveryBallIsInThem) {
   Random random(3);
   for (const std::size_t count : {1, 2, 5, 64, 301}) {
     const std::vector<Ball> balls = balls_of_tree(random, count, 1, 0.1);
-    for (const bench::Pairing& pairing : {bench::pair_top_down(balls), bench::pair_bottom_up(balls)}) {
+    const std::vector<double> likelihoods = bench::likelihoods_of(balls, 0.1);
+    for (const bench::Pairing& pairing :
+         {bench::pair_top_down(balls), bench::pair_bottom_up(balls), bench::pair_by_likelihood(balls, likelihoods)}) {
       EXPECT_EQ(pairing.nodes(), 2 * count - 1);
       expect_tree(pairing);
     }

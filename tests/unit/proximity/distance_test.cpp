@@ -180,6 +180,50 @@ TEST(Distance, AStartChangesNothing) {
   EXPECT_EQ(distance(a, b, Pose{}, {}, last).value().upper, distance(a, b, Pose{}).value().upper);
 }
 
+/// With every budget, up to where it no longer matters.
+void expect_narrowing(const Body& a, const Body& b, const Pose& pose, double exact, DistanceOptions options) {
+  const double tolerance = options.tolerance;
+  Distance before;
+  for (std::uint64_t most = 0; most < 3000; most = most < 40 ? most + 1 : most * 5 / 4) {
+    options.most_comparisons = most;
+    options.tolerance = tolerance;
+    const Distance found = distance(a, b, pose, options).value();
+    SCOPED_TRACE(testing::Message() << most << " comparisons, tolerance " << tolerance << ", exact " << exact);
+    EXPECT_GE(found.lower, before.lower);
+    EXPECT_LE(found.upper, before.upper);
+    options.tolerance = std::numeric_limits<double>::max();  // no limit of the width
+    expect_holds(found, exact, 10, options);
+    before = found;
+  }
+  options.tolerance = tolerance;
+  options.most_comparisons = 1'000'000;  // enough
+  expect_holds(distance(a, b, pose, options).value(), exact, 10, options);
+}
+
+TEST(Distance, NarrowsWithItsBudget) {
+  Random random(5);
+  const Mesh torus = make_torus(0.5, 0.2, 20, 30), large = make_sphere(1, 300);
+  const Body a = body_of(torus), b = body_of(large);
+  for (const double far : {0.1, 0.5, 1.2, 2.0}) {
+    for (int i = 0; i < 4; ++i) {
+      const Pose pose = any_pose(random, point_in_cube(random, far));
+      const double exact = exact_distance(torus, large, pose, false);
+      expect_narrowing(a, b, pose, exact, {});
+      expect_narrowing(a, b, pose, exact, {.tolerance = 0.1});
+      expect_narrowing(a, b, pose, exact_distance(torus, large, pose, true), {.surfaces_only = true});
+    }
+  }
+  // Some comparisons are enough for much, and fewer than for all.
+  const Pose apart = make_pose({2.5, 0.3, 0.1}, {0.3, 0.2, 0.1});
+  const Distance none = distance(a, b, apart, {.most_comparisons = 0}).value();
+  const Distance some = distance(a, b, apart, {.most_comparisons = 20}).value();
+  const Distance all = distance(a, b, apart).value();
+  EXPECT_EQ(none.lower, 0);
+  EXPECT_LT(none.upper, 2 * all.upper);
+  EXPECT_GT(some.lower, 0.7 * all.lower);
+  EXPECT_LT(some.lower, all.lower);
+}
+
 // Of any size and at any place, faces on faces, and edges on edges.
 TEST(Distance, OfTouchingSolidsIsZeroOrLittleMore) {
   for (const double size : {1e-9, 1.0, 1e9}) {

@@ -161,6 +161,7 @@ TEST(Penetration, TheVolumeInCommonIsThatOfPoints) {
     PenetrationOptions options;
     options.most_queries = 1;
     options.directions = 1;
+    options.most_columns = 50000;
     const Pose pose = any_pose(random, point_in_cube(random, 0.5));
     const Penetration found = penetration(body_of_balls(of_a), body_of_balls(of_b), pose, options).value();
     const auto [volume, error] = sampled_volume(of_a, moved_balls(of_b, pose), random);

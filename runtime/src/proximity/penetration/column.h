@@ -2,8 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "medial_vk/ball.h"
@@ -19,13 +18,25 @@ struct Rectangle {
 /// Whether the circle around a ball's projection comes into the rectangle, up to rounding.
 bool meets(const Ball& ball, const Rectangle& rectangle);
 
-/// Bounds of the common volume over a rectangle.
-struct ColumnVolume {
-  double lower = 0;    ///< Proved, but for the roundings of the sum that the caller takes off.
+struct Column {
+  Rectangle rectangle;
+  std::vector<Ball> a, b;  ///< Those of both sets that matter over the rectangle.
+  double lower = 0;    ///< Of the common volume: proved, but for the roundings of the sum that the caller takes off.
   double missing = 0;  ///< An estimate of what a division may add.
 };
 
-/// Balls of radius 0 are no part of a union.
-ColumnVolume measure_column(std::span<const Ball> a, std::span<const Ball> b, const Rectangle& rectangle);
+class ColumnMeter {
+ public:
+  ColumnMeter();
+  ~ColumnMeter();
+
+  /// Finds both numbers, and takes balls out of the lists that change nothing over the rectangle. Balls of radius 0 are
+  /// no part of a union.
+  void measure(Column& column);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
 
 }  // namespace medial_vk

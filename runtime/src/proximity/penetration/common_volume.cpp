@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <utility>
 
 #include "medial_vk/ball_union.h"
 #include "proximity/penetration/column.h"
@@ -12,14 +12,8 @@
 namespace medial_vk {
 namespace {
 
-struct Column {
-  Rectangle rectangle;
-  ColumnVolume volume;
-  std::vector<Ball> a, b;  ///< That come into the rectangle.
-};
-
 struct MissesLess {
-  bool operator()(const Column& s, const Column& t) const { return s.volume.missing < t.volume.missing; }
+  bool operator()(const Column& s, const Column& t) const { return s.missing < t.missing; }
 };
 
 Rectangle box_of(std::span<const Ball> balls) {
@@ -45,20 +39,16 @@ class Columns {
   Columns(double enough, std::uint64_t most) : enough_(enough), most_(most) {}
 
   double run(std::span<const Ball> a, std::span<const Ball> b, const Rectangle& all) {
-    constexpr int kFirst = 16;  // so that the estimates of what is missing see every larger part
-    const auto at = [&](std::size_t k, int i) {
-      return i == kFirst ? all.to[k] : all.from[k] + i * ((all.to[k] - all.from[k]) / kFirst);
-    };
-    for (int i = 0; i < kFirst; ++i) {
-      for (int j = 0; j < kFirst; ++j) add(a, b, {{at(0, i), at(1, j)}, {at(0, i + 1), at(1, j + 1)}});
-    }
+    constexpr int kFirstLevels = 4;  // so that the estimates of what is missing see every larger part
+    divide({all, {a.begin(), a.end()}, {b.begin(), b.end()}}, kFirstLevels);
     while (!columns_.empty() && count_ < most_ && sum_ < enough_) {
-      const Column column = columns_.top();
-      columns_.pop();
-      sum_ -= column.volume.lower;
-      divide(column);
+      std::ranges::pop_heap(columns_, MissesLess());
+      const Column column = std::move(columns_.back());
+      columns_.pop_back();
+      sum_ -= column.lower;
+      divide(column, 1);
     }
-    for (; !columns_.empty(); columns_.pop()) done_.push_back(columns_.top().volume.lower);
+    for (const Column& column : columns_) done_.push_back(column.lower);
     // Ascending, without loss: a column has some 32 roundings, and the sum one for each.
     std::ranges::sort(done_);
     double sum = 0;
@@ -67,38 +57,42 @@ class Columns {
   }
 
  private:
-  void add(std::span<const Ball> a, std::span<const Ball> b, const Rectangle& rectangle) {
-    Column column{rectangle, {}, those_in(a, rectangle), those_in(b, rectangle)};
+  void add(Column column) {
     ++count_;
-    if (column.a.empty() || column.b.empty() || !(rectangle.area() > 0)) return;
-    column.volume = measure_column(column.a, column.b, rectangle);
-    sum_ += column.volume.lower;
-    if (column.volume.missing > 0) {
-      columns_.push(std::move(column));
+    if (column.a.empty() || column.b.empty() || !(column.rectangle.area() > 0)) return;
+    meter_.measure(column);
+    sum_ += column.lower;
+    if (column.missing > 0) {
+      columns_.push_back(std::move(column));
+      std::ranges::push_heap(columns_, MissesLess());
     } else {
-      done_.push_back(column.volume.lower);
+      done_.push_back(column.lower);
     }
   }
 
-  void divide(const Column& column) {
+  /// Into quarters, so many times.
+  void divide(const Column& column, int levels) {
     const auto& [from, to] = column.rectangle;
     const std::array<double, 2> middle = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
     for (unsigned quarter = 0; quarter < 4; ++quarter) {
-      Rectangle part;
+      Column part;
       for (std::size_t k = 0; k < 2; ++k) {
         const bool second = (quarter >> k & 1u) != 0;
-        part.from[k] = second ? middle[k] : from[k];
-        part.to[k] = second ? to[k] : middle[k];
+        part.rectangle.from[k] = second ? middle[k] : from[k];
+        part.rectangle.to[k] = second ? to[k] : middle[k];
       }
-      add(column.a, column.b, part);
+      part.a = those_in(column.a, part.rectangle);
+      part.b = those_in(column.b, part.rectangle);
+      levels > 1 ? divide(part, levels - 1) : add(std::move(part));
     }
   }
 
+  ColumnMeter meter_;
   double enough_;
   std::uint64_t most_, count_ = 0;
   double sum_ = 0;
   std::vector<double> done_;
-  std::priority_queue<Column, std::vector<Column>, MissesLess> columns_;
+  std::vector<Column> columns_;  // a heap
 };
 
 Result<double> volume_of(std::span<const Ball> balls) {

@@ -69,6 +69,17 @@ class Sweep {
     return length(b.centre + translation - a.centre) - (a.radius + b.radius) >= frame_.error;
   }
 
+  /// Most pairs do not, after the translation so far: this costs no root.
+  bool overlap_now(const Ball& a, const Ball& b) const {
+    const double reach = a.radius + b.radius + 2 * frame_.error;
+    double squared = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double away = b.centre[k] + at_ * direction_[k] - a.centre[k];
+      squared += away * away;
+    }
+    return squared < reach * reach;
+  }
+
   Overlap overlap_of(const Ball& a, const Ball& b) const {
     const Point away = b.centre - a.centre;
     const double along = dot(away, direction_), reach = a.radius + b.radius + 2 * frame_.error;
@@ -98,13 +109,16 @@ class Sweep {
     const bool are_lowest = a.is_lowest && b.is_lowest;
     for (std::uint32_t j = 0; j < b.count; ++j) {
       for (std::uint32_t k = 0; k < a.count; ++k) {
+        if (!overlap_now(a.balls[k], b.balls[j])) continue;
         const Overlap overlap = overlap_of(a.balls[k], b.balls[j]);
         if (overlap.from > at_ || overlap.to <= at_) continue;
         if (!are_lowest) {
           open_.push_back({overlap.to, a.is_lowest ? task.a : a.below[k], b.is_lowest ? task.b : b.below[j]});
           continue;
         }
-        const Overlap of_balls = overlap_of(a_.balls[a.below[k]], b_.balls[b.below[j]]);
+        const Ball &ball_a = a_.balls[a.below[k]], &ball_b = b_.balls[b.below[j]];
+        if (!overlap_now(ball_a, ball_b)) continue;
+        const Overlap of_balls = overlap_of(ball_a, ball_b);
         if (of_balls.from <= at_ && of_balls.to > at_) at_ = of_balls.to;
       }
     }
@@ -125,11 +139,12 @@ struct Aim {
 
 Point unit(const Point& p) { return (1 / length(p)) * p; }
 
-/// Shorter ways out along directions near `aim`: those at an angle around it, which is halved where none is shorter.
-Aim improved(Sweep& sweep, Aim aim, double angle) {
-  constexpr double kLeastAngle = 1e-5, kGoldenAngle = 2.399963229728653;
+/// Shorter ways out along directions near `aim`: those at an angle around it, which is halved, down to the least angle,
+/// where none is shorter.
+Aim improved(Sweep& sweep, Aim aim, double angle, double least_angle) {
+  constexpr double kGoldenAngle = 2.399963229728653;
   constexpr int kAround = 6;
-  for (double turn = 0; angle > kLeastAngle; turn += kGoldenAngle) {
+  for (double turn = 0; angle > least_angle; turn += kGoldenAngle) {
     const Point side = perpendicular_to(aim.direction), other = cross(aim.direction, side);
     const Aim middle = aim;
     for (int i = 0; i < kAround; ++i) {
@@ -177,8 +192,10 @@ WayOut way_out(const PlacedBalls& a, const PlacedBalls& b, const QueryFrame& fra
   std::ranges::sort(aims, {}, &Aim::length);
   aims.resize(std::min(aims.size(), kMostAims));
   const double between = std::sqrt(4 * std::numbers::pi / directions);
-  for (Aim& aim : aims) aim = improved(sweep, aim, between);
+  constexpr double kNearlyThere = 0.125, kLeastAngle = 1e-5;
+  for (Aim& aim : aims) aim = improved(sweep, aim, between, kNearlyThere * between);
   std::ranges::sort(aims, {}, &Aim::length);
+  aims.front() = improved(sweep, aims.front(), kNearlyThere * between, kLeastAngle);
   WayOut out;
   for (const Aim& aim : aims) {
     if (prove(sweep, frame, aim, out)) return out;
