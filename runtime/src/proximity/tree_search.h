@@ -142,10 +142,12 @@ class TreeSearch {
   struct Task {
     float separation;
     std::uint32_t node_a, node_b;
+    std::uint32_t above_a;  ///< Ball k of node n, 8 n + k, holds the balls of node_a; kNoBall: the root has none.
   };
+  static constexpr std::uint32_t kNoBall = ~std::uint32_t{0};
 
   MEDIAL_VK_INLINE void begin() {
-    tasks_[0] = {-kFarther, 0, 0};
+    tasks_[0] = {-kFarther, 0, 0, kNoBall};
     count_ = 1;
   }
 
@@ -171,7 +173,19 @@ class TreeSearch {
     return x * x + y * y + z * z;
   }
 
-  /// All balls of one node with all of the other one, eight pairs at a time; square roots are left to closer pairs.
+  /// The balls of b that may be closer than the reach to a ball of node_a: bit j.
+  MEDIAL_VK_INLINE std::uint32_t near_balls(const Task& task, const BodyNode& b, const Centres& centres) const {
+    if (task.above_a == kNoBall) return (1u << kWidth) - 1;
+    const BodyNode& above = a_.node(task.above_a / kWidth);
+    const std::size_t k = task.above_a % kWidth;
+    const EightFloats x = load(centres.of[0]) - above.centre[0][k], y = load(centres.of[1]) - above.centre[1][k],
+                      z = load(centres.of[2]) - above.centre[2][k];
+    const EightFloats reach = load(b.radius) + (above.radius[k] + goal_.reach());
+    return bits_of((x * x + y * y + z * z < reach * reach) & (reach > 0));
+  }
+
+  /// All balls of one node with the near ones of the other, eight pairs at a time; square roots are left to closer
+  /// pairs.
   MEDIAL_VK_INLINE void compare(const Task& task) {
     const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
     const bool are_lowest = a.is_lowest && b.is_lowest;
@@ -180,7 +194,8 @@ class TreeSearch {
     const Centres centres = in_frame_of_a(b);
     const EightFloats reach_a = load(a.radius) + goal_.reach();
     std::uint64_t closer = 0;  // bit 8 j + k: ball k of a and ball j of b
-    for (std::uint32_t j = 0; j < kWidth; ++j) {
+    for (std::uint32_t near = near_balls(task, b, centres); near != 0; near &= near - 1) {
+      const auto j = static_cast<std::uint32_t>(std::countr_zero(near));
       const EightFloats reach = reach_a + b.radius[j];
       const EightInts is_closer = (squared_distances(a, centres, j) < reach * reach) & (reach > 0);
       closer |= std::uint64_t{bits_of(is_closer)} << (kWidth * j);
@@ -205,7 +220,8 @@ class TreeSearch {
       if (separation < goal_.reach()) goal_.take({separation, a.below[k], b.below[j]});
       return;
     }
-    const Task below = {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j]};
+    const Task below = {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j],
+                        a.is_lowest ? task.above_a : static_cast<std::uint32_t>(task.node_a * kWidth + k)};
     if (a.is_lowest == b.is_lowest || !repeats(below)) push(below);
   }
 
@@ -219,11 +235,12 @@ class TreeSearch {
     return false;
   }
 
-  /// The tasks of one division are in the order of decreasing separation.
+  /// Of the tasks of one division the closest is the last; sorting all would take longer than it saves.
   MEDIAL_VK_INLINE void push(const Task& task) {
-    std::size_t slot = count_++;
-    for (; slot > first_ && tasks_[slot - 1].separation < task.separation; --slot) tasks_[slot] = tasks_[slot - 1];
-    tasks_[slot] = task;
+    tasks_[count_] = task;
+    if (count_ > first_ && tasks_[count_ - 1].separation < task.separation)
+      std::swap(tasks_[count_ - 1], tasks_[count_]);
+    ++count_;
   }
 
   /// A comparison replaces a task by up to 64, at most once for each level of both trees.
