@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/point_ops.h"
+#include "helpers.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/mesh.h"
@@ -22,6 +23,7 @@
 namespace {
 
 using namespace medial_vk;
+using bench::median;
 
 constexpr std::uint32_t kMostSpiralPoints = 200;  // each has its own site, and time grows with sites * samples
 constexpr double kQueryError = 1e-14;             // of distances to meshes of size 1 by Bvh
@@ -90,11 +92,6 @@ struct Row {
   double widest = 0, deepest = 0, seconds = 0;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }

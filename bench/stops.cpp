@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <map>
 #include <stop_token>
@@ -16,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "helpers.h"
 #include "input/read_mesh.h"
 #include "medial_vk/context.h"
 #include "medial_vk/extraction.h"
@@ -24,15 +24,9 @@
 namespace {
 
 using namespace medial_vk;
+using bench::or_exit;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
-
-template <typename T>
-T or_exit(Result<T> result) {
-  if (result.ok()) return std::move(result).value();
-  std::fprintf(stderr, "bench_stops: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
 
 struct Latencies {
   double run = 0;             // seconds of a run without a stop

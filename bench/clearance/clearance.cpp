@@ -12,15 +12,18 @@
 #include <string>
 #include <vector>
 
+#include "../helpers.h"
 #include "base/stopwatch.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/context.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/sphere_fits.h"
+#include "robots/primitive_mesh.h"
 
 namespace {
 
 using namespace medial_vk;
+using bench::or_exit;
 
 constexpr std::size_t kJoints = 7, kScene = kJoints, kLinks = kJoints + 1;
 
@@ -56,35 +59,20 @@ Mesh capsule(double radius, double length, std::uint32_t sides) {
 }
 
 Mesh box(const Point& size) {
-  Mesh mesh;
-  for (int corner = 0; corner < 8; ++corner) {
-    mesh.vertices.push_back({(corner & 1 ? 0.5 : -0.5) * size[0], (corner & 2 ? 0.5 : -0.5) * size[1],
-                             (corner & 4 ? 0.5 : -0.5) * size[2]});
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-[[noreturn]] void fail(const Error& error) {
-  fmt::print(stderr, "bench_clearance: {}\n", error.message);
-  std::exit(1);
-}
-
-template <class T>
-T take(Result<T> result) {
-  if (!result) fail(result.error());
-  return std::move(result).value();
+  Geometry geometry;
+  geometry.kind = GeometryKind::kBox;
+  geometry.size = size;
+  return make_primitive(geometry, FacetSide::kInscribed);
 }
 
 /// With balls inside and a cover, `count` of each.
 Body fitted(Mesh mesh, std::size_t count, Context& context) {
-  const IndexedMesh indexed = take(IndexedMesh::build(take(prepare_mesh(std::move(mesh)))));
+  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(std::move(mesh)))));
   SphereFitOptions options;
   options.count = count;
-  const std::vector<Ball> inside = take(fit_spheres(indexed, options, context)).levels.back();
+  const std::vector<Ball> inside = or_exit(fit_spheres(indexed, options, context)).levels.back();
   options.contract = SphereContract::kCover;
-  return take(Body::create(indexed, inside, take(fit_spheres(indexed, options, context)).levels.back()));
+  return or_exit(Body::create(indexed, inside, or_exit(fit_spheres(indexed, options, context)).levels.back()));
 }
 
 double uniform(std::mt19937_64& random, double from, double to) {
@@ -131,7 +119,7 @@ void measure(const BodyGroup& group, const std::vector<Pose>& poses, const Row& 
   for (std::size_t k = 0; k < repeats; ++k) {
     Stopwatch stopwatch;
     for (std::size_t i = 0; i < count; ++i) {
-      cold[i] = take(least_distance(group, std::span(poses).subspan(i * kLinks, kLinks), row.options));
+      cold[i] = or_exit(least_distance(group, std::span(poses).subspan(i * kLinks, kLinks), row.options));
     }
     best = std::min(best, stopwatch.lap());
   }
@@ -153,7 +141,7 @@ void measure_scene(const Arm& arm, std::vector<GroupPart> parts, const std::vect
     for (std::uint32_t b = a + 2; b < kJoints; ++b) pairs.push_back({a, b});
     pairs.push_back({a, kScene});
   }
-  const BodyGroup group = take(BodyGroup::create(parts, kLinks, pairs));
+  const BodyGroup group = or_exit(BodyGroup::create(parts, kLinks, pairs));
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) arm.poses(random, poses);
   fmt::print("| query | configurations a second | microseconds each | free, % | hit, % | undecided, % |\n");
@@ -179,7 +167,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", repeats);
   app.add_option("--half", halves, "half the side of the scene, metres");
   CLI11_PARSE(app, argc, argv);
-  Context context = take(Context::create());
+  Context context = or_exit(Context::create());
   const Arm arm;
   std::vector<GroupPart> parts;
   for (std::uint32_t i = 0; i < kJoints; ++i) {

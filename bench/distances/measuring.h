@@ -3,23 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
-#include <utility>
 #include <vector>
 
+#include "../helpers.h"
 #include "medial_vk/mesh.h"
-#include "medial_vk/result.h"
 
 namespace medial_vk::bench {
-
-template <typename T>
-T or_exit(Result<T> result) {
-  if (result.ok()) return std::move(result).value();
-  std::fprintf(stderr, "%s\n", result.error().message.c_str());
-  std::exit(1);
-}
 
 /// Of the box around the mesh.
 inline double longest_side(const Mesh& mesh) {
@@ -38,11 +28,6 @@ inline double microseconds_each(std::size_t count, const std::function<void()>& 
   work();
   return 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
          static_cast<double>(count);
-}
-
-inline double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace medial_vk::bench

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "../helpers.h"
 #include "device/context_impl.h"
 #include "device_run.h"
 #include "embree_peer.h"
@@ -58,19 +59,10 @@ std::vector<std::array<float, 3>> to_float(const std::vector<Point>& points) {
   return out;
 }
 
-template <class T>
-T value_or_exit(Result<T> result) {
-  if (!result.ok()) {
-    std::fprintf(stderr, "bench_queries: %s\n", result.error().message.c_str());
-    std::exit(1);
-  }
-  return std::move(result).value();
-}
-
 Mesh mesh_named(const std::string& name) {
   if (name == "blob100k") return make_blob(100'000);
   if (name == "blob1m") return make_blob(1'000'000);
-  if (name != "torus16k") return value_or_exit(read_mesh(name));
+  if (name != "torus16k") return or_exit(read_mesh(name));
   Mesh mesh = test::make_torus(1, 0.4, 64, 125);
   test::rotate(mesh, {1, 2, 3}, 0.7);
   return mesh;
@@ -79,14 +71,14 @@ Mesh mesh_named(const std::string& name) {
 std::unique_ptr<Subject> make_subject(Context& context, const std::string& name, std::uint64_t queries,
                                       unsigned threads) {
   const std::string stem = std::filesystem::path(name).stem().string();
-  auto s = std::make_unique<Subject>(value_or_exit(make_workload(context, stem, mesh_named(name), queries)));
+  auto s = std::make_unique<Subject>(or_exit(make_workload(context, stem, mesh_named(name), queries)));
   const Workload& w = s->workload;
   const MeshView view{w.mesh.vertices, w.mesh.triangles, {}, true};
-  s->scene = std::make_unique<Scene>(value_or_exit(Scene::create(context, value_or_exit(IndexedMesh::build(view)))));
-  s->device = value_or_exit(DeviceRun::create(Internals::of(context), view, w.spheres, kGroup, w.shuffled));
+  s->scene = std::make_unique<Scene>(or_exit(Scene::create(context, or_exit(IndexedMesh::build(view)))));
+  s->device = or_exit(DeviceRun::create(Internals::of(context), view, w.spheres, kGroup, w.shuffled));
   for (const std::size_t count : kFew) {
     const std::vector<Point> points = scattered_points(w, count);
-    s->few.push_back(value_or_exit(DeviceRun::create(Internals::of(context), view, points, 1, points)));
+    s->few.push_back(or_exit(DeviceRun::create(Internals::of(context), view, points, 1, points)));
   }
   if (!EmbreePeer::version().empty()) s->peer = std::make_unique<EmbreePeer>(w.mesh, threads);
   s->float_spheres = to_float(w.spheres);
@@ -118,7 +110,7 @@ void add_benchmark(const Subject& subject, const std::string& name, std::size_t 
 }
 
 double require(const Status& status) {
-  if (!status.ok()) value_or_exit(Result<int>(status.error()));
+  if (!status.ok()) or_exit(Result<int>(status.error()));
   return 0;
 }
 
@@ -165,7 +157,7 @@ int run(int argc, char** argv) {
     if (std::string(argv[i]) == "--queries") queries = std::strtoull(argv[i + 1], nullptr, 10);
     if (std::string(argv[i]) == "--meshes") meshes = argv[i + 1];
   }
-  Context context = value_or_exit(Context::create({}));
+  Context context = or_exit(Context::create({}));
   const unsigned threads = driver_threads();
   const std::string peer = EmbreePeer::version().empty() ? "not built in (libembree-dev)" : EmbreePeer::version();
   const std::string about = context.device().name + "; " + context.device().driver + "; " + std::to_string(threads) +

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "../helpers.h"
+
 namespace medial_vk::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 std::string number(double value, const char* format = "%.2f") {
   char text[32];

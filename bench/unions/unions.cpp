@@ -7,7 +7,6 @@
 #include <time.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "../helpers.h"
 #include "ball_files.h"
 #include "medial_vk/ball_union.h"
 #include "support/solids/ball_families.h"
@@ -41,12 +41,6 @@ Times time_of(const std::function<void()>& work) {
   const double cpu = cpu_seconds();
   work();
   return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), cpu_seconds() - cpu};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Times median_of(const std::vector<Times>& runs) {

@@ -8,25 +8,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "../helpers.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/context.h"
 
 namespace {
 
 using namespace medial_vk;
+using bench::or_exit;
 using Clock = std::chrono::steady_clock;
-
-template <typename T>
-T or_exit(Result<T> result) {
-  if (result.ok()) return std::move(result).value();
-  std::fprintf(stderr, "bench_unions_on_device: %s\n", result.error().message.c_str());
-  std::exit(1);
-}
 
 std::vector<Ball> balls_along_a_sheet(std::size_t count) {
   const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count))));

@@ -6,7 +6,7 @@ const kHidden = new Set(['format', 'program', 'version', 'input', 'output', 'sec
 const kTitles = {
   parameters: 'Parameters', mesh: 'Mesh', grid: 'Grid', voxels: 'Voxels', levels: 'Levels', points: 'Points',
   device: 'Device', certificate: 'Check', union: 'Union of the balls', grouping: 'Grouping into sheets',
-  medial_mesh: 'Medial mesh', sheets: 'Sheets',
+  medial_mesh: 'Medial mesh', sheets: 'Sheets', fatness: 'Fatness: overlap of neighbouring balls',
 };
 const kNames = {
   undecided_kinds: 'undecided: ', object_angle: 'object angle', api_version: 'Vulkan version',
@@ -100,6 +100,13 @@ function sheets(all) {
   return section(kTitles.sheets, table(shown), ...(more > 0 ? [element('p', `and ${plain(more)} more`)] : []));
 }
 
+/** For which voxels and object angles the solid is fat. */
+function fatness({proved, angles}) {
+  const text = proved ? 'Proved: no medial point of object angle ' + plain(proved.object_angle) + ' or more has a radius below '
+    + plain(proved.least_radius) + '.' : 'By the points; there is no proof for all medial points.';
+  return section(kTitles.fatness, element('p', text), table(angles));
+}
+
 /** Fills `target`. */
 export function showReport(target, report) {
   target.append(run(report));
@@ -109,6 +116,7 @@ export function showReport(target, report) {
     if (assumptions.length) target.lastChild.append(element('ul', null, ...assumptions.map((x) => element('li', x))));
   }
   if (report.sheets?.length) target.append(sheets(report.sheets));
+  if (report.fatness) target.append(fatness(report.fatness));
   if (report.levels?.length) target.append(section(kTitles.levels, table(report.levels)));
   target.append(certificate(report.certificate));
   target.append(report.device ? section(kTitles.device, rows(element('dl'), report.device))

@@ -22,6 +22,13 @@ Result<IndexedMesh> index_ball(const Ball& ball, FacetSide side, const PrepareOp
   return IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
 }
 
+/// Facets inside a sphere are at least (1 - share) (1 - 2^-48) of its radius from the centre, and the corners of those
+/// around it at most (1 + 2^-48) / (1 - share) (make_primitive()): twice the share is more than enough for both.
+Ball ball_of_facets(const Ball& sphere, FacetSide side) {
+  const double share = 2 * facet_share(GeometryKind::kCapsule);
+  return {sphere.centre, sphere.radius * (side == FacetSide::kInscribed ? 1 - share : 1 + share)};
+}
+
 /// The meshes of parts, with facets on one side of curved ones.
 Result<std::vector<LinkSolid>> solids_of(const Robot& robot, const RobotParts& loaded, FacetSide side,
                                          const std::string& name, const PrepareOptions& options) {
@@ -34,7 +41,8 @@ Result<std::vector<LinkSolid>> solids_of(const Robot& robot, const RobotParts& l
       return Error{mesh.error().code,
                    fmt::format("{}: link {}: {}: {}", name, quoted(part.link), part.name, mesh.error().message)};
     }
-    solids.push_back({std::move(mesh).value(), numbers.at(part.link), part.pose});
+    solids.push_back({std::move(mesh).value(), numbers.at(part.link), part.pose, part.name, {}});
+    if (part.ball) solids.back().ball = ball_of_facets(*part.ball, side);
   }
   return solids;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/pose.h"
@@ -23,7 +25,10 @@ namespace medial_vk {
 struct LinkSolid {
   IndexedMesh mesh;
   std::uint32_t link = 0;
-  Pose pose;  ///< From the frame of the mesh to that of the link.
+  Pose pose;         ///< From the frame of the mesh to that of the link.
+  std::string name;  ///< That of the part (RobotParts), or the file of the mesh.
+  /// Where the shape is a sphere: a ball inside the mesh, or of a solid around the shape, one that holds the mesh.
+  std::optional<Ball> ball = {};
 };
 
 /// Every shape of the links between two meshes. Meshes and boxes are themselves; a cylinder, capsule or sphere has

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <utility>
 
+#include "base/first_error.h"
 #include "base/parallel.h"
 #include "input/text_scanner.h"
 #include "medial_vk/prepare.h"
@@ -51,12 +51,6 @@ struct MeshOfParts {
   std::vector<std::pair<Point, std::vector<Use>>> uses;
 };
 
-/// The error of the first part, in their order, that has one.
-struct FirstError {
-  std::size_t part = ~std::size_t{0};
-  Status status;
-};
-
 class PartLoader {
  public:
   PartLoader(FacetSide side, const MeshPlaces& places, const std::string& name, const PrepareOptions& options)
@@ -64,7 +58,7 @@ class PartLoader {
 
   /// After an error no further geometry is added.
   void add(const Link& link, const std::vector<Geometry>& geometries) {
-    for (std::size_t i = 0; i < geometries.size() && first_.status; ++i) {
+    for (std::size_t i = 0; i < geometries.size() && first_.status(); ++i) {
       const Geometry& geometry = geometries[i];
       Part& part = loaded_.parts.emplace_back();
       PartOrigin& origin = loaded_.origins.emplace_back();
@@ -72,7 +66,7 @@ class PartLoader {
       part.pose = geometry.origin;
       part.name = geometry.kind == GeometryKind::kMesh ? short_name(geometry.mesh) : fmt::format("primitive{}", i);
       const Use use = {loaded_.parts.size() - 1, &link, &geometry};
-      if (Status status = add(use, part, origin); !status) first_ = {use.part, named(use, status.error())};
+      if (Status status = add(use, part, origin); !status) first_.add(use.part, named(use, status.error()));
     }
   }
 
@@ -82,17 +76,10 @@ class PartLoader {
     PrepareOptions options = options_;
     options.threads =
         std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(meshes_.size(), 1, threads)));
-    std::mutex mutex;
     parallel_for(meshes_.size(), 1, threads, [&](std::size_t i) {
-      {
-        const std::lock_guard lock(mutex);
-        if (first_part(meshes_[i]) > first_.part) return;
-      }
-      FirstError error = load(meshes_[i], options);
-      const std::lock_guard lock(mutex);
-      if (!error.status && error.part < first_.part) first_ = std::move(error);
+      if (first_.concerns(first_part(meshes_[i]))) load(meshes_[i], options);
     });
-    if (!first_.status) return first_.status.error();
+    if (!first_.status()) return first_.status().error();
     return std::move(loaded_);
   }
 
@@ -137,23 +124,23 @@ class PartLoader {
     return {};
   }
 
-  FirstError load(const MeshOfParts& mesh, const PrepareOptions& options) {
+  void load(const MeshOfParts& mesh, const PrepareOptions& options) {
     const Use& first = mesh.uses.front().second.front();
     Mesh primitive;
     if (mesh.file.empty()) primitive = make_primitive(*first.geometry, side_);
     const Result<Mesh> read = mesh.file.empty() ? std::move(primitive) : read_mesh_file(mesh.file);
-    if (!read) return {first.part, named(first, read.error())};
+    if (!read) return first_.add(first.part, named(first, read.error()));
     for (const auto& [scale, uses] : mesh.uses) {
       Mesh of_scale = scaled(read.value(), scale);
+      const Use& use_of_scale = uses.front();
       if (!mesh.file.empty() && !is_finite(of_scale)) {
-        return {uses.front().part,
-                named(uses.front(), {ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"})};
+        const Error error = {ErrorCode::kInvalidMesh, "the scale leads out of the range of numbers"};
+        return first_.add(use_of_scale.part, named(use_of_scale, error));
       }
-      const Result<IndexedMesh> indexed = index(std::move(of_scale), loaded_.parts[uses.front().part].name, options);
-      if (!indexed) return {uses.front().part, named(uses.front(), indexed.error())};
+      const Result<IndexedMesh> indexed = index(std::move(of_scale), loaded_.parts[use_of_scale.part].name, options);
+      if (!indexed) return first_.add(use_of_scale.part, named(use_of_scale, indexed.error()));
       for (const Use& use : uses) loaded_.parts[use.part].mesh = indexed.value();
     }
-    return {};
   }
 
   static Result<IndexedMesh> index(Mesh mesh, const std::string& name, const PrepareOptions& options) {

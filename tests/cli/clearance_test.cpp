@@ -225,6 +225,37 @@ TEST_F(ClearanceCommand, TheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(test::run_tool(call_one).out, one.out);
 }
 
+/// The wall is open: it has a cover, but nothing is inside it, so that contact with it is not proved.
+TEST_F(ClearanceCommand, BallsAloneHoldTheDistance) {
+  const std::vector<std::string> arguments = {"rail.urdf", "--joints", "q.csv", "--balls", "1",
+                                              "--backend", "cpu",      "-o",    "c.csv",   "--check"};
+  const ToolResult result = clearance(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.out, StartsWith("condition "));
+  EXPECT_THAT(result.err, testing::ContainsRegex("balls +3 inside and 3 that cover, proved"));
+  const std::vector<ClearanceLine> lines = clearances_in(read_file(path("c.csv")));
+  ASSERT_EQ(lines.size(), 4u);
+  const double expected[] = {0.5, 0, 2, 3.5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LE(lines[i].lower, expected[i]);
+    EXPECT_GE(lines[i].upper, expected[i]);
+    EXPECT_EQ(lines[i].first, "base");
+    EXPECT_EQ(lines[i].second, "hand");
+  }
+  EXPECT_THAT(states_in(read_file(path("c.csv"))), ElementsAre("undecided", "hit", "free", "free"));
+  EXPECT_GT(lines[3].upper - lines[3].lower, 0.01);
+  Mesh open = test::make_box({1, 1, 1});
+  test::translate(open, {5, 0, 0});
+  open.triangles.pop_back();
+  test::write_file(path("open.obj"), test::to_obj(open));
+  test::write_file(path("near.csv"), "slide,turn,reach\n0,0,3\n");
+  const ToolResult near = clearance({"rail.urdf", "--joints", "near.csv", "--balls", "1", "--resolution", "12",
+                                     "--backend", "cpu", "--scene", "open.obj", "-q"});
+  EXPECT_EQ(near.exit_code, 0) << near.err;
+  EXPECT_THAT(states_in(near.out), ElementsAre("undecided"));
+  EXPECT_GT(clearances_in(near.out).at(0).upper, 1);
+}
+
 TEST_F(ClearanceCommand, WrongUsageIs2) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"rail.urdf"},

@@ -222,6 +222,20 @@ TEST_F(CommandLine, VolumesOfBallsAndSheets) {
   EXPECT_THAT(read_file(path("c.svg")), StartsWith("<svg "));
 }
 
+TEST_F(CommandLine, ReportSaysForWhichVoxelsTheSolidIsFat) {
+  const ToolResult result = run_cpu({"part.obj", "--report", "r.json", "--object-angle", "0.7"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json report = nlohmann::json::parse(read_file(path("r.json")));
+  const nlohmann::json& angles = report["fatness"]["angles"];
+  std::vector<double> values;
+  for (const auto& of_angle : angles) values.push_back(of_angle["object_angle"].get<double>());
+  EXPECT_THAT(values, ElementsAre(0.7, 0.8, 1, 1.2, 1.4));
+  EXPECT_EQ(angles[0]["points"], report["points"]["written"]);
+  EXPECT_EQ(angles[0]["least_radius"], report["points"]["radius"]["least"]);
+  for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LE(angles[i]["points"], angles[i - 1]["points"]);
+  EXPECT_THAT(result.err, testing::ContainsRegex("fat +voxels up to [^ ]+ at object angles from 0.7 rad"));
+}
+
 TEST_F(CommandLine, KeepsTheSheetsThatCount) {
   const ToolResult result = run_cpu({"part.obj", "--report", "r.json", "--keep-volume", "0.7", "--keep-topology",
                                      "--sheet-curve", "c.csv", "--check"});

@@ -201,5 +201,36 @@ TEST_F(SpheresCommand, RobotsKeepEveryContract) {
   }
 }
 
+TEST_F(SpheresCommand, ABodyFileHasAReportOfBothSets) {
+  const ToolResult result = best({"part.obj", "--contract", "both", "--count", "5", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.err, HasSubstr("part.body.npz ("));
+  EXPECT_THAT(result.err, HasSubstr("r.json ("));
+  const json of_run = report();
+  EXPECT_EQ(of_run["contract"], "both");
+  EXPECT_EQ(of_run["output"], "part.body.npz");
+  EXPECT_EQ(of_run["output_format"], "body");
+  EXPECT_EQ(of_run["goals"]["count"], 5);
+  EXPECT_TRUE(of_run["volume_error"].is_null());
+  ASSERT_EQ(of_run["parts"].size(), 2u);
+  const json &inside = of_run["parts"][0], &cover = of_run["parts"][1];
+  EXPECT_EQ(inside["contract"], "inside");
+  EXPECT_EQ(cover["contract"], "cover");
+  for (const json& set : of_run["parts"]) {
+    EXPECT_EQ(set["check"], "passed");
+    EXPECT_EQ(set["num_spheres"], 5);
+    EXPECT_EQ(set["geometry"], "part");
+  }
+  EXPECT_EQ(of_run["num_spheres"], 10);
+  EXPECT_TRUE(inside["measures"]["certificate"]["inside"]["proved"].get<bool>());
+  EXPECT_TRUE(cover["measures"]["certificate"]["cover"]["proved"].get<bool>());
+  EXPECT_LT(inside["spheres_volume"], cover["spheres_volume"]);
+  EXPECT_TRUE(inside["volume_error"].is_number());
+  // The file is what the library makes of it: a body at distance 0 from itself.
+  const ToolResult distance = run({"distance", "part.body.npz", "part.body.npz", "--balls", "-q"});
+  EXPECT_EQ(distance.exit_code, 0) << distance.err;
+  EXPECT_EQ(distance.out, "lower,upper,state\n0,0,hit\n");
+}
+
 }  // namespace
 }  // namespace medial_vk

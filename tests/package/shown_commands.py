@@ -34,6 +34,7 @@ NOT_RUN = {
     r"medial-vk spheres( MESH| ROBOT.urdf)?$": "names the command; a run of it has a goal",
     r"medial-vk distance( A B)?$": "names the command; a run of it has two meshes",
     r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
+    r"medial-vk clearance robot.urdf --joints joints.csv --balls": "fits covers to all links, which takes minutes",
     r"medial-vk VERSION": "is not a command but a comment of the PLY",
     r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",

@@ -270,7 +270,7 @@ export const tests = {
     const {points, page} = await openPart(context);
     await page.clickElement('open-report');
     const text = await page.text('report-body');
-    for (const part of ['part.obj', 'Parameters', 'resolution', 'Mesh', 'triangles', 'Levels', 'Union of the balls', 'significance', grouped(points.length)]) {
+    for (const part of ['part.obj', 'Parameters', 'resolution', 'Mesh', 'triangles', 'Levels', 'Union of the balls', 'Fatness', 'significance', grouped(points.length)]) {
       assert.ok(text.includes(part), part);
     }
     assert.ok(await page.evaluate("document.getElementById('report-body').checkVisibility()"));

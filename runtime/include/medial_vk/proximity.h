@@ -33,7 +33,7 @@ class Body {
   /// (winding number at least 1/2), and its triangles; a mesh that is not closed encloses nothing. The mesh is shared,
   /// not copied. Time: some 20 microseconds a triangle, on one core. `progress` is called one call at a time but from
   /// any thread; a request to `stop` ends the call soon after the trees over balls. Errors: those of the other form;
-  /// kInvalidMesh (the mesh reaches beyond 1e18), kInterrupted.
+  /// kUsage (balls `inside` a mesh that is not closed), kInvalidMesh (the mesh reaches beyond 1e18), kInterrupted.
   static Result<Body> create(const IndexedMesh& mesh, std::span<const Ball> inside = {},
                              std::span<const Ball> cover = {}, const BodyOptions& options = {},
                              const ProgressCallback& progress = {}, const std::stop_token& stop = {});

@@ -1,38 +1,14 @@
 #include "part_fits/side_by_side.h"
 
-#include <atomic>
-#include <mutex>
-#include <utility>
 #include <vector>
 
+#include "base/first_error.h"
 #include "base/parallel.h"
 
 namespace medial_vk {
 namespace {
 
 std::size_t triangles_of(const Part& part) { return part.mesh ? part.mesh->prepared().mesh.triangles.size() : 0; }
-
-/// The error of the first part, by number, that failed.
-class FirstError {
- public:
-  void add(std::size_t number, Status status) {
-    if (status) return;
-    const std::lock_guard lock(mutex_);
-    if (number >= number_) return;
-    number_ = number;
-    status_ = std::move(status);
-  }
-
-  /// Whether an error of part `number` would be the one to return.
-  bool concerns(std::size_t number) const { return number < number_; }
-
-  Status status() const { return status_; }
-
- private:
-  std::mutex mutex_;
-  std::atomic<std::size_t> number_ = ~std::size_t{0};
-  Status status_;
-};
 
 }  // namespace
 

@@ -125,6 +125,9 @@ Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside,
                           const BodyOptions& options, const ProgressCallback& progress, const std::stop_token& stop) {
   if (Status status = check(mesh.prepared().report); !status) return status.error();
   if (Status status = check_sets(inside, cover); !status) return status.error();
+  if (!inside.empty() && !mesh.prepared().report.closed) {
+    return Error{ErrorCode::kUsage, "balls `inside` a mesh that is not closed: it encloses nothing"};
+  }
   return catch_out_of_memory("indexing the triangles of a body", [&]() -> Result<Body> {
     BuildWatch watch(progress, stop);
     try {

@@ -47,10 +47,11 @@ Status load_scene(const std::string& path, const ClearanceOptions& options, Robo
   if (!prepared) return prepared.error();
   const Result<IndexedMesh> mesh = IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
   if (!mesh) return mesh.error();
-  const LinkSolid solid = {mesh.value(), static_cast<std::uint32_t>(all.links()), {}};
+  const std::string name = path == "-" ? "stdin" : path;
+  const LinkSolid solid = {mesh.value(), static_cast<std::uint32_t>(all.links()), {}, name};
   all.solids.around.push_back(solid);
   all.solids.inside.push_back(solid);
-  all.names.push_back(path == "-" ? "stdin" : path);
+  all.names.push_back(name);
   return {};
 }
 

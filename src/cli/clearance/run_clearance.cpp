@@ -9,10 +9,13 @@
 
 #include "base/stopwatch.h"
 #include "cli/clearance/clearance_summary.h"
+#include "cli/clearance/fitted_links.h"
 #include "cli/clearance/robot_and_scene.h"
 #include "cli/options/clearance_options.h"
+#include "cli/shared/device_opening.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
+#include "cli/terminal/numbers.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
 #include "input/text_scanner.h"
@@ -33,9 +36,13 @@ class ClearanceRun {
       if (output.file->empty()) continue;
       if (Status status = check_writable(*output.file); !status) return status;
     }
+    if (options_.balls > 0 && options_.backend != Backend::kCpu) {
+      opening_.start(options_.device, options_.threads, progress_);  // while the robot is read
+    }
     if (Status status = load(); !status) return status;
     if (Status status = build(); !status) return status;
     if (!options_.quiet) print_message(clearance_opening(options_, all_, kinematics_->joints().size()));
+    if (Status status = fit_balls(); !status) return status;
     if (Status status = compute(); !status) return status;
     if (Status status = check(); !status) return status;
     files_.push_back({options_.output, encode_clearances_csv(clearances_)});
@@ -90,13 +97,20 @@ class ClearanceRun {
       };
     };
     const auto error = [](const Error& e) { return e.code == ErrorCode::kInterrupted ? stopped() : e; };
+    // With --balls, triangles only find the pairs that always touch.
+    const bool has_bodies = options_.balls == 0 || options_.srdf.empty();
+    const std::span<const LinkSolid> solids = has_bodies ? all_.solids.around : std::span<const LinkSolid>();
     const Result<std::vector<GroupPart>> around =
-        bodies_of(all_.solids.around, options_.threads, {}, seen("bodies"), stop.get_token());
+        bodies_of(solids, options_.threads, {}, seen("bodies"), stop.get_token());
     if (!around) return error(around.error());
     times_.push_back({"bodies", stopwatch.lap()});
     Status status = find_pairs(options_, *kinematics_, around.value(), all_, seen("pairs"), stop.get_token());
     if (!status) return error(status.error());
     times_.push_back({"pairs", stopwatch.lap()});
+    if (options_.balls > 0) {
+      progress_.clear();
+      return {};  // their group follows
+    }
     Result<BodyGroup> group = group_of(around.value());
     if (!group) return group.error();
     around_ = std::move(group).value();
@@ -110,6 +124,27 @@ class ClearanceRun {
     }
     times_.push_back({"bodies", stopwatch.lap()});
     progress_.clear();
+    return {};
+  }
+
+  /// With --balls, balls in the place of all solids.
+  Status fit_balls() {
+    if (options_.balls == 0) return {};
+    std::optional<Context> context;
+    std::optional<DeviceDescription> device;
+    if (Status status = opening_.take(context, device, times_); !status) return status;
+    Stopwatch stopwatch;
+    const std::stop_source stop;
+    Result<FittedLinks> fitted = fit_links(all_, options_, context, progress_, stop);
+    if (!fitted && fitted.error().code == ErrorCode::kInterrupted) return stopped();
+    if (!fitted) return with_hint(fitted.error(), options_.device);
+    Result<BodyGroup> group = group_of(fitted.value().parts);
+    if (!group) return group.error();
+    around_ = std::move(group).value();
+    times_.push_back({"balls", stopwatch.lap()});
+    if (options_.quiet) return {};
+    print_message(labelled("balls", fmt::format("{} inside and {} that cover, proved", grouped(fitted.value().inside),
+                                                grouped(fitted.value().cover))));
     return {};
   }
 
@@ -209,6 +244,7 @@ class ClearanceRun {
 
   const ClearanceOptions& options_;
   Progress progress_;
+  DeviceOpening opening_;  // with --balls
   RobotAndScene all_;
   std::optional<Kinematics> kinematics_;
   std::vector<std::vector<double>> values_;  // of each configuration

@@ -52,7 +52,6 @@ void add_balls(const DistanceView& view, const Pose& pose, PairPicture& picture)
   }
 }
 
-/// In the letters that the font of pictures has.
 std::string title_of(const PoseInterval& interval) {
   if (!std::isfinite(interval.upper)) {
     return interval.lower > 0 ? fmt::format("distance at least {:.6g}", interval.lower) : "undecided";
@@ -68,13 +67,33 @@ std::string title_of(const PoseInterval& interval) {
   return fmt::format("undecided, {:.6g} to {:.6g}", interval.lower, interval.upper);
 }
 
-PairPicture picture_of(const DistanceView& view, std::size_t shown, const PoseInterval& interval) {
+std::string name_of_file(const std::string& path) {
+  return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
+}
+
+/// Whether the triangles of the first solid are also those of the second one, at the same places.
+bool coincide(const Mesh& mesh, std::size_t triangles_of_first) {
+  if (mesh.triangles.size() != 2 * triangles_of_first) return false;
+  const auto is_same_corner = [&](std::uint32_t a, std::uint32_t b) { return mesh.vertices[a] == mesh.vertices[b]; };
+  for (std::size_t i = 0; i < triangles_of_first; ++i) {
+    if (!std::ranges::equal(mesh.triangles[i], mesh.triangles[triangles_of_first + i], is_same_corner)) return false;
+  }
+  return true;
+}
+
+PairPicture picture_of(const DistanceCommandOptions& options, const DistanceView& view, std::size_t shown,
+                       const PoseInterval& interval) {
   const Pose& pose = view.poses[shown];
   PairPicture picture;
   append_mesh(view.side_a.mesh.prepared().mesh, Pose(), picture.mesh);
+  picture.triangles_of_a = picture.mesh.triangles.size();
   append_mesh(view.side_b.mesh.prepared().mesh, pose, picture.mesh);
+  picture.triangles_of_b = picture.mesh.triangles.size() - picture.triangles_of_a;
+  picture.name_a = "A: " + name_of_file(options.a);
+  picture.name_b = "B: " + name_of_file(options.b);
   add_balls(view, pose, picture);
   picture.title = title_of(interval);
+  if (coincide(picture.mesh, picture.triangles_of_a)) picture.title += " (A and B are the same, in the same place)";
   picture.has_points = std::isfinite(interval.upper);
   picture.is_hit = interval.collision == Collision::kHit;
   if (view.distances.empty()) {
@@ -86,10 +105,6 @@ PairPicture picture_of(const DistanceView& view, std::size_t shown, const PoseIn
   return picture;
 }
 
-std::string name_in_page(const std::string& path) {
-  return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
-}
-
 }  // namespace
 
 Status append_distance_views(const DistanceCommandOptions& options, const DistanceView& view,
@@ -98,10 +113,10 @@ Status append_distance_views(const DistanceCommandOptions& options, const Distan
   const std::vector<PoseInterval> intervals = intervals_of(view);
   const auto least = std::ranges::min_element(intervals, {}, &PoseInterval::upper);
   const auto shown = static_cast<std::size_t>(least - intervals.begin());
-  Result<std::string> png = encode_png(draw_pair(picture_of(view, shown, *least), options.view));
+  Result<std::string> png = encode_png(draw_pair(picture_of(options, view, shown, *least), options.view));
   if (!png) return png.error();
   if (!options.html.empty()) {
-    files.push_back({options.html, encode_distance_page({name_in_page(options.a), name_in_page(options.b), intervals,
+    files.push_back({options.html, encode_distance_page({name_of_file(options.a), name_of_file(options.b), intervals,
                                                          shown, png.value(), options.balls})});
   }
   if (!options.picture.empty()) files.push_back({options.picture, std::move(png).value()});

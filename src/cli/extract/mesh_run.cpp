@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 #include <stop_token>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "check_reports/check_sheets.h"
@@ -14,6 +16,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
+#include "medial_vk/fatness.h"
 #include "output/charts_and_tables/ball_volumes.h"
 #include "output/charts_and_tables/volume_curve.h"
 #include "output/extraction_report/report_json.h"
@@ -45,6 +48,24 @@ std::uint64_t leading_components(const std::vector<double>& shares) {
   std::uint64_t count = 0;
   for (double held = 0; count < shares.size() && held < kLeadingShare; ++count) held += shares[count];
   return count;
+}
+
+/// The object angle of the extraction, and the multiples of 0.2 above it.
+std::vector<double> angles_of_fatness(double least) {
+  std::vector<double> angles = {least};
+  for (int i = 1; i / 5.0 < 0.5 * std::numbers::pi; ++i) {
+    if (i / 5.0 > least + 1e-9) angles.push_back(i / 5.0);
+  }
+  return angles;
+}
+
+/// True if all medial points with the object angle of the extraction are known to lie in the voxels of the points that
+/// are written.
+bool holds_all_points(const RunRecord& record) {
+  const MeshReport& mesh = record.mesh;
+  return record.options.mode == Mode::kCertified && record.counters.undecided == 0 && record.simplified == 0 &&
+         (!record.removal || record.removal->sheets.empty()) && mesh.closed && mesh.intersections_known &&
+         mesh.intersecting_faces == 0 && mesh.sides_known && mesh.faces_within == 0 && mesh.faces_without == 0;
 }
 
 }  // namespace
@@ -152,6 +173,7 @@ void MeshRun::describe() {
 Status MeshRun::make_files() {
   const EndAtOnce guard;
   if (interrupted()) return stopped();
+  if (Status status = measure_fat(); !status) return status;
   encode_volumes();
   if (Status status = encode(); !status) return status;
   if (Status status = check(); !status) return status;
@@ -161,6 +183,21 @@ Status MeshRun::make_files() {
   encode_report();
   mesh_.reset();
   analysis_ = Analysis();
+  return {};
+}
+
+/// For the report, and for the page, which shows it.
+Status MeshRun::measure_fat() {
+  if (options_.report.empty() && options_.html.empty()) return {};
+  Stopwatch stopwatch;
+  FatnessRecord fatness;
+  Result<std::vector<Fatness>> of_angles = measure_fatness(
+      analysis_.spheres, record_.grid, angles_of_fatness(record_.options.object_angle), {.threads = options_.threads});
+  if (!of_angles) return of_angles.error();
+  fatness.of_angles = std::move(of_angles).value();
+  if (holds_all_points(record_)) fatness.proved_radius = least_medial_radius(analysis_.spheres, record_.grid);
+  record_.fatness = std::move(fatness);
+  record_.host_times.push_back({"fatness", stopwatch.lap()});
   return {};
 }
 

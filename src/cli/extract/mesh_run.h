@@ -39,6 +39,7 @@ class MeshRun {
   Status index(PreparedMesh mesh);
   bool reports_index() const;
   void describe();
+  Status measure_fat();
   void encode_volumes();
   void encode_mesh();
   Status encode();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "cli/terminal/numbers.h"
@@ -71,6 +72,19 @@ std::string describe_union(const RunRecord& record) {
   return text;
 }
 
+/// The largest voxels for which the solid is fat: at the object angle of the extraction, and at the first one for which
+/// the balls are connected.
+std::string describe_fatness(const FatnessRecord& record) {
+  const auto for_angle = [](const Fatness& fatness) {
+    return fmt::format("voxels up to {:.3g} at object angles from {:.3g} rad{}", fatness.largest_voxel,
+                       fatness.object_angle, fatness.proves_connected ? ", whose balls are connected" : "");
+  };
+  const Fatness& first = record.of_angles.front();
+  const auto connected = std::ranges::find_if(record.of_angles, &Fatness::proves_connected);
+  if (connected == record.of_angles.end() || first.proves_connected) return for_angle(first);
+  return for_angle(first) + "; " + for_angle(*connected);
+}
+
 std::string describe_removal(const SheetRemoval& removal) {
   const double left = removal.volume_left.empty() ? 1 : removal.volume_left.back();
   return fmt::format("{} of {} sheets, {:.2f} % of the volume", grouped(removal.kept.size()),
@@ -121,6 +135,7 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   text += labelled("voxels", describe_voxels(record));
   if (record.points > 0) text += labelled("sheets", describe_sheets(record.sheets));
   if (record.ball_union) text += labelled("volume", describe_union(record));
+  if (record.fatness && record.points > 0) text += labelled("fat", describe_fatness(*record.fatness));
   if (record.removal) text += labelled("kept", describe_removal(*record.removal));
   if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));
   text += labelled("radius", range_text(record.radii));

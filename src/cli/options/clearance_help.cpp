@@ -9,7 +9,7 @@ std::string clearance_help_text() {
   return R"(medial-vk clearance holds the least distance among the links of a robot and
 its surroundings, for each configuration of the joints, in an interval that
 no rounding error of distances leaves, and decides whether anything collides.
-It needs no Vulkan.
+It needs no Vulkan, except to fit balls.
 
 Usage:
   medial-vk clearance [options] ROBOT.urdf --joints FILE.csv
@@ -19,6 +19,7 @@ Examples:
   medial-vk clearance robot.urdf --scene part.stl --joints joints.csv -o c.csv
   medial-vk clearance robot.urdf --joints joints.csv --write-srdf robot.srdf -o self.csv
   medial-vk clearance robot.urdf --joints joints.csv --srdf robot.srdf --limit 0.05
+  medial-vk clearance robot.urdf --joints joints.csv --balls 64 -o bounds.csv
 
 What is compared:
       --joints FILE     a table (CSV) with a configuration per line, in radians
@@ -40,6 +41,10 @@ What is computed:
       --tolerance T     intervals may be as wide as T, in metres (default 0: as
                         narrow as rounding allows)
       --limit L         prove no more than that a distance is at least L
+      --balls N         bounds by balls alone, without triangles: N that are
+                        proved to lie inside the solids of each link, and N that
+                        cover them, fitted in this run; a file of the scene
+                        counts as a link. Wider intervals, for many configurations
       --keep-inner-faces
                         take faces inside a solid, such as those of a part that
                         reaches into another one, for its boundary, too
@@ -56,6 +61,13 @@ Output:
       --write-srdf FILE a .srdf with the pairs of links that were not compared
       --threads N       CPU threads, 0 for all (default 0)
 
+How balls are fitted:
+      --resolution N    voxels along the longest side of a solid for the balls to
+                        choose from, 1 to 4096 (default: by their number)
+      --backend B       vulkan (default), or cpu, which needs no Vulkan
+      --device D        Vulkan device by index or part of its name (default: the
+                        environment variable MEDIAL_VK_DEVICE, else the best)
+
 Other:
   -q, --quiet           only errors
   -v, --verbose         also the pairs of links that always touch, and the time
@@ -64,12 +76,13 @@ Other:
 
 Free: no compared solids have a common point. Hit: two of them have one.
 Undecided: neither is proved: they may touch, to within rounding, the tolerance,
-or the facets that stand for cylinders, capsules and spheres. A mesh that is not
-closed counts as a surface that encloses nothing. Files appear whole or not at
-all.
+the facets that stand for cylinders, capsules and spheres, or the balls. A mesh
+that is not closed counts as a surface that encloses nothing. Files appear whole
+or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 a file unreadable or
-invalid, 5 out of memory, 6 cannot write, 7 --check failed, 130 interrupted.
+invalid, 4 no usable Vulkan device, 5 out of memory, 6 cannot write, 7 --check
+failed, 130 interrupted.
 )";
 }
 

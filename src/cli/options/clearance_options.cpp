@@ -14,6 +14,7 @@ namespace medial_vk::cli {
 namespace {
 
 constexpr double kGreatestClearance = 1e30;
+constexpr std::uint64_t kMostBalls = 100'000;
 
 void declare_clearance(CLI::App& app, ClearanceOptions& options) {
   Declarations add(app);
@@ -24,6 +25,10 @@ void declare_clearance(CLI::App& app, ClearanceOptions& options) {
   add.text("--srdf", "file", options.srdf);
   add.text("--write-srdf", "file", options.write_srdf);
   add.text("-o,--output", "file", options.output);
+  add.whole("--balls", 1, kMostBalls, " balls for each link", options.balls);
+  add.whole("--resolution", 1, 4096, " voxels", options.resolution);
+  add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
+  add.text("--device", "index or name", options.device);
   add.real("--tolerance", {0, kGreatestClearance, true}, " (metres)", options.tolerance);
   add.real("--limit", {0, kGreatestClearance, false}, " (metres)", options.limit);
   add.flag("--visual", options.visual);
@@ -49,6 +54,17 @@ Status check_clearance_inputs(const ClearanceOptions& options) {
   return {};
 }
 
+/// Only the balls of links need a device, and they know no tolerance.
+Status check_balls_of_links(const ClearanceOptions& options) {
+  if (options.balls == 0) {
+    if (options.backend == Backend::kVulkan && options.device.empty() && options.resolution == 0) return {};
+    return usage_error("--resolution, --backend and --device are about the fit of balls: use them with --balls N");
+  }
+  if (options.tolerance > 0) return usage_error("--balls answers without triangles: it has no --tolerance");
+  if (options.backend == Backend::kVulkan || options.device.empty()) return {};
+  return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
+}
+
 Status check_clearance_outputs(const ClearanceOptions& options) {
   if (!may_end_in(options.output, ".csv")) {
     return usage_error(fmt::format("--output: '{}' does not end in .csv", options.output));
@@ -66,7 +82,7 @@ Status check_clearance_outputs(const ClearanceOptions& options) {
 
 GroupOptions group_options(const ClearanceOptions& options) {
   GroupOptions of_library;
-  of_library.exact = true;
+  of_library.exact = options.balls == 0;
   of_library.tolerance = options.tolerance;
   if (options.limit > 0) of_library.limit = options.limit;
   return of_library;
@@ -107,6 +123,7 @@ Result<ClearanceOptions> ClearanceOptionParser::parse(const std::vector<std::str
   if (options.help) return options;
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (Status status = check_clearance_inputs(options); !status) return status.error();
+  if (Status status = check_balls_of_links(options); !status) return status.error();
   if (options.output.empty()) options.output = "-";
   if (Status status = check_clearance_outputs(options); !status) return status.error();
   return options;

@@ -2,11 +2,14 @@
 // (docs/command-line.md).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/options/output_names.h"
+#include "common/backend.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/result.h"
 
@@ -22,6 +25,10 @@ struct ClearanceOptions {
   std::string write_srdf;             ///< For the pairs that were not compared; empty: none; "-": standard output.
   std::string output;                 ///< "-": standard output.
 
+  std::size_t balls = 0;         ///< Answers by balls alone, of so many for each link; 0: by triangles.
+  std::uint32_t resolution = 0;  ///< Voxels along the longest side for these balls to choose from; 0: by their number.
+  Backend backend = Backend::kVulkan;
+  std::string device;
   double tolerance = 0;
   double limit = 0;     ///< 0: none.
   bool visual = false;  ///< Visual shapes of links instead of those for collisions.

@@ -27,15 +27,18 @@ std::string body_opening(const SpheresOptions& options, const MeshReport& report
 }
 
 std::string body_summary(const SpheresOptions& options, const SphereFit& inside, const SphereFit& cover,
-                         const std::vector<StageTime>& times, std::size_t bytes) {
+                         const std::vector<StageTime>& times, std::span<const OutputFile> files) {
   std::string text = labelled(
       "inside", set_text(inside, inside.measures.distances.boundary_to_balls.upper, "from the surface to the spheres"));
   text += labelled("cover",
                    set_text(cover, cover.measures.distances.balls_to_solid.upper, "from the spheres to the solid"));
   text += labelled("proved", "no sphere inside reaches out, and the cover leaves no point of the solid out");
   text += labelled("time", times_text(times, options.verbose));
-  const std::string name = options.output == "-" ? "standard output" : options.output;
-  return text + labelled("written", fmt::format("{} ({})", name, byte_size(bytes)));
+  for (const OutputFile& file : files) {
+    const std::string name = file.path == "-" ? "standard output" : file.path;
+    text += labelled("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
+  }
+  return text;
 }
 
 }  // namespace medial_vk::cli

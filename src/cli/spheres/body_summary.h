@@ -1,8 +1,8 @@
 // Terminal messages of `medial-vk spheres --contract both`.
 #pragma once
 
-#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +11,7 @@
 #include "medial_vk/measurements.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/sphere_fits.h"
+#include "output/atomic_files/atomic_file.h"
 
 namespace medial_vk::cli {
 
@@ -18,8 +19,8 @@ namespace medial_vk::cli {
 std::string body_opening(const SpheresOptions& options, const MeshReport& report,
                          const std::optional<DeviceDescription>& device);
 
-/// A few lines at the end, after the file of so many bytes has been written.
+/// A few lines at the end, after the files have been written.
 std::string body_summary(const SpheresOptions& options, const SphereFit& inside, const SphereFit& cover,
-                         const std::vector<StageTime>& times, std::size_t bytes);
+                         const std::vector<StageTime>& times, std::span<const OutputFile> files);
 
 }  // namespace medial_vk::cli

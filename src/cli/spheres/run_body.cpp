@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "body_files/body_file.h"
@@ -19,6 +21,8 @@
 #include "cli/terminal/tables.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
+#include "output/fit_reports/fits_record.h"
+#include "output/fit_reports/fits_report.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -30,7 +34,10 @@ class BodyRun {
   explicit BodyRun(const SpheresOptions& options) : options_(options), shared_(!options.quiet) {}
 
   Status run() {
-    if (Status status = check_writable(options_.output); !status) return status;
+    for (const NamedOutput& output : outputs_of(options_)) {
+      if (output.file->empty()) continue;
+      if (Status status = check_writable(*output.file); !status) return status;
+    }
     if (options_.backend != Backend::kCpu) {
       shared_.opening.start(options_.device, options_.spheres.threads, shared_.progress);  // while the mesh is read
     }
@@ -41,11 +48,10 @@ class BodyRun {
     if (Status status = fit(SphereContract::kCover, cover_); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = make_file(); !status) return status;
+    if (!options_.report.empty()) files_.push_back({options_.report, encode_fits_report(record())});
     if (interrupted()) return stopped();
-    if (Status status = write_files({&file_, 1}); !status) return status;
-    if (!options_.quiet) {
-      print_message(body_summary(options_, inside_, cover_, shared_.times, file_.bytes.size()));
-    }
+    if (Status status = write_files(files_); !status) return status;
+    if (!options_.quiet) print_message(body_summary(options_, inside_.fit, cover_.fit, shared_.times, files_));
     return report_check();
   }
 
@@ -72,7 +78,14 @@ class BodyRun {
     return {};
   }
 
-  Status fit(SphereContract contract, SphereFit& result) {
+  /// A set of balls, and what is known about it.
+  struct Set {
+    SphereFit fit;
+    double seconds = 0;
+    std::optional<CheckReport> check;
+  };
+
+  Status fit(SphereContract contract, Set& result) {
     Stopwatch stopwatch;
     std::stop_source stop;
     const char* const step = contract == SphereContract::kInside ? "inside" : "cover";
@@ -93,8 +106,9 @@ class BodyRun {
       error.message = in_words_of_options(std::move(error.message), Command::kSpheres);
       return with_hint(std::move(error));
     }
-    result = std::move(fit).value();
-    shared_.times.push_back({step, stopwatch.lap()});
+    result.fit = std::move(fit).value();
+    result.seconds = stopwatch.lap();
+    shared_.times.push_back({step, result.seconds});
     return {};
   }
 
@@ -104,9 +118,8 @@ class BodyRun {
     const EndAtOnce while_checked;
     if (interrupted()) return stopped();
     shared_.progress.update("check", 0);
-    check_ = check_balls_inside(mesh_->prepared(), inside_.levels.back());
-    const CheckReport covers = check_balls_cover(mesh_->prepared(), cover_.levels.back());
-    check_.lines.insert(check_.lines.end(), covers.lines.begin(), covers.lines.end());
+    inside_.check = check_balls_inside(mesh_->prepared(), inside_.fit.levels.back());
+    cover_.check = check_balls_cover(mesh_->prepared(), cover_.fit.levels.back());
     shared_.progress.clear();
     return {};
   }
@@ -117,16 +130,17 @@ class BodyRun {
     body.version = version();
     body.mesh.vertices = mesh_->prepared().mesh.vertices;
     body.mesh.triangles = mesh_->prepared().mesh.triangles;
-    body.inside = inside_.levels.back();
-    body.cover = cover_.levels.back();
-    body.measures = {inside_.measures.inside.greatest_excess,
-                     inside_.measures.distances.boundary_to_balls,
-                     cover_.measures.distances.balls_to_solid,
-                     cover_.measures.cover.triangles,
-                     cover_.measures.cover.vertices,
-                     inside_.measures.volume.solid,
-                     inside_.measures.volume.balls,
-                     cover_.measures.volume.balls};
+    const SphereMeasures &inside = inside_.fit.measures, &cover = cover_.fit.measures;
+    body.inside = inside_.fit.levels.back();
+    body.cover = cover_.fit.levels.back();
+    body.measures = {inside.inside.greatest_excess,
+                     inside.distances.boundary_to_balls,
+                     cover.distances.balls_to_solid,
+                     cover.cover.triangles,
+                     cover.cover.vertices,
+                     inside.volume.solid,
+                     inside.volume.balls,
+                     cover.volume.balls};
     Result<std::string> bytes = encode_body_file(body);
     if (!bytes) return bytes.error();
     const Result<BodyFile> again = decode_body_file(bytes.value(), options_.output);
@@ -137,8 +151,32 @@ class BodyRun {
     for (const StageTime& time : times) {
       if (time.stage == "prove") shared_.times.push_back(time);
     }
-    file_ = {options_.output, std::move(bytes).value()};
+    files_.push_back({options_.output, std::move(bytes).value()});
     return {};
+  }
+
+  FitsRecord record() const {
+    FitsRecord record;
+    record.input = options_.input;
+    record.output = options_.output;
+    record.output_format = "body";
+    record.is_body = true;
+    record.spheres = options_.spheres;
+    record.backend = options_.backend;
+    record.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    record.device = shared_.device;
+    record.times = shared_.times;
+    for (const auto& [contract, set] :
+         {std::pair(SphereContract::kInside, &inside_), {SphereContract::kCover, &cover_}}) {
+      FittedSolid& solid = record.solids.emplace_back();
+      solid.link = solid.name = record.name;
+      solid.mesh = mesh_;
+      solid.contract = contract;
+      solid.check = set->check;
+      solid.seconds = set->seconds;
+      take_fit(set->fit, options_.spheres.count, solid);
+    }
+    return record;
   }
 
   static Error defect(const Error& error) {
@@ -149,15 +187,16 @@ class BodyRun {
 
   Status report_check() const {
     if (!options_.check) return {};
-    return print_check(check_, options_.output == "-");
+    CheckReport all = *inside_.check;
+    all.lines.insert(all.lines.end(), cover_.check->lines.begin(), cover_.check->lines.end());
+    return print_check(all, std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; }));
   }
 
   const SpheresOptions& options_;
   SharedOfRun shared_;
   std::optional<IndexedMesh> mesh_;
-  SphereFit inside_, cover_;
-  CheckReport check_;
-  OutputFile file_;
+  Set inside_, cover_;
+  std::vector<OutputFile> files_;
 };
 
 }  // namespace

@@ -29,11 +29,11 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("clearance"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount},
-    {"count_per_link", {}, {}, "--count-per-link"},
+    {"count_per_link", {}, {}, "--count-per-link", {}, {}, "--balls"},
     library_only("cover"),
     {"crease", "--sheet-crease", {}, {}},
     same("deep_angle", "the deep angle"),
-    {"device", "--device", "--device", "--device", "--device"},
+    {"device", "--device", "--device", "--device", "--device", {}, "--device"},
     library_only("directions"),
     {"epsilon", "--epsilon", "epsilon", "epsilon"},
     {"error", {}, "--error", "--error"},
@@ -64,7 +64,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("query_error"),
     {"radius", "--radius", "the radius threshold", "the radius threshold"},
     library_only("removal_orders"),
-    {"resolution", "--resolution", "--resolution", "--resolution", "the resolution"},
+    {"resolution", "--resolution", "--resolution", "--resolution", "the resolution", {}, "--resolution"},
     library_only("rotation"),
     library_only("samples"),
     library_only("sheets"),
@@ -88,8 +88,9 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
     case Command::kRobotSpheres:
       return parameter.robot_spheres;
     case Command::kDistance:
-    case Command::kClearance:
       return parameter.distance;
+    case Command::kClearance:
+      return parameter.clearance.empty() ? parameter.distance : parameter.clearance;
     case Command::kDoctor:
       return parameter.doctor;
   }

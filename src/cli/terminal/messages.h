@@ -28,8 +28,9 @@ enum class Command {
 struct ParameterWords {
   std::string_view parameter;
   std::string_view extract, spheres, robot_spheres;
-  std::string_view doctor = {};    ///< Of few: its small extraction has options that cannot be at fault.
-  std::string_view distance = {};  ///< Of few. Those of clearance have the same names.
+  std::string_view doctor = {};     ///< Of few: its small extraction has options that cannot be at fault.
+  std::string_view distance = {};   ///< Of few.
+  std::string_view clearance = {};  ///< Of few; empty: that of distance.
 };
 
 /// Every parameter that messages of the library name.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -218,6 +220,29 @@ Json medial_mesh_json(const RunRecord& record) {
           {"solid", {{"surface_components", record.mesh.components}, {"euler_characteristic", solid_euler}}}};
 }
 
+Json fatness_json(const RunRecord& record) {
+  if (!record.fatness) return nullptr;
+  Json angles = Json::array();
+  for (const Fatness& fatness : record.fatness->of_angles) {
+    const double resolution = std::ceil(record.longest_side / fatness.largest_voxel);
+    angles.push_back({{"object_angle", fatness.object_angle},
+                      {"points", fatness.spheres},
+                      {"least_radius", fatness.least_radius},
+                      {"largest_voxel", fatness.largest_voxel},
+                      {"resolution", resolution < 1e15 ? Json(static_cast<std::uint64_t>(resolution)) : Json(nullptr)},
+                      {"components", fatness.components},
+                      {"proves_connected", fatness.proves_connected}});
+  }
+  Json proved = nullptr;
+  if (const double radius = record.fatness->proved_radius; radius > 0) {
+    // The factor is for the rounding of the product.
+    proved = {{"object_angle", record.options.object_angle},
+              {"least_radius", radius},
+              {"largest_voxel", radius * std::numbers::inv_sqrt3 * (1 - 0x1p-50)}};
+  }
+  return {{"proved", proved}, {"angles", angles}};
+}
+
 Json check_json(const std::optional<CheckReport>& check) {
   if (!check) return nullptr;
   Json lines = Json::array();
@@ -277,6 +302,7 @@ std::string report_json(const RunRecord& record) {
         {"object_angle", range_json(record.object_angles)}}},
       {"sheets", sheets_json(record.sheets)},
       {"union", union_json(record.ball_union)},
+      {"fatness", fatness_json(record)},
       {"removal", removal_json(record)},
       {"orders", orders_json(record)},
       {"grouping", grouping_json(record.sheet_options, record.sheets)},

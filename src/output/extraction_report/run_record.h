@@ -11,6 +11,7 @@
 #include "common/backend.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
+#include "medial_vk/fatness.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
 #include "medial_vk/significance.h"
@@ -37,6 +38,13 @@ struct UnionRecord {
 
 constexpr double kLeadingShare = 0.999;
 
+/// For which voxels and object angles the solid is fat (Section 8.3).
+struct FatnessRecord {
+  std::vector<Fatness> of_angles;  ///< By the points that are written; the first angle is that of the extraction.
+  /// No medial point with the object angle of the extraction has a lesser radius; 0: none is proved.
+  double proved_radius = 0;
+};
+
 struct RunRecord {
   std::string input;
   std::string part;  ///< The mesh of `input`, by its name in file names; empty: all of it.
@@ -62,6 +70,7 @@ struct RunRecord {
   SheetOptions sheet_options;
   Sheets sheets;
   std::optional<UnionRecord> ball_union;         ///< None if no output depends on volumes.
+  std::optional<FatnessRecord> fatness;          ///< None without a report.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
   std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
   double orders_end_at = 0;                      ///< Share of the volume at which both orders end.

@@ -78,6 +78,7 @@ std::optional<Share> uncovered_share(const FittedSolid& solid, SphereContract co
 }
 
 std::optional<Share> uncovered_share(const FitsRecord& record) {
+  if (record.is_body) return std::nullopt;
   double whole = 0, covered = 0, variance = 0;
   bool is_estimate = false;
   for (const FittedSolid& solid : record.solids) {

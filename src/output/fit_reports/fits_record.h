@@ -36,7 +36,8 @@ struct FittedSolid {
   std::vector<Ball> proved;
   double seconds = 0;
 
-  std::optional<CheckReport> check;  ///< Of `--check`.
+  std::optional<SphereContract> contract;  ///< Of a set of a body file; otherwise that of the record.
+  std::optional<CheckReport> check;        ///< Of `--check`.
 
   /// The report of its mesh; an empty one for a ball.
   const MeshReport& report() const;
@@ -49,13 +50,14 @@ struct FitsRecord {
   std::string output;
   std::string output_format;
   bool is_robot = false;
+  bool is_body = false;  ///< The mesh is there twice, with the balls inside and with those of the cover.
   SphereFitOptions spheres;
   std::size_t count_per_link = 0;  ///< 0: not given.
   std::size_t total = 0;           ///< 0: not given.
   Backend backend = Backend::kVulkan;
 
   std::string name;                 ///< Of the mesh or robot.
-  std::vector<FittedSolid> solids;  ///< The mesh, or the parts of the robot.
+  std::vector<FittedSolid> solids;  ///< The mesh, twice for a body file, or the parts of the robot.
   std::optional<DeviceDescription> device;
   std::vector<StageTime> times;  ///< Seconds, in the order of the run.
 };
@@ -85,6 +87,7 @@ struct Share {
 
 /// The share of the volume that balls inside leave uncovered; none if a solid has no volume, or for other contracts.
 std::optional<Share> uncovered_share(const FittedSolid& solid, SphereContract contract);
+/// Of all solids; none for a body file.
 std::optional<Share> uncovered_share(const FitsRecord& record);
 
 }  // namespace medial_vk

@@ -37,13 +37,15 @@ Json interval_json(const std::optional<Share>& share) {
   return share ? Json{share->lower(), share->upper()} : Json(nullptr);
 }
 
-Json solid_json(const FittedSolid& solid, SphereContract contract) {
+Json solid_json(const FittedSolid& solid, SphereContract of_record) {
+  const SphereContract contract = solid.contract.value_or(of_record);
   const ReachOut& reach = solid.reach.back();
   const std::optional<Share> share = uncovered_share(solid, contract);
   Json counts = Json::array();
   for (const std::vector<Ball>& level : solid.levels) counts.push_back(level.size());
   return {{"link", solid.link},
           {"geometry", solid.name},
+          {"contract", name_of(contract)},
           {"triangles", solid.report().triangles},
           {"closed", solid.ball || solid.report().closed},
           {"assumptions", solid.report().assumptions},
@@ -77,7 +79,7 @@ std::string encode_fits_report(const FitsRecord& record) {
                {"output_format", record.output_format},
                {record.is_robot ? "robot" : "mesh", record.name},
                {"method", name_of(record.spheres.method)},
-               {"contract", name_of(record.spheres.contract)},
+               {"contract", record.is_body ? "both" : name_of(record.spheres.contract)},
                {"object_angle",
                 record.spheres.method == SphereMethod::kSource ? Json(record.spheres.object_angle) : Json(nullptr)},
                {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},

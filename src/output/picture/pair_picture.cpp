@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "medial_vk/medial_spheres.h"
@@ -76,6 +77,27 @@ double diagonal_of(const Mesh& mesh) {
   return box.isEmpty() ? 0 : box.diagonal().stableNorm();
 }
 
+/// The colours of the glass are those of the marks.
+std::vector<picture::Tint> tints_of(const PairPicture& pair) {
+  std::vector<picture::Tint> tints(pair.mesh.triangles.size(), picture::Tint::kNone);
+  const auto end_of_a = std::ranges::next(tints.begin(), static_cast<std::ptrdiff_t>(pair.triangles_of_a), tints.end());
+  const auto end_of_b = std::ranges::next(end_of_a, static_cast<std::ptrdiff_t>(pair.triangles_of_b), tints.end());
+  std::fill(tints.begin(), end_of_a, picture::Tint::kWarm);
+  std::fill(end_of_a, end_of_b, picture::Tint::kCold);
+  return tints;
+}
+
+/// Without the middle of a long name, so that both fit the picture.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kMost = 30, kEnd = 13;
+  if (name.size() <= kMost) return name;
+  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(name[i]) & 0xc0u) == 0x80u; };
+  std::size_t cut = kMost - kEnd - 2, rest = name.size() - kEnd;
+  while (cut > 0 && continues(cut)) --cut;
+  while (rest < name.size() && continues(rest)) ++rest;
+  return name.substr(0, cut) + ".." + name.substr(rest);
+}
+
 std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& view) {
   Marks marks(diagonal_of(pair.mesh), Vector3d(view.towards.data()));
   for (const Ball& ball : pair.inside_a) marks.ball(vector(ball.centre), ball.radius, kOfA);
@@ -102,7 +124,8 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   options.colour = PictureColour::kSheet;
   picture::Scene scene = picture::make_scene(pair.mesh, marks_of(pair, view), 0, options);
   const auto colour = [](int sheet) { return picture::sheet_colour_index(sheet); };
-  scene.legend = {pair.title, "", "", {{colour(kOfA), "a"}, {colour(kOfB), "b"}}};
+  scene.mesh.tints = tints_of(pair);
+  scene.legend = {pair.title, "", "", {{colour(kOfA), shortened(pair.name_a)}, {colour(kOfB), shortened(pair.name_b)}}};
   if (pair.has_points)
     scene.legend.swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
   Picture out;

@@ -1,6 +1,7 @@
 // A picture of two solids with what is nearest between them.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,13 +15,15 @@ namespace medial_vk {
 
 /// All in one frame.
 struct PairPicture {
-  Mesh mesh;                                 ///< Of both solids.
+  Mesh mesh;  ///< The triangles of A, those of B, and those of everything else.
+  std::size_t triangles_of_a = 0, triangles_of_b = 0;
+  std::string name_a = "a", name_b = "b";
   bool has_points = false;                   ///< Whether there are nearest points.
   bool is_hit = false;                       ///< They are proved to be one common point.
   Point on_a = {0, 0, 0}, on_b = {0, 0, 0};  ///< The nearest points, joined by a line; or one common point.
   std::vector<Ball> inside_a, inside_b;      ///< Drawn as balls in the glass of the meshes.
   std::vector<Ball> cover_a, cover_b;        ///< Drawn as circles, since they would hide what they hold.
-  std::string title;                         ///< In the letters of panels/text.h.
+  std::string title;
 };
 
 /// Drawn on the CPU, on one thread: 1200 x 900 pixels.

@@ -81,6 +81,27 @@ TEST(ClearanceOptions, AllAtOnce) {
   EXPECT_TRUE(parsed_clearance({"--help"}).help);
 }
 
+TEST(ClearanceOptions, BallsOfLinks) {
+  const auto with = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"r.urdf", "--joints", "q.csv"});
+    return options;
+  };
+  const ClearanceOptions options =
+      parsed_clearance(with({"--balls", "64", "--backend", "cpu", "--limit", "2", "--resolution", "9"}));
+  EXPECT_EQ(options.balls, 64u);
+  EXPECT_EQ(options.resolution, 9u);
+  EXPECT_EQ(options.backend, Backend::kCpu);
+  EXPECT_FALSE(group_options(options).exact);
+  EXPECT_EQ(group_options(options).limit, 2);
+  EXPECT_EQ(parsed_clearance(with({"--balls", "9", "--device", "1"})).device, "1");
+  EXPECT_THAT(clearance_message(with({"--balls", "0"})), HasSubstr("not between 1 and"));
+  EXPECT_THAT(clearance_message(with({"--balls", "9", "--tolerance", "0.1"})), HasSubstr("it has no --tolerance"));
+  EXPECT_THAT(clearance_message(with({"--backend", "cpu"})), HasSubstr("use them with --balls N"));
+  EXPECT_THAT(clearance_message(with({"--resolution", "9"})), HasSubstr("use them with --balls N"));
+  EXPECT_THAT(clearance_message(with({"--device", "1"})), HasSubstr("use them with --balls N"));
+  EXPECT_THAT(clearance_message(with({"--balls", "9", "--device", "1", "--backend", "cpu"})), HasSubstr("--device"));
+}
+
 TEST(ClearanceOptions, Messages) {
   EXPECT_THAT(clearance_message({}), HasSubstr("ROBOT.urdf"));
   EXPECT_THAT(clearance_message({"r.obj", "--joints", "q.csv"}), HasSubstr("'r.obj' does not end in .urdf"));

@@ -165,6 +165,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
     EXPECT_THAT(of_doctor, testing::IsSupersetOf(options_in(std::string(parameter.doctor))));
     EXPECT_THAT(of_distance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
     EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
+    EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.clearance))));
   }
 }
 

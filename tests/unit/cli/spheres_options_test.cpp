@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "cli/options/spheres_options.h"
 #include "unit/cli/parse_results.h"
 
@@ -84,6 +88,27 @@ TEST(SpheresOptions, MistakesAreNamed) {
       0.4);
   EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "-q", "-v"}), HasSubstr("-q and -v"));
   EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--backend", "cpu", "--device", "1"}), HasSubstr("--device"));
+}
+
+TEST(SpheresOptions, ABodyFileHasTwoSets) {
+  const SpheresOptions body =
+      parsed_spheres({"models/part.stl", "--contract", "both", "--count", "9", "--report", "r"});
+  EXPECT_TRUE(body.both);
+  EXPECT_EQ(body.output, "part.body.npz");
+  EXPECT_EQ(body.report, "r");
+  const auto message = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"a.obj", "--contract", "both", "--count", "9"});
+    return spheres_message(options);
+  };
+  EXPECT_THAT(message({"--picture", "p.png"}), HasSubstr("--picture is about one set of spheres"));
+  EXPECT_THAT(message({"--picture", "p.png", "--up", "z"}), HasSubstr("--picture is about one set of spheres"));
+  // The way out is no option that is refused, too.
+  for (const auto& [option, value] : {std::pair("--view", "top"), {"--up", "z"}}) {
+    EXPECT_THAT(message({option, value}), HasSubstr("--picture FILE.png and --contract inside, cover or balanced"));
+  }
+  EXPECT_THAT(message({"--histogram", "h.svg"}), HasSubstr("--contract inside, cover or balanced"));
+  EXPECT_THAT(message({"-o", "a.csv"}), HasSubstr("does not end in .npz"));
+  EXPECT_THAT(message({"-o", "a.npz", "--report", "a.npz"}), HasSubstr("same file"));
 }
 
 TEST(SpheresOptions, PackagesAddUp) {

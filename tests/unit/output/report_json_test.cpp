@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/extract/summary.h"
@@ -41,9 +42,9 @@ RunRecord some_record() {
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
   for (const char* key :
-       {"format", "program",  "version",     "input",           "output",  "parameters", "mesh",      "grid",
-        "voxels", "levels",   "queries",     "narrowing_steps", "retries", "points",     "per_point", "sheets",
-        "orders", "grouping", "medial_mesh", "seconds",         "device",  "certificate"}) {
+       {"format", "program", "version",  "input",           "output",  "parameters", "mesh",       "grid",
+        "voxels", "levels",  "queries",  "narrowing_steps", "retries", "points",     "per_point",  "sheets",
+        "orders", "fatness", "grouping", "medial_mesh",     "seconds", "device",     "certificate"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
@@ -107,6 +108,34 @@ TEST(ReportJson, SaysWhatAPointCosts) {
   EXPECT_EQ(cost["narrowing_steps"], 12);
   record.counters.found = 0;
   EXPECT_TRUE(json::parse(report_json(record))["per_point"].is_null());
+}
+
+TEST(ReportJson, Fatness) {
+  RunRecord record = some_record();
+  EXPECT_TRUE(json::parse(report_json(record))["fatness"].is_null());
+  record.fatness = FatnessRecord{{{0.6, 20, 0.1, 0.06, 2, false}, {0.8, 0, 0, 0, 0, false}}, 0};
+  json fatness = json::parse(report_json(record))["fatness"];
+  ASSERT_EQ(fatness["angles"].size(), 2u);
+  EXPECT_EQ(fatness["angles"][0]["object_angle"], 0.6);
+  EXPECT_EQ(fatness["angles"][0]["points"], 20);
+  EXPECT_EQ(fatness["angles"][0]["least_radius"], 0.1);
+  EXPECT_EQ(fatness["angles"][0]["largest_voxel"], 0.06);
+  EXPECT_EQ(fatness["angles"][0]["resolution"], 34);  // 2 / 0.06 = 33.3
+  EXPECT_EQ(fatness["angles"][0]["components"], 2);
+  EXPECT_EQ(fatness["angles"][0]["proves_connected"], false);
+  EXPECT_TRUE(fatness["angles"][1]["resolution"].is_null());
+  EXPECT_TRUE(fatness["proved"].is_null());
+  EXPECT_THAT(cli::summary(record, {}), HasSubstr("voxels up to 0.06 at object angles from 0.6 rad\n"));
+  record.fatness->of_angles[1] = {0.8, 10, 0.2, 0.12, 1, true};
+  EXPECT_THAT(cli::summary(record, {}),
+              HasSubstr("voxels up to 0.06 at object angles from 0.6 rad; voxels up to 0.12 at object angles from 0.8 "
+                        "rad, whose balls are connected\n"));
+  record.fatness->proved_radius = 0.05;
+  fatness = json::parse(report_json(record))["fatness"];
+  EXPECT_EQ(fatness["proved"]["object_angle"], record.options.object_angle);
+  EXPECT_EQ(fatness["proved"]["least_radius"], 0.05);
+  EXPECT_LE(fatness["proved"]["largest_voxel"].get<double>(), 0.05 / std::sqrt(3.0));
+  EXPECT_NEAR(fatness["proved"]["largest_voxel"].get<double>(), 0.05 / std::sqrt(3.0), 1e-15);
 }
 
 TEST(ReportJson, SheetsAndMedialMesh) {

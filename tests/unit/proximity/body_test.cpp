@@ -1,4 +1,5 @@
 // The creation of bodies: progress and stop.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,6 +38,22 @@ TEST(Body, EndsAtAStop) {
   ASSERT_FALSE(body);
   EXPECT_EQ(body.error().code, ErrorCode::kInterrupted);
   EXPECT_LE(calls, 3u);  // a node of each thread may be under way
+}
+
+/// The solid of an open mesh is its surface, which no ball lies in: an upper bound from a ball beside it would be
+/// wrong.
+TEST(Body, AnOpenMeshHasNoBallsInside) {
+  Mesh open = test::make_box({2, 2, 2});
+  open.triangles.pop_back();
+  const IndexedMesh mesh = test::indexed(prepare_mesh(open).value());
+  ASSERT_FALSE(mesh.prepared().report.closed);
+  const std::vector<Ball> inside = {{{1, 1, 1}, 0.5}}, cover = {{{1, 1, 1}, 2}};
+  const Result<Body> refused = Body::create(mesh, inside, cover);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("`inside` a mesh that is not closed"));
+  EXPECT_TRUE(Body::create(mesh, {}, cover));
+  EXPECT_TRUE(Body::create(test::indexed(prepare_mesh(test::make_box({2, 2, 2})).value()), inside, cover));
 }
 
 }  // namespace

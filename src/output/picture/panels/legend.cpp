@@ -19,9 +19,7 @@ class Pen {
 
   std::uint32_t scale() const { return scale_; }
   std::uint32_t line() const { return (kGlyphHeight + 3) * scale_; }
-  std::uint32_t width_of(const std::string& text) const {
-    return static_cast<std::uint32_t>(text.size()) * kGlyphWidth * scale_;
-  }
+  std::uint32_t width_of(const std::string& text) const { return text_width(text) * scale_; }
 
   void fill(std::uint32_t left, std::uint32_t top, std::uint32_t width, std::uint32_t height, const Vector3f& colour) {
     for (std::uint32_t i = 0; i < width * height; ++i) set(left + i % width, top + i / width, colour);

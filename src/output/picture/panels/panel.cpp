@@ -18,11 +18,17 @@ const Vector3f kKeyLight = Vector3f(-0.45f, 0.65f, 0.62f).normalized();  // View
 const Vector3f kHalfway = (kKeyLight + Vector3f::UnitZ()).normalized();
 // Linear light, not encoded values of a file.
 const Vector3f kGlass(0.22f, 0.33f, 0.48f);
+const Vector3f kWarmGlass(0.62f, 0.33f, 0.05f);
+const Vector3f kColdGlass(0.05f, 0.30f, 0.70f);
 const Vector3f kInk(0.04f, 0.055f, 0.08f);
 const Vector3f kHaze(0.85f, 0.88f, 0.91f);
 const Vector3f kLow(0.80f, 0.84f, 0.885f);
 
 Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + share * (b - a); }
+
+const Vector3f& glass_of(Tint tint) {
+  return tint == Tint::kNone ? kGlass : tint == Tint::kWarm ? kWarmGlass : kColdGlass;
+}
 
 /// White with some grey at the bottom, as a ground for the shape.
 Vector3f background(float height_share) { return mix(Vector3f::Ones(), kLow, height_share * height_share); }
@@ -51,10 +57,12 @@ class Composer {
     const std::size_t pixel = std::size_t{y} * layers_.front.width + x;
     Vector3f colour = background(height_share);
     if (in_glass_) return ball_in_glass(colour, x, y, pixel);
-    if (layers_.back.nearness[pixel] > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
+    if (layers_.back.nearness[pixel] > 0)
+      colour = over_back_wall(colour, layers_.back.normal[pixel], layers_.back.tint[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
     // A disc reaches in front of the wall only by its own size, so the wall is drawn in front of it.
-    if (layers_.front.nearness[pixel] > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
+    if (layers_.front.nearness[pixel] > 0)
+      colour = over_front_wall(colour, layers_.front.normal[pixel], layers_.front.tint[pixel]);
     return on_line(x, y) ? mix(colour, kInk, 0.60f) : colour;
   }
 
@@ -67,9 +75,9 @@ class Composer {
       if (ball > 0 && is_next) colour = mark(x, y, pixel);
     };
     draw_ball(ball <= back);
-    if (back > 0) colour = over_back_wall(colour, layers_.back.normal[pixel]);
+    if (back > 0) colour = over_back_wall(colour, layers_.back.normal[pixel], layers_.back.tint[pixel]);
     draw_ball(ball > back && ball <= front);
-    if (front > 0) colour = over_front_wall(colour, layers_.front.normal[pixel]);
+    if (front > 0) colour = over_front_wall(colour, layers_.front.normal[pixel], layers_.front.tint[pixel]);
     if (on_line(x, y)) colour = mix(colour, kInk, 0.60f);
     draw_ball(ball > std::max(back, front));
     return colour;
@@ -82,10 +90,10 @@ class Composer {
   }
 
   /// The far wall of the glass, seen from inside.
-  static Vector3f over_back_wall(const Vector3f& below, const Vector3f& normal) {
+  static Vector3f over_back_wall(const Vector3f& below, const Vector3f& normal, Tint tint) {
     const float facing = std::min(std::abs(normal.z()), 1.0f);
     const float light = 0.62f + 0.55f * diffuse(-normal);
-    return mix(below, kGlass * light, 0.12f + 0.30f * (1.0f - facing));
+    return mix(below, glass_of(tint) * light, 0.12f + 0.30f * (1.0f - facing));
   }
 
   /// A disc or a ball, lit by the sky, which nearby marks occlude, and by a lamp. Discs are darker at the rim, which
@@ -140,17 +148,17 @@ class Composer {
   }
 
   /// The near wall: clear where it faces the viewer, denser towards the outline (Schlick's curve), with a highlight.
-  static Vector3f over_front_wall(const Vector3f& below, const Vector3f& normal) {
+  static Vector3f over_front_wall(const Vector3f& below, const Vector3f& normal, Tint tint) {
     const Vector3f outward = normal.z() < 0 ? (-normal).eval() : normal;
     const float grazing = 1.0f - std::min(outward.z(), 1.0f);
     const float cover = 0.02f + 0.72f * grazing * grazing * grazing;
     const float light = 0.62f + 0.62f * diffuse(outward);
-    const Vector3f glass = mix(below, (kGlass * light).cwiseMin(1.0f), cover);
+    const Vector3f glass = mix(below, (glass_of(tint) * light).cwiseMin(1.0f), cover);
     return mix(glass, Vector3f::Ones(), 0.30f * highlight(outward, 48.0f));
   }
 
-  /// True if the near wall ends or bends sharply within half a pixel to the right or below. Drawn as a thin line, this
-  /// shows the outline and the creases of the shape.
+  /// True if the near wall ends, bends sharply or becomes that of another solid within half a pixel to the right or
+  /// below. Drawn as a thin line, this shows the outline and the creases of the shape.
   bool on_line(std::uint32_t x, std::uint32_t y) const {
     constexpr float kCrease = 0.80f;
     constexpr std::uint32_t kStep = kCpuSamples / 2;
@@ -159,7 +167,8 @@ class Composer {
     const bool here = wall.nearness[pixel] > 0;
     const auto ends_before = [&](std::size_t step) {
       const bool there = wall.nearness[pixel + step] > 0;
-      return here != there || (here && wall.normal[pixel].dot(wall.normal[pixel + step]) < kCrease);
+      if (here != there || wall.tint[pixel] != wall.tint[pixel + step]) return true;
+      return here && wall.normal[pixel].dot(wall.normal[pixel + step]) < kCrease;
     };
     return (x + kStep < wall.width && ends_before(kStep)) ||
            (y + kStep < wall.height && ends_before(std::size_t{kStep} * wall.width));

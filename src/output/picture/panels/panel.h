@@ -45,7 +45,7 @@ constexpr float kLeastDiscRadius = 0.8f;
 std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture);
 
 constexpr std::uint32_t kCpuSamples = 2;  // Per side.
-/// 450 MiB of layers. The default picture is drawn in one band.
+/// 475 MiB of layers. The default picture is drawn in one band.
 constexpr std::uint64_t kCpuSamplesAtOnce = 1u << 23;
 
 /// Draws on the CPU, with 2 x 2 samples per pixel, into the panel's part of the picture. Bands of rows of

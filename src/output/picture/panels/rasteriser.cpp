@@ -54,7 +54,7 @@ class ScreenTriangle {
   float inverse_area_ = 0;
 };
 
-void draw_triangle(const ScreenTriangle& triangle, const std::array<Vector3f, 3>& normals, Keep keep,
+void draw_triangle(const ScreenTriangle& triangle, const std::array<Vector3f, 3>& normals, Tint tint, Keep keep,
                    SurfaceLayer& layer) {
   const PixelRange columns = triangle.columns(layer.width);
   const PixelRange rows = triangle.rows(layer.height);
@@ -68,6 +68,7 @@ void draw_triangle(const ScreenTriangle& triangle, const std::array<Vector3f, 3>
       const bool better = held == 0.0f || (keep == Keep::kNearest ? nearness > held : nearness < held);
       if (!better) continue;
       held = nearness;
+      layer.tint[pixel] = tint;
       layer.normal[pixel] = (weights[0] * normals[0] + weights[1] * normals[1] + weights[2] * normals[2]).normalized();
     }
   }
@@ -179,7 +180,8 @@ void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLaye
       turned[i] = camera.turn(mesh.normals[first + i]);
     }
     const ScreenTriangle triangle(corners);
-    if (triangle.visible()) draw_triangle(triangle, turned, keep, layer);
+    const Tint tint = mesh.tints.empty() ? Tint::kNone : mesh.tints[first / 3];
+    if (triangle.visible()) draw_triangle(triangle, turned, tint, keep, layer);
   }
 }
 

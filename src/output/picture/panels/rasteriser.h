@@ -15,12 +15,17 @@ namespace medial_vk::picture {
 /// A surface sampled in every pixel. Normals are in view space.
 struct SurfaceLayer {
   SurfaceLayer(std::uint32_t w, std::uint32_t h)
-      : width(w), height(h), nearness(std::size_t{w} * h, 0.0f), normal(std::size_t{w} * h, Eigen::Vector3f::Zero()) {}
+      : width(w),
+        height(h),
+        nearness(std::size_t{w} * h, 0.0f),
+        normal(nearness.size(), Eigen::Vector3f::Zero()),
+        tint(nearness.size(), Tint::kNone) {}
 
   std::uint32_t width;
   std::uint32_t height;
   std::vector<float> nearness;          // 0: the pixel is empty.
   std::vector<Eigen::Vector3f> normal;  // Unit vectors.
+  std::vector<Tint> tint;
 };
 
 /// Marks: a surface with a position in the palette per pixel, and the distance from the centre of the disc.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +15,14 @@
 
 namespace medial_vk::picture {
 
+/// The colour of glass, which distinguishes solids.
+enum class Tint : std::uint8_t { kNone, kWarm, kCold };
+
 /// Corners of triangles with unit normals, three in a row for each triangle.
 struct Surface {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
+  std::vector<Tint> tints;  // Of triangles; empty: none has one. The CPU alone draws them.
 };
 
 /// A medial point, as a disc in its sheet or as its ball.

@@ -1,4 +1,4 @@
-// A few letters for the legend of the picture.
+// Letters for the legend of the picture.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,11 @@ namespace medial_vk::picture {
 constexpr std::uint32_t kGlyphWidth = 6;   // Includes the gap to the next glyph.
 constexpr std::uint32_t kGlyphHeight = 9;  // Includes the part below the base line.
 
-/// Calls `set_pixel(x, y)` for every dark pixel of the text, from (0, 0) at its upper left. Characters that the font
-/// lacks (it has digits, lower case letters and some punctuation) stay blank.
+/// The width of a text in UTF-8, one glyph for each character.
+std::uint32_t text_width(std::string_view text);
+
+/// Calls `set_pixel(x, y)` for every dark pixel of the text, from (0, 0) at its upper left. A character that the font
+/// lacks (it has digits, the letters of ASCII and some punctuation) is a box.
 void draw_text(std::string_view text, const std::function<void(std::uint32_t x, std::uint32_t y)>& set_pixel);
 
 }  // namespace medial_vk::picture

@@ -1,0 +1,100 @@
+// The picture of two solids: each has its colour, and its name in the letters of the font.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/picture/pair_picture.h"
+#include "output/picture/panels/text.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+void append(const Mesh& mesh, Mesh& all) {
+  const auto first = static_cast<std::uint32_t>(all.vertices.size());
+  all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const Triangle& t : mesh.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+/// A box to the left, and one to the right, seen from the front.
+PairPicture two_boxes() {
+  PairPicture pair;
+  const Mesh left = test::make_box({1, 1, 1});
+  Mesh right = left;
+  test::translate(right, {1.5, 0, 0});
+  append(left, pair.mesh);
+  append(right, pair.mesh);
+  pair.triangles_of_a = pair.triangles_of_b = left.triangles.size();
+  return pair;
+}
+
+constexpr PictureView kFront = {{0, 0, 1}, UpAxis::kY};
+
+/// The sum of red less blue over a half of the picture, above the legend.
+long warmth(const Picture& picture, bool of_right) {
+  long sum = 0;
+  for (std::size_t y = 0; y < 700; ++y) {
+    for (std::size_t x = of_right ? 600 : 0; x < (of_right ? 1200u : 600u); ++x) {
+      const std::uint8_t* rgb = &picture.rgb[(y * picture.width + x) * 3];
+      sum += long{rgb[0]} - long{rgb[2]};
+    }
+  }
+  return sum;
+}
+
+TEST(PairPicture, EachSolidHasItsColour) {
+  PairPicture pair = two_boxes();
+  const Picture picture = draw_pair(pair, kFront);
+  ASSERT_EQ(picture.width, 1200u);
+  EXPECT_GT(warmth(picture, false), 100'000);
+  EXPECT_LT(warmth(picture, true), -100'000);
+  // The rest has the colour of glass, colder than the first solid and warmer than the second.
+  pair.triangles_of_a = pair.triangles_of_b = 0;
+  const Picture plain = draw_pair(pair, kFront);
+  EXPECT_LT(warmth(plain, false), warmth(picture, false));
+  EXPECT_GT(warmth(plain, true), warmth(picture, true));
+}
+
+TEST(PairPicture, NamesOfAnyLengthAndLettersAreDrawn) {
+  PairPicture pair = two_boxes();
+  std::set<std::vector<std::uint8_t>> pictures;
+  for (const char* name : {"a", "\xc3\xa4", "a name that is much too long for the legend of a picture \xff\xfe"}) {
+    pair.name_a = name;
+    pictures.insert(draw_pair(pair, kFront).rgb);
+  }
+  EXPECT_EQ(pictures.size(), 3u);
+}
+
+std::set<std::pair<std::uint32_t, std::uint32_t>> pixels_of(const std::string& text) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pixels;
+  picture::draw_text(text, [&](std::uint32_t x, std::uint32_t y) { pixels.emplace(x, y); });
+  return pixels;
+}
+
+TEST(PictureText, HasTheLettersOfAsciiAndABoxForOthers) {
+  const auto box = pixels_of("\xc3\xa4");
+  EXPECT_FALSE(box.empty());
+  EXPECT_TRUE(pixels_of(" ").empty());
+  std::set<std::set<std::pair<std::uint32_t, std::uint32_t>>> glyphs;
+  const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_/:.,-+()";
+  for (const char letter : letters) {
+    EXPECT_NE(pixels_of({letter}), box) << letter;
+    glyphs.insert(pixels_of({letter}));
+  }
+  EXPECT_EQ(glyphs.size(), letters.size());  // no two are the same
+}
+
+TEST(PictureText, IsAsWideAsItsCharacters) {
+  EXPECT_EQ(picture::text_width("ab"), 2 * picture::kGlyphWidth);
+  EXPECT_EQ(picture::text_width("\xc3\xa4\xe2\x82\xac"), 2 * picture::kGlyphWidth);
+  for (const auto& [x, y] : pixels_of("\xc3\xa4\xe2\x82\xac")) {
+    EXPECT_LT(x, picture::text_width("\xc3\xa4\xe2\x82\xac"));
+    EXPECT_LT(y, picture::kGlyphHeight);
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk
