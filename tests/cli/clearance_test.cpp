@@ -256,6 +256,27 @@ TEST_F(ClearanceCommand, BallsAloneHoldTheDistance) {
   EXPECT_GT(clearances_in(near.out).at(0).upper, 1);
 }
 
+TEST_F(ClearanceCommand, APictureAndAPage) {
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv", "--scene", "wall.obj", "-o", "c.csv",
+                                       "--picture", "p.png", "--html", "p.html", "--up", "z", "-v"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::ContainsRegex("written +p.png"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("time .*picture "));
+  EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
+  const std::string page = read_file(path("p.html"));
+  EXPECT_THAT(page, HasSubstr("<h1>Clearances of rail.urdf</h1>"));
+  // The hand touches the base in configuration 2 and the wall in configuration 4.
+  EXPECT_THAT(page, HasSubstr("Configuration 2 of 4, that of the least distance: the solids have a common point."));
+  EXPECT_THAT(page, HasSubstr("<h2>4 configurations</h2>"));
+  EXPECT_THAT(page, HasSubstr("<td>2</td><td>50.00 %</td>"));
+  EXPECT_THAT(page, HasSubstr("upper end of the distance, metres; number of configurations"));
+  // Beyond the limit there is no closest pair, and one configuration has no number.
+  test::write_file(path("one.csv"), "slide,turn,reach\n0,0,3\n");
+  const ToolResult far = clearance({"rail.urdf", "--joints", "one.csv", "--limit", "1", "--html", "p.html", "-q"});
+  ASSERT_EQ(far.exit_code, 0) << far.err;
+  EXPECT_THAT(read_file(path("p.html")), HasSubstr("The configuration: the distance is at least 1, in metres."));
+}
+
 TEST_F(ClearanceCommand, WrongUsageIs2) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"rail.urdf"},

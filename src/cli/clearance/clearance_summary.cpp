@@ -4,22 +4,13 @@
 
 #include <algorithm>
 
+#include "cli/shared/states_text.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
 #include "output/distance_files/distances_csv.h"
 
 namespace medial_vk::cli {
 namespace {
-
-std::string states_text(std::span<const Clearance> clearances) {
-  std::string text;
-  for (const Collision state : {Collision::kFree, Collision::kHit, Collision::kUndecided}) {
-    const auto count = std::ranges::count(clearances, state, &Clearance::collision);
-    text +=
-        fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(static_cast<std::uint64_t>(count)), name_of(state));
-  }
-  return text;
-}
 
 std::string least_text(std::span<const Clearance> clearances) {
   const auto is_less = [](const Clearance& a, const Clearance& b) {

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "cli/clearance/clearance_summary.h"
+#include "cli/clearance/clearance_views.h"
 #include "cli/clearance/fitted_links.h"
 #include "cli/clearance/robot_and_scene.h"
 #include "cli/options/clearance_options.h"
@@ -45,6 +46,7 @@ class ClearanceRun {
     if (Status status = fit_balls(); !status) return status;
     if (Status status = compute(); !status) return status;
     if (Status status = check(); !status) return status;
+    if (Status status = draw(); !status) return status;
     files_.push_back({options_.output, encode_clearances_csv(clearances_)});
     if (!options_.write_srdf.empty()) files_.push_back({options_.write_srdf, encode_left_out(all_)});
     if (interrupted()) return stopped();
@@ -216,6 +218,20 @@ class ClearanceRun {
     });
     progress_.clear();
     return {};
+  }
+
+  /// Files are made in memory: until they are written a signal may end the program.
+  Status draw() {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Stopwatch stopwatch;
+    const ClearanceView view = {all_, inside_ ? *inside_ : *around_, clearances_,
+                                [this](std::size_t i, std::span<Pose> poses) { return place(i, poses); }};
+    progress_.update("picture", 0);
+    Status status = append_clearance_views(options_, view, files_);
+    progress_.clear();
+    if (!files_.empty()) times_.push_back({"picture", stopwatch.lap()});
+    return status;
   }
 
   CheckedSolids checked_solids() const {

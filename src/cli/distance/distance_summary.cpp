@@ -4,23 +4,13 @@
 
 #include <algorithm>
 
+#include "cli/shared/states_text.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
 #include "output/distance_files/distances_csv.h"
 
 namespace medial_vk::cli {
 namespace {
-
-template <class Interval>
-std::string states_text(std::span<const Interval> distances) {
-  std::string text;
-  for (const Collision state : {Collision::kFree, Collision::kHit, Collision::kUndecided}) {
-    const auto count = std::ranges::count(distances, state, &Interval::collision);
-    text +=
-        fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(static_cast<std::uint64_t>(count)), name_of(state));
-  }
-  return text;
-}
 
 template <class Interval>
 std::string interval_text(const Interval& distance) {

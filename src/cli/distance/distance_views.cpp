@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
-#include "base/point_ops.h"
-#include "output/distance_page/distance_page.h"
-#include "output/picture/pair_picture.h"
+#include "cli/shared/pair_views.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -18,57 +16,6 @@ std::vector<PoseInterval> intervals_of(const DistanceView& view) {
   for (const Distance& d : view.distances) intervals.push_back({d.lower, d.upper, d.collision()});
   for (const DistanceBounds& b : view.bounds) intervals.push_back({b.lower, b.upper, b.collision()});
   return intervals;
-}
-
-void append_mesh(const Mesh& mesh, const Pose& pose, Mesh& all) {
-  const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  for (const Point& p : mesh.vertices) all.vertices.push_back(pose * p);
-  for (const Triangle& t : mesh.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-}
-
-/// The points of two balls that are nearest to the other one; where they overlap, a common point.
-void nearest_of_balls(const Ball& a, const Ball& b, PairPicture& picture) {
-  const Point away = b.centre - a.centre;
-  const double between = length(away);
-  const Point towards = between > 0 ? (1 / between) * away : Point{1, 0, 0};
-  picture.on_a = a.centre + a.radius * towards;
-  picture.on_b = b.centre - b.radius * towards;
-  if (between > a.radius + b.radius) return;
-  const double step = std::clamp(between - b.radius, 0.0, a.radius);
-  picture.on_a = picture.on_b = a.centre + step * towards;
-}
-
-/// The balls that give both ends of the interval of the balls, where the bodies have balls.
-void add_balls(const DistanceView& view, const Pose& pose, PairPicture& picture) {
-  const auto moved = [&](const Ball& ball) { return Ball{pose * ball.centre, ball.radius}; };
-  const DistanceBounds bounds = distance_bounds(view.body_a, view.body_b, pose);
-  if (bounds.inside_pair.a != BallPair::kNone) {
-    picture.inside_a = {view.side_a.inside[bounds.inside_pair.a]};
-    picture.inside_b = {moved(view.side_b.inside[bounds.inside_pair.b])};
-  }
-  if (bounds.cover_pair.a != BallPair::kNone) {
-    picture.cover_a = {view.side_a.cover[bounds.cover_pair.a]};
-    picture.cover_b = {moved(view.side_b.cover[bounds.cover_pair.b])};
-  }
-}
-
-std::string title_of(const PoseInterval& interval) {
-  if (!std::isfinite(interval.upper)) {
-    return interval.lower > 0 ? fmt::format("distance at least {:.6g}", interval.lower) : "undecided";
-  }
-  switch (interval.collision) {
-    case Collision::kFree:
-      return fmt::format("distance {:.6g} to {:.6g}", interval.lower, interval.upper);
-    case Collision::kHit:
-      return "a common point";
-    case Collision::kUndecided:
-      break;
-  }
-  return fmt::format("undecided, {:.6g} to {:.6g}", interval.lower, interval.upper);
-}
-
-std::string name_of_file(const std::string& path) {
-  return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
 }
 
 /// Whether the triangles of the first solid are also those of the second one, at the same places.
@@ -91,14 +38,13 @@ PairPicture picture_of(const DistanceCommandOptions& options, const DistanceView
   picture.triangles_of_b = picture.mesh.triangles.size() - picture.triangles_of_a;
   picture.name_a = "A: " + name_of_file(options.a);
   picture.name_b = "B: " + name_of_file(options.b);
-  add_balls(view, pose, picture);
+  const Pose at_a;
+  add_balls({view.body_a, at_a}, {view.body_b, pose}, pose, view.distances.empty(), picture);
   picture.title = title_of(interval);
   if (coincide(picture.mesh, picture.triangles_of_a)) picture.title += " (A and B are the same, in the same place)";
   picture.has_points = std::isfinite(interval.upper);
   picture.is_hit = interval.collision == Collision::kHit;
-  if (view.distances.empty()) {
-    if (!picture.inside_a.empty()) nearest_of_balls(picture.inside_a[0], picture.inside_b[0], picture);
-  } else {
+  if (!view.distances.empty()) {
     picture.on_a = view.distances[shown].on_a;
     picture.on_b = view.distances[shown].on_b;
   }
@@ -111,16 +57,14 @@ Status append_distance_views(const DistanceCommandOptions& options, const Distan
                              std::vector<OutputFile>& files) {
   if (options.picture.empty() && options.html.empty()) return {};
   const std::vector<PoseInterval> intervals = intervals_of(view);
-  const auto least = std::ranges::min_element(intervals, {}, &PoseInterval::upper);
-  const auto shown = static_cast<std::size_t>(least - intervals.begin());
-  Result<std::string> png = encode_png(draw_pair(picture_of(options, view, shown, *least), options.view));
-  if (!png) return png.error();
-  if (!options.html.empty()) {
-    files.push_back({options.html, encode_distance_page({name_of_file(options.a), name_of_file(options.b), intervals,
-                                                         shown, png.value(), options.balls})});
-  }
-  if (!options.picture.empty()) files.push_back({options.picture, std::move(png).value()});
-  return {};
+  const std::size_t shown = shown_of(intervals);
+  DistancePage page;
+  page.title = fmt::format("Distances of {} and {}", name_of_file(options.a), name_of_file(options.b));
+  page.intervals = intervals;
+  page.shown = shown;
+  page.by_balls = options.balls;
+  return append_views(picture_of(options, view, shown, intervals[shown]), options.view, options.picture, options.html,
+                      std::move(page), files);
 }
 
 }  // namespace medial_vk::cli

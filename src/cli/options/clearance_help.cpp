@@ -5,6 +5,7 @@
 
 namespace medial_vk::cli {
 
+// long: a single text.
 std::string clearance_help_text() {
   return R"(medial-vk clearance holds the least distance among the links of a robot and
 its surroundings, for each configuration of the joints, in an interval that
@@ -58,6 +59,15 @@ Output:
                         configuration: its number, the state (free, hit or
                         undecided), lower and upper end of the interval, and
                         the two links, or link and scene file, that gave it
+      --picture FILE    a .png of robot and scene in the configuration of the least
+                        distance, with the two links, their nearest points and
+                        with --balls the balls that decided
+      --html FILE       a page with that picture, the states of all configurations
+                        and a histogram of their distances
+      --view FROM       of the picture: front, back, left, right, top, bottom,
+                        iso or x,y,z, the direction towards the viewer
+      --up AXIS         of the picture: x, y, z, -x, -y or -z (default y; robots
+                        want z)
       --write-srdf FILE a .srdf with the pairs of links that were not compared
       --threads N       CPU threads, 0 for all (default 0)
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kGreatestClearance = 1e30;
 constexpr std::uint64_t kMostBalls = 100'000;
 
-void declare_clearance(CLI::App& app, ClearanceOptions& options) {
+void declare_clearance(CLI::App& app, ClearanceOptions& options, ViewChoice& view) {
   Declarations add(app);
   add.text("ROBOT", "file", options.robot);
   app.add_option("--scene", options.scenes)->type_name("file")->allow_extra_args(false);
@@ -25,6 +25,10 @@ void declare_clearance(CLI::App& app, ClearanceOptions& options) {
   add.text("--srdf", "file", options.srdf);
   add.text("--write-srdf", "file", options.write_srdf);
   add.text("-o,--output", "file", options.output);
+  add.text("--picture", "file", options.picture);
+  add.text("--html", "file", options.html);
+  add.view("--view", view);
+  add.up("--up", options.view.up);
   add.whole("--balls", 1, kMostBalls, " balls for each link", options.balls);
   add.whole("--resolution", 1, 4096, " voxels", options.resolution);
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
@@ -69,6 +73,7 @@ Status check_clearance_outputs(const ClearanceOptions& options) {
   if (!may_end_in(options.output, ".csv")) {
     return usage_error(fmt::format("--output: '{}' does not end in .csv", options.output));
   }
+  if (Status status = check_view_files(options.picture, options.html); !status) return status;
   if (!may_end_in(options.write_srdf, ".srdf")) {
     return usage_error(fmt::format("--write-srdf: '{}' does not end in .srdf", options.write_srdf));
   }
@@ -89,7 +94,10 @@ GroupOptions group_options(const ClearanceOptions& options) {
 }
 
 std::vector<NamedOutput> outputs_of(const ClearanceOptions& options) {
-  return {{"--output", &options.output}, {"--write-srdf", &options.write_srdf}};
+  return {{"--output", &options.output},
+          {"--write-srdf", &options.write_srdf},
+          {"--picture", &options.picture},
+          {"--html", &options.html}};
 }
 
 std::vector<std::string> inputs_of(const ClearanceOptions& options) {
@@ -104,12 +112,13 @@ std::vector<std::string> inputs_of(const ClearanceOptions& options) {
 struct ClearanceOptionParser::Declared {
   ReusableApp app;
   ClearanceOptions options;
+  ViewChoice view;
 };
 
 ClearanceOptionParser::ClearanceOptionParser() : declared_(std::make_unique<Declared>()) {
   declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported with a suggestion.
-  declare_clearance(declared_->app, declared_->options);
+  declare_clearance(declared_->app, declared_->options, declared_->view);
 }
 
 ClearanceOptionParser::~ClearanceOptionParser() = default;
@@ -117,6 +126,7 @@ ClearanceOptionParser::~ClearanceOptionParser() = default;
 Result<ClearanceOptions> ClearanceOptionParser::parse(const std::vector<std::string>& arguments) {
   declared_->app.forget();
   ClearanceOptions& options = declared_->options = ClearanceOptions();
+  declared_->view = ViewChoice();
   if (Status status = parse_arguments(declared_->app, arguments, "one robot at a time"); !status) {
     return status.error();
   }
@@ -124,6 +134,10 @@ Result<ClearanceOptions> ClearanceOptionParser::parse(const std::vector<std::str
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (Status status = check_clearance_inputs(options); !status) return status.error();
   if (Status status = check_balls_of_links(options); !status) return status.error();
+  if (Status status = take_view(declared_->view, !options.picture.empty() || !options.html.empty(), options.view);
+      !status) {
+    return status.error();
+  }
   if (options.output.empty()) options.output = "-";
   if (Status status = check_clearance_outputs(options); !status) return status.error();
   return options;

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "cli/options/output_names.h"
+#include "cli/options/parse_picture.h"
 #include "common/backend.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/result.h"
+#include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
 
@@ -24,6 +26,8 @@ struct ClearanceOptions {
   std::string srdf;                   ///< Pairs of links that are not compared; empty: they are found.
   std::string write_srdf;             ///< For the pairs that were not compared; empty: none; "-": standard output.
   std::string output;                 ///< "-": standard output.
+  std::string picture, html;          ///< Empty: none; "-": standard output.
+  PictureView view;
 
   std::size_t balls = 0;         ///< Answers by balls alone, of so many for each link; 0: by triangles.
   std::uint32_t resolution = 0;  ///< Voxels along the longest side for these balls to choose from; 0: by their number.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cli/options/output_names.h"
+
 namespace medial_vk::cli {
 namespace {
 
@@ -67,6 +69,20 @@ Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const 
     return usage_error(error.what());
   }
   return check_extras(app, one_only);
+}
+
+Status check_view_files(const std::string& picture, const std::string& html) {
+  if (!may_end_in(picture, ".png")) return usage_error(fmt::format("--picture: '{}' does not end in .png", picture));
+  if (!may_end_in(html, ".html")) return usage_error(fmt::format("--html: '{}' does not end in .html", html));
+  return {};
+}
+
+Status take_view(const ViewChoice& choice, bool is_drawn, PictureView& view) {
+  if (!is_drawn && (choice != ViewChoice() || view.up != PictureView().up)) {
+    return usage_error("--view and --up are about the picture: use them with --picture FILE.png or --html FILE.html");
+  }
+  view = view_of(choice, view.up);
+  return {};
 }
 
 }  // namespace medial_vk::cli

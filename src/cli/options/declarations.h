@@ -90,6 +90,12 @@ class ReusableApp : public CLI::App {
   }
 };
 
+/// A picture ends in .png, a page in .html. Error: kUsage.
+Status check_view_files(const std::string& picture, const std::string& html);
+
+/// Combines --view with the --up in `view`. Error: kUsage, if one is given and nothing is drawn.
+Status take_view(const ViewChoice& choice, bool is_drawn, PictureView& view);
+
 /// Parses `arguments` into the options declared on `app`, which must allow extras: they are reported here, with a
 /// suggestion. `one_only` follows the name of a second input ("one mesh at a time"). Errors: kUsage.
 Status parse_arguments(CLI::App& app, std::vector<std::string> arguments, const char* one_only);

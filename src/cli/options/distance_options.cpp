@@ -63,12 +63,7 @@ Status check_distance_outputs(const DistanceCommandOptions& options) {
   if (!may_end_in(options.output, ".csv")) {
     return usage_error(fmt::format("--output: '{}' does not end in .csv", options.output));
   }
-  if (!may_end_in(options.picture, ".png")) {
-    return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
-  }
-  if (!may_end_in(options.html, ".html")) {
-    return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
-  }
+  if (Status status = check_view_files(options.picture, options.html); !status) return status;
   for (const std::string* input : {&options.a, &options.b, &options.poses}) {
     if (input->empty()) continue;
     if (Status status = check_outputs_differ(outputs_of(options), *input); !status) return status;
@@ -117,11 +112,10 @@ Result<DistanceCommandOptions> DistanceOptionParser::parse(const std::vector<std
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (Status status = check_distance_inputs(options); !status) return status.error();
   if (Status status = check_balls(options); !status) return status.error();
-  const bool looks = declared_->view != ViewChoice() || options.view.up != PictureView().up;
-  if (looks && options.picture.empty() && options.html.empty()) {
-    return usage_error("--view and --up are about the picture: use them with --picture FILE.png or --html FILE.html");
+  if (Status status = take_view(declared_->view, !options.picture.empty() || !options.html.empty(), options.view);
+      !status) {
+    return status.error();
   }
-  options.view = view_of(declared_->view, options.view.up);
   if (options.output.empty()) options.output = "-";
   if (Status status = check_distance_outputs(options); !status) return status.error();
   return options;

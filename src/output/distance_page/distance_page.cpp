@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -74,15 +75,17 @@ std::string states_html(std::span<const PoseInterval> intervals) {
 
 std::string shown_text(const DistancePage& page) {
   const PoseInterval& shown = page.intervals[page.shown];
-  const std::string pose = page.intervals.size() == 1 ? std::string("The pose")
-                                                      : fmt::format("Pose {} of {}, that of the least distance",
-                                                                    page.shown + 1, page.intervals.size());
+  std::string pose = "The " + page.pose;
+  if (page.intervals.size() > 1) {
+    const std::string word = static_cast<char>(std::toupper(page.pose.front())) + page.pose.substr(1);
+    pose = fmt::format("{} {} of {}, that of the least distance", word, page.shown + 1, page.intervals.size());
+  }
   if (shown.collision == Collision::kHit) return pose + ": the solids have a common point.";
   if (!std::isfinite(shown.upper)) {
-    return fmt::format("{}: the distance is at least {:.9g}, in units of the mesh.", pose, shown.lower);
+    return fmt::format("{}: the distance is at least {:.9g}, in {}.", pose, shown.lower, page.unit);
   }
-  return fmt::format("{}: the distance is between {:.9g} and {:.9g}, in units of the mesh.", pose, shown.lower,
-                     shown.upper);
+  return fmt::format("{}: the distance is between {:.9g} and {:.9g}, in {}.", pose, shown.lower, shown.upper,
+                     page.unit);
 }
 
 constexpr const char* kStyle =
@@ -96,7 +99,8 @@ constexpr const char* kStyle =
 
 }  // namespace
 
-std::string encode_distances_svg(std::span<const PoseInterval> intervals) {
+std::string encode_distances_svg(const DistancePage& page) {
+  const std::span<const PoseInterval> intervals = page.intervals;
   double greatest = 0;
   for (const PoseInterval& interval : intervals) {
     if (is_counted(interval)) greatest = std::max(greatest, interval.upper);
@@ -124,27 +128,27 @@ std::string encode_distances_svg(std::span<const PoseInterval> intervals) {
   out.line(kLeft, base, kLeft, kTop, "axis");
   out.text(kLeft - 8, kTop + 4, "end", fmt::format("{}", most));
   out.text(kLeft - 8, base + 4, "end", "0");
-  out.text(kLeft + wide / 2, base + 38, "middle", "upper end of the distance, units of the mesh; number of poses");
+  out.text(kLeft + wide / 2, base + 38, "middle",
+           fmt::format("upper end of the distance, {}; number of {}s", page.unit, page.pose));
   return out.finish(".of-free{fill:#0072b2}.of-undecided{fill:#b8bec7}");
 }
 
 std::string encode_distance_page(const DistancePage& page) {
-  const std::string names = escaped(page.a) + " and " + escaped(page.b);
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-      "style-src 'unsafe-inline'\">\n<title>Distances of {0}</title>\n<style>{1}</style>\n"
-      "<h1>Distances of {0}</h1>\n<p>{2}</p>\n",
-      names, kStyle, shown_text(page));
-  html += "<img alt=\"Both solids as glass, with their nearest points\" src=\"data:image/png;base64,";
+      "style-src 'unsafe-inline'\">\n<title>{0}</title>\n<style>{1}</style>\n"
+      "<h1>{0}</h1>\n<p>{2}</p>\n",
+      escaped(page.title), kStyle, shown_text(page));
+  html += fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,", page.picture);
   page::append_base64(html, {reinterpret_cast<const std::uint8_t*>(page.png.data()), page.png.size()});
   html += fmt::format("\">\n<h2>{} {}</h2>\n<p>Free: no common point, proved. Hit: a common point, proved. {}</p>\n",
-                      page.intervals.size(), page.intervals.size() == 1 ? "pose" : "poses",
+                      page.intervals.size(), page.pose + (page.intervals.size() == 1 ? "" : "s"),
                       page.by_balls ? "Undecided: the balls prove neither; triangles are not searched."
                                     : "Undecided: the surfaces may touch, to within rounding or the tolerance.");
   html += states_html(page.intervals);
-  html += "<h2>Distances</h2>\n" + encode_distances_svg(page.intervals) + "</html>\n";
+  html += "<h2>Distances</h2>\n" + encode_distances_svg(page) + "</html>\n";
   return html;
 }
 

@@ -1,4 +1,4 @@
-// A page that shows distances of two solids: a picture, the states of all poses, and a histogram.
+// A page that shows distances of solids: a picture, the states of all poses, and a histogram.
 #pragma once
 
 #include <span>
@@ -15,17 +15,20 @@ struct PoseInterval {
 };
 
 struct DistancePage {
-  std::string a, b;                         ///< Names of the files.
-  std::span<const PoseInterval> intervals;  ///< At least one.
-  std::size_t shown = 0;                    ///< The pose of the picture.
-  std::string png;                          ///< The picture.
-  bool by_balls = false;                    ///< Intervals are those of balls alone.
+  std::string title;          ///< "Distances of a.obj and b.obj".
+  std::string pose = "pose";  ///< What has an interval each; its plural ends in s.
+  std::string unit = "units of the mesh";
+  std::string picture = "Both solids as glass, with their nearest points";  ///< In words.
+  std::span<const PoseInterval> intervals;                                  ///< At least one.
+  std::size_t shown = 0;                                                    ///< The pose of the picture.
+  std::string png;                                                          ///< The picture.
+  bool by_balls = false;                                                    ///< Intervals are those of balls alone.
 };
 
 /// One HTML file that works from disk, loads nothing and runs no script.
 std::string encode_distance_page(const DistancePage& page);
 
-/// A histogram of the upper ends, as SVG. Poses that are hit, or whose upper end is infinite, are not among them.
-std::string encode_distances_svg(std::span<const PoseInterval> intervals);
+/// The histogram of the upper ends, as SVG. Poses that are hit, or whose upper end is infinite, are not among them.
+std::string encode_distances_svg(const DistancePage& page);
 
 }  // namespace medial_vk

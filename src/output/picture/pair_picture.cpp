@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "medial_vk/medial_spheres.h"
 #include "output/colours/colour_map.h"
@@ -125,9 +126,14 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   picture::Scene scene = picture::make_scene(pair.mesh, marks_of(pair, view), 0, options);
   const auto colour = [](int sheet) { return picture::sheet_colour_index(sheet); };
   scene.mesh.tints = tints_of(pair);
-  scene.legend = {pair.title, "", "", {{colour(kOfA), shortened(pair.name_a)}, {colour(kOfB), shortened(pair.name_b)}}};
-  if (pair.has_points)
-    scene.legend.swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
+  scene.legend.title = pair.title;
+  auto& swatches = scene.legend.swatches;
+  swatches.clear();
+  for (const auto& [name, number] : {std::pair(&pair.name_a, kOfA), {&pair.name_b, kOfB}}) {
+    if (!name->empty()) swatches.emplace_back(colour(number), shortened(*name));
+  }
+  if (swatches.empty()) swatches.emplace_back(scene.palette.size(), "");  // no colour, and no bar of all of them
+  if (pair.has_points) swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
   Picture out;
   out.width = 1200;
   out.height = 900;

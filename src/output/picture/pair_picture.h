@@ -17,7 +17,7 @@ namespace medial_vk {
 struct PairPicture {
   Mesh mesh;  ///< The triangles of A, those of B, and those of everything else.
   std::size_t triangles_of_a = 0, triangles_of_b = 0;
-  std::string name_a = "a", name_b = "b";
+  std::string name_a = "a", name_b = "b";    ///< Empty: not in the legend.
   bool has_points = false;                   ///< Whether there are nearest points.
   bool is_hit = false;                       ///< They are proved to be one common point.
   Point on_a = {0, 0, 0}, on_b = {0, 0, 0};  ///< The nearest points, joined by a line; or one common point.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "cli/options/clearance_options.h"
@@ -100,6 +101,21 @@ TEST(ClearanceOptions, BallsOfLinks) {
   EXPECT_THAT(clearance_message(with({"--resolution", "9"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--device", "1"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--balls", "9", "--device", "1", "--backend", "cpu"})), HasSubstr("--device"));
+}
+
+TEST(ClearanceOptions, Views) {
+  const ClearanceOptions options = parsed_clearance(
+      {"r.urdf", "--joints", "q.csv", "--picture", "p.png", "--html", "p.html", "--up", "z", "--view", "front"});
+  EXPECT_EQ(options.picture, "p.png");
+  EXPECT_EQ(options.html, "p.html");
+  EXPECT_EQ(options.view.up, UpAxis::kZ);
+  EXPECT_EQ(options.view.towards, (std::array<double, 3>{0, -1, 0}));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--up", "z"}),
+              HasSubstr("--picture FILE.png or --html"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--picture", "p.jpg"}), HasSubstr(".png"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--html", "p"}), HasSubstr(".html"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--picture", "p.png", "--html", "p.png"}),
+              HasSubstr(".html"));
 }
 
 TEST(ClearanceOptions, Messages) {

@@ -1,0 +1,102 @@
+#include "cli/clearance/clearance_views.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "base/point_ops.h"
+#include "cli/shared/pair_views.h"
+
+namespace medial_vk::cli {
+namespace {
+
+/// Leads from the second frame to the first; both poses lead to a common one.
+Pose relative(const Pose& first, const Pose& second) {
+  Pose inverse;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) inverse.rotation[row][column] = first.rotation[column][row];
+  }
+  inverse.shift = -1.0 * (Pose{inverse.rotation, {0, 0, 0}} * first.shift);
+  return inverse * second;
+}
+
+/// The solids of the two links come first, then all others.
+void append_solids(const RobotAndScene& all, std::span<const Pose> poses, const LinkPair& nearest,
+                   PairPicture& picture) {
+  const auto append = [&](const auto& is_wanted) {
+    const std::size_t before = picture.mesh.triangles.size();
+    for (const LinkSolid& solid : all.solids.around) {
+      if (is_wanted(solid.link)) append_mesh(solid.mesh.prepared().mesh, poses[solid.link] * solid.pose, picture.mesh);
+    }
+    return picture.mesh.triangles.size() - before;
+  };
+  picture.triangles_of_a = append([&](std::uint32_t link) { return link == nearest.a; });
+  picture.triangles_of_b = append([&](std::uint32_t link) { return link == nearest.b; });
+  append([&](std::uint32_t link) { return link != nearest.a && link != nearest.b; });
+}
+
+Status add_points(const ClearanceOptions& options, const PlacedBody& a, const PlacedBody& b, PairPicture& picture) {
+  const Pose b_in_a = relative(a.pose, b.pose);
+  add_balls(a, b, b_in_a, options.balls > 0, picture);
+  if (options.balls > 0) return {};
+  const Result<Distance> nearest = distance(a.body, b.body, b_in_a);
+  if (!nearest) return nearest.error();
+  picture.on_a = a.pose * nearest.value().on_a;
+  picture.on_b = a.pose * nearest.value().on_b;
+  // The rounding of the two products must not make two points of one.
+  if (nearest.value().on_a == nearest.value().on_b) picture.on_b = picture.on_a;
+  return {};
+}
+
+Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceView& view, std::size_t shown,
+                               const PoseInterval& interval) {
+  std::vector<Pose> poses(view.all.links());
+  if (Status status = view.place(shown, poses); !status) return status.error();
+  const Result<LeastDistance> least = least_distance(view.group, poses, group_options(options));
+  if (!least) return least.error();
+  PartPair pair = least.value().upper_pair;
+  if (pair.a == PartPair::kNone) pair = least.value().lower_pair;
+  PairPicture picture;
+  picture.title = title_of(interval);
+  if (view.clearances.size() > 1) picture.title = fmt::format("configuration {}: {}", shown + 1, picture.title);
+  picture.is_hit = interval.collision == Collision::kHit;
+  if (pair.a == PartPair::kNone) {  // nothing is compared, or all is beyond the limit
+    append_solids(view.all, poses, {~std::uint32_t{0}, ~std::uint32_t{0}}, picture);
+    picture.name_a = picture.name_b = "";
+    return picture;
+  }
+  const std::span<const GroupPart> parts = view.group.parts();
+  if (parts[pair.a].link > parts[pair.b].link) std::swap(pair.a, pair.b);
+  const GroupPart &a = parts[pair.a], &b = parts[pair.b];
+  append_solids(view.all, poses, {a.link, b.link}, picture);
+  picture.name_a = view.all.names[a.link];
+  picture.name_b = view.all.names[b.link];
+  picture.has_points = std::isfinite(interval.upper);
+  const Pose at_a = poses[a.link] * a.pose, at_b = poses[b.link] * b.pose;
+  if (Status status = add_points(options, {a.body, at_a}, {b.body, at_b}, picture); !status) return status.error();
+  return picture;
+}
+
+}  // namespace
+
+Status append_clearance_views(const ClearanceOptions& options, const ClearanceView& view,
+                              std::vector<OutputFile>& files) {
+  if (options.picture.empty() && options.html.empty()) return {};
+  std::vector<PoseInterval> intervals;
+  for (const Clearance& c : view.clearances) intervals.push_back({c.lower, c.upper, c.collision()});
+  const std::size_t shown = shown_of(intervals);
+  const Result<PairPicture> picture = picture_of(options, view, shown, intervals[shown]);
+  if (!picture) return picture.error();
+  DistancePage page;
+  page.title = fmt::format("Clearances of {}", name_of_file(options.robot));
+  page.intervals = intervals;
+  page.shown = shown;
+  page.pose = "configuration";
+  page.unit = "metres";
+  page.picture = "The robot and the scene as glass, with the two closest links in colours";
+  page.by_balls = options.balls > 0;
+  return append_views(picture.value(), options.view, options.picture, options.html, std::move(page), files);
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,86 @@
+#include "cli/shared/pair_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "base/point_ops.h"
+
+namespace medial_vk::cli {
+namespace {
+
+/// The points of two balls that are nearest to the other one; where they overlap, a common point.
+void nearest_of_balls(const Ball& a, const Ball& b, PairPicture& picture) {
+  const Point away = b.centre - a.centre;
+  const double between = length(away);
+  const Point towards = between > 0 ? (1 / between) * away : Point{1, 0, 0};
+  picture.on_a = a.centre + a.radius * towards;
+  picture.on_b = b.centre - b.radius * towards;
+  if (between > a.radius + b.radius) return;
+  const double step = std::clamp(between - b.radius, 0.0, a.radius);
+  picture.on_a = picture.on_b = a.centre + step * towards;
+}
+
+Ball moved(const PlacedBody& body, const Ball& ball) { return {body.pose * ball.centre, ball.radius}; }
+
+}  // namespace
+
+void append_mesh(const Mesh& mesh, const Pose& pose, Mesh& all) {
+  const auto first = static_cast<std::uint32_t>(all.vertices.size());
+  for (const Point& p : mesh.vertices) all.vertices.push_back(pose * p);
+  for (const Triangle& t : mesh.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+std::size_t shown_of(std::span<const PoseInterval> intervals) {
+  const auto least = std::ranges::min_element(intervals, {}, &PoseInterval::upper);
+  return static_cast<std::size_t>(least - intervals.begin());
+}
+
+void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, bool as_points, PairPicture& picture) {
+  const DistanceBounds bounds = distance_bounds(a.body, b.body, b_in_a);
+  if (bounds.inside_pair.a != BallPair::kNone) {
+    picture.inside_a = {moved(a, a.body.inside()[bounds.inside_pair.a])};
+    picture.inside_b = {moved(b, b.body.inside()[bounds.inside_pair.b])};
+    if (as_points) nearest_of_balls(picture.inside_a[0], picture.inside_b[0], picture);
+  }
+  if (bounds.cover_pair.a != BallPair::kNone) {
+    picture.cover_a = {moved(a, a.body.cover()[bounds.cover_pair.a])};
+    picture.cover_b = {moved(b, b.body.cover()[bounds.cover_pair.b])};
+  }
+}
+
+std::string title_of(const PoseInterval& interval) {
+  if (!std::isfinite(interval.upper)) {
+    return interval.lower > 0 ? fmt::format("distance at least {:.6g}", interval.lower) : "undecided";
+  }
+  switch (interval.collision) {
+    case Collision::kFree:
+      return fmt::format("distance {:.6g} to {:.6g}", interval.lower, interval.upper);
+    case Collision::kHit:
+      return "a common point";
+    case Collision::kUndecided:
+      break;
+  }
+  return fmt::format("undecided, {:.6g} to {:.6g}", interval.lower, interval.upper);
+}
+
+std::string name_of_file(const std::string& path) {
+  return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
+}
+
+Status append_views(const PairPicture& picture, const PictureView& view, const std::string& file_of_picture,
+                    const std::string& file_of_page, DistancePage page, std::vector<OutputFile>& files) {
+  Result<std::string> png = encode_png(draw_pair(picture, view));
+  if (!png) return png.error();
+  if (!file_of_page.empty()) {
+    page.png = png.value();
+    files.push_back({file_of_page, encode_distance_page(page)});
+  }
+  if (!file_of_picture.empty()) files.push_back({file_of_picture, std::move(png).value()});
+  return {};
+}
+
+}  // namespace medial_vk::cli
