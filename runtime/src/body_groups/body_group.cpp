@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "body_groups/group_parts.h"
@@ -14,7 +13,7 @@ namespace {
 constexpr double kMostDefect = 1e-12;
 
 Error part_error(std::size_t part, const char* what) {
-  return {ErrorCode::kUsage, fmt::format("part {} of `parts` {}", part, what)};
+  return {ErrorCode::kUsage, format_text("part {} of `parts` {}", part, what)};
 }
 
 double determinant_of(const Pose& pose) { return dot(pose.rotation[0], cross(pose.rotation[1], pose.rotation[2])); }
@@ -42,7 +41,7 @@ Status place(std::size_t index, const GroupPart& part, PlacedPart& placed) {
 Status check_link(const char* list, std::size_t index, std::uint32_t link, std::size_t links) {
   if (link < links) return {};
   return Error{ErrorCode::kUsage,
-               fmt::format("element {} of {} names link {} of {} `links`", index, list, link, links)};
+               format_text("element {} of {} names link {} of {} `links`", index, list, link, links)};
 }
 
 Status check_pairs(std::span<const LinkPair> pairs, std::size_t links) {
@@ -50,7 +49,7 @@ Status check_pairs(std::span<const LinkPair> pairs, std::size_t links) {
     if (Status status = check_link("`pairs`", i, pairs[i].a, links); !status) return status;
     if (Status status = check_link("`pairs`", i, pairs[i].b, links); !status) return status;
     if (pairs[i].a != pairs[i].b) continue;
-    return Error{ErrorCode::kUsage, fmt::format("element {} of `pairs` is link {} and itself", i, pairs[i].a)};
+    return Error{ErrorCode::kUsage, format_text("element {} of `pairs` is link {} and itself", i, pairs[i].a)};
   }
   return {};
 }

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "body_groups/group_parts.h"
@@ -263,7 +262,7 @@ class LeastSearch {
 
 Error poses_error(std::size_t poses, std::size_t links, std::size_t configurations) {
   return {ErrorCode::kUsage,
-          fmt::format("`poses` has {} elements for {} links in {} configurations", poses, links, configurations)};
+          format_text("`poses` has {} elements for {} links in {} configurations", poses, links, configurations)};
 }
 
 Status check(const BodyGroupImpl& group, const GroupOptions& options) {

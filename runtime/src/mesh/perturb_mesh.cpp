@@ -1,11 +1,10 @@
 // Seeded noise on the vertices, against degenerate positions (Stolpner 2011, 2.4.4).
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/split_mix.h"
 #include "medial_vk/prepare.h"
@@ -68,7 +67,7 @@ Result<PreparedMesh> perturb_mesh(PreparedMesh mesh, double amplitude, std::uint
   if (!perturbed) return perturbed;
   MeshReport& report = perturbed.value().report;
   carry_over(before, report);
-  report.assumptions.push_back(fmt::format(
+  report.assumptions.push_back(format_text(
       "Every vertex was moved by up to {} of the longest side (`amplitude`, seed {}); the points are those of "
       "the moved mesh.",
       amplitude, seed));

@@ -1,11 +1,10 @@
 // From any triangles to a mesh with a defined inside, and a report of the changes.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <optional>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/prepare.h"
@@ -30,22 +29,22 @@ Status check_input(const Mesh& mesh) {
   constexpr std::size_t kMostTriangles = 0xffffffffu / 3;  // corners are numbered with 32 bits
   if (mesh.triangles.empty()) return invalid("the mesh has no triangles");
   if (mesh.triangles.size() > kMostTriangles || mesh.vertices.size() >= 0xffffffffu) {
-    return invalid(fmt::format("the mesh has {} vertices and {} triangles, more than 32-bit indices reach",
+    return invalid(format_text("the mesh has {} vertices and {} triangles, more than 32-bit indices reach",
                                mesh.vertices.size(), mesh.triangles.size()));
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     for (const double x : mesh.vertices[i]) {
-      if (!std::isfinite(x)) return invalid(fmt::format("vertex {} has the coordinate {}", i, x));
+      if (!std::isfinite(x)) return invalid(format_text("vertex {} has the coordinate {}", i, x));
     }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       if (v >= mesh.vertices.size()) {
-        return invalid(fmt::format("face {} uses vertex {} of {}", i, v, mesh.vertices.size()));
+        return invalid(format_text("face {} uses vertex {} of {}", i, v, mesh.vertices.size()));
       }
       for (const double x : mesh.vertices[v]) {
         if (!(std::fabs(x) <= kLargest)) {
-          return invalid(fmt::format("vertex {} has the coordinate {:g}; up to {:g} can be handled", v, x, kLargest));
+          return invalid(format_text("vertex {} has the coordinate {:g}; up to {:g} can be handled", v, x, kLargest));
         }
       }
     }
@@ -59,13 +58,13 @@ Status check_extent(const MeshReport& report) {
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, report.upper[k] - report.lower[k]);
   if (!(longest >= 1e-50 && longest <= 1e50)) {
-    return invalid(fmt::format("the mesh is {:g} units long; 1e-50 to 1e50 can be handled", longest));
+    return invalid(format_text("the mesh is {:g} units long; 1e-50 to 1e50 can be handled", longest));
   }
   double farthest = 0;
   for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
   if (farthest <= kFarthest * longest) return {};
   return invalid(
-      fmt::format("the mesh is {:g} units long and lies {:g} from the origin, where its points can hardly be "
+      format_text("the mesh is {:g} units long and lies {:g} from the origin, where its points can hardly be "
                   "distinguished (double precision); move it closer",
                   longest, farthest));
 }
@@ -110,7 +109,7 @@ Status check_enclosure(const MeshReport& report, const Volumes& volumes, const S
   for (const float beside : sides.beside) {
     if (beside > kEncloses) return {};
   }
-  return invalid(fmt::format(
+  return invalid(format_text(
       "the mesh encloses nothing: with {} open edges, the winding number reaches 1/2 behind none of its {} triangles",
       report.open_edges, report.triangles));
 }
@@ -171,7 +170,7 @@ Result<PreparedMesh> prepare(Mesh mesh, const PrepareOptions& options) {
   clean_mesh(prepared);
   Mesh& clean = prepared.mesh;
   MeshReport& report = prepared.report;
-  if (clean.triangles.empty()) return invalid(fmt::format("no triangle has an area (of {})", given));
+  if (clean.triangles.empty()) return invalid(format_text("no triangle has an area (of {})", given));
   report.vertices = clean.vertices.size();
   report.triangles = clean.triangles.size();
   measure_box(clean, report);

@@ -1,8 +1,6 @@
 // Balls for the parts of an assembly: distributed by need, fitted part by part, moved to the frames of the links.
 #include "medial_vk/part_fits.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -15,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "base/quoted.h"
@@ -135,11 +134,11 @@ class Fitting {
     if (!shares() || group.balls >= parts) return {};
     if (options_.total > 0) {
       return Error{ErrorCode::kUsage,
-                   fmt::format("{} parts need a ball each; raise `total` from {}", parts, group.balls)};
+                   format_text("{} parts need a ball each; raise `total` from {}", parts, group.balls)};
     }
     const std::string link = medial_vk::quoted(parts_[group.parts.front()].link);
     return Error{ErrorCode::kUsage,
-                 fmt::format("link {} has {} parts, which need a ball each; raise `count_per_link` from {}", link,
+                 format_text("link {} has {} parts, which need a ball each; raise `count_per_link` from {}", link,
                              parts, group.balls)};
   }
 
@@ -333,7 +332,7 @@ class Fitting {
   static Error named(const Part& part, Error error) {
     if (error.code == ErrorCode::kInterrupted) return error;
     error.message =
-        fmt::format("link {}, {}: {}", medial_vk::quoted(part.link), medial_vk::quoted(part.name), error.message);
+        format_text("link {}, {}: {}", medial_vk::quoted(part.link), medial_vk::quoted(part.name), error.message);
     return error;
   }
 

@@ -1,13 +1,12 @@
 #include "proximity/body.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/connected_vertices.h"
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "proximity/placement.h"
 
@@ -16,7 +15,7 @@ namespace {
 
 Status check(std::span<const Ball> balls, const char* set) {
   if (balls.size() > kMostBodyBalls) {
-    return Error{ErrorCode::kUsage, fmt::format("{} has {} balls, more than {}", set, balls.size(), kMostBodyBalls)};
+    return Error{ErrorCode::kUsage, format_text("{} has {} balls, more than {}", set, balls.size(), kMostBodyBalls)};
   }
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const auto& [centre, radius] = balls[i];
@@ -24,7 +23,7 @@ Status check(std::span<const Ball> balls, const char* set) {
     for (const double x : centre) is_good = is_good && std::fabs(x) + radius <= kLargestCoordinate;
     if (is_good) continue;
     return Error{ErrorCode::kUsage,
-                 fmt::format("ball {} of {} is not finite, has a negative radius or reaches beyond {:g}", i, set,
+                 format_text("ball {} of {} is not finite, has a negative radius or reaches beyond {:g}", i, set,
                              kLargestCoordinate)};
   }
   return {};
@@ -33,7 +32,7 @@ Status check(std::span<const Ball> balls, const char* set) {
 Status check(const MeshReport& report) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (report.lower[k] >= -kLargestCoordinate && report.upper[k] <= kLargestCoordinate) continue;
-    return Error{ErrorCode::kInvalidMesh, fmt::format("the mesh reaches beyond {:g}", kLargestCoordinate)};
+    return Error{ErrorCode::kInvalidMesh, format_text("the mesh reaches beyond {:g}", kLargestCoordinate)};
   }
   return {};
 }

@@ -1,10 +1,9 @@
 #include "medial_vk/device_bodies.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
 #include "device_commands/uploads.h"
@@ -63,7 +62,7 @@ Status DeviceBodies::Impl::check(std::span<const PosedPair> pairs) const {
   const auto is_wrong = [&](const PosedPair& pair) { return std::max(pair.a, pair.b) >= bodies.size(); };
   const auto wrong = std::ranges::find_if(pairs, is_wrong);
   if (wrong == pairs.end()) return {};
-  return Error{ErrorCode::kUsage, fmt::format("pair {} of `pairs` is of bodies {} and {}; there are {}",
+  return Error{ErrorCode::kUsage, format_text("pair {} of `pairs` is of bodies {} and {}; there are {}",
                                               wrong - pairs.begin(), wrong->a, wrong->b, bodies.size())};
 }
 

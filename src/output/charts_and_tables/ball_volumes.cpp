@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace medial_vk {
 
 std::string encode_ball_volumes(const Significance& significance, const std::vector<MedialSphere>& spheres) {
   std::string text = "point,sheet,volume,area,significance\n";
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const double share = significance.of_ball[i];
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", i, spheres[i].sheet, share * significance.volume,
-                   significance.areas[i], share);
+    text +=
+        fmt::format("{},{},{},{},{}\n", i, spheres[i].sheet, share * significance.volume, significance.areas[i], share);
   }
   return text;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "output/charts_and_tables/svg_drawing.h"
@@ -56,9 +55,7 @@ std::string bounds_text(const Bounds& bounds, double diagonal) {
 
 class Table {
  public:
-  void row(const char* name, const std::string& value) {
-    fmt::format_to(std::back_inserter(text_), "{:<24}{}\n", name, value);
-  }
+  void row(const char* name, const std::string& value) { text_ += fmt::format("{:<24}{}\n", name, value); }
   std::string text() const { return text_; }
 
  private:
@@ -120,8 +117,8 @@ void append_rows(std::string& text, const char* surface, const SignedDistances& 
   const std::size_t count = histogram.share.size();
   const double width = (histogram.upper - histogram.lower) / static_cast<double>(std::max<std::size_t>(count, 1));
   for (std::size_t i = 0; i < count; ++i) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", surface, histogram.lower + width * static_cast<double>(i),
-                   histogram.lower + width * static_cast<double>(i + 1), histogram.share[i]);
+    text += fmt::format("{},{},{},{}\n", surface, histogram.lower + width * static_cast<double>(i),
+                        histogram.lower + width * static_cast<double>(i + 1), histogram.share[i]);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -30,7 +29,7 @@ void append_rows(std::string& text, const char* order, const SheetRemoval& remov
   const std::vector<CurvePoint> points = points_of(removal);
   for (std::size_t n = 0; n < points.size(); ++n) {
     const std::string next = n < removal.sheets.size() ? std::to_string(removal.sheets[n]) : "";
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", order, points[n].sheets, points[n].volume, next);
+    text += fmt::format("{},{},{},{}\n", order, points[n].sheets, points[n].volume, next);
   }
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "output/distance_files/distances_csv.h"
 
 namespace medial_vk {
@@ -23,8 +21,8 @@ std::string encode_clearances_csv(std::span<const Clearance> clearances) {
   std::string csv = "configuration,state,lower,upper,first,second\n";
   for (std::size_t i = 0; i < clearances.size(); ++i) {
     const Clearance& c = clearances[i];
-    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{}\n", i + 1, name_of(c.collision()), c.lower, c.upper,
-                   csv_field(c.first), csv_field(c.second));
+    csv += fmt::format("{},{},{},{},{},{}\n", i + 1, name_of(c.collision()), c.lower, c.upper, csv_field(c.first),
+                       csv_field(c.second));
   }
   return csv;
 }

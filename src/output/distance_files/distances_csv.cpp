@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace medial_vk {
 
 const char* name_of(Collision collision) {
@@ -21,8 +19,8 @@ const char* name_of(Collision collision) {
 std::string encode_distances_csv(std::span<const Distance> distances) {
   std::string csv = "lower,upper,state,ax,ay,az,bx,by,bz\n";
   for (const Distance& d : distances) {
-    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{}\n", d.lower, d.upper, name_of(d.collision()),
-                   d.on_a[0], d.on_a[1], d.on_a[2], d.on_b[0], d.on_b[1], d.on_b[2]);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", d.lower, d.upper, name_of(d.collision()), d.on_a[0], d.on_a[1],
+                       d.on_a[2], d.on_b[0], d.on_b[1], d.on_b[2]);
   }
   return csv;
 }
@@ -30,7 +28,7 @@ std::string encode_distances_csv(std::span<const Distance> distances) {
 std::string encode_bounds_csv(std::span<const DistanceBounds> bounds) {
   std::string csv = "lower,upper,state\n";
   for (const DistanceBounds& b : bounds) {
-    fmt::format_to(std::back_inserter(csv), "{},{},{}\n", b.lower, b.upper, name_of(b.collision()));
+    csv += fmt::format("{},{},{}\n", b.lower, b.upper, name_of(b.collision()));
   }
   return csv;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "common/tool_errors.h"
 #include "output/atomic_files/little_endian.h"
@@ -53,8 +52,8 @@ Look look_of(const MedialSphere& sphere, double least_angle) {
 
 void append_vertex(std::string& out, const Point& p, const Look& look, bool ascii) {
   if (ascii) {
-    fmt::format_to(std::back_inserter(out), "{:.17g} {:.17g} {:.17g} {:.9g} {:.9g} {} {} {} {}\n", p[0], p[1], p[2],
-                   look.radius, look.object_angle, look.sheet, look.colour[0], look.colour[1], look.colour[2]);
+    out += fmt::format("{:.17g} {:.17g} {:.17g} {:.9g} {:.9g} {} {} {} {}\n", p[0], p[1], p[2], look.radius,
+                       look.object_angle, look.sheet, look.colour[0], look.colour[1], look.colour[2]);
     return;
   }
   for (const double x : p) append_little_endian(out, x);
@@ -66,7 +65,7 @@ void append_vertex(std::string& out, const Point& p, const Look& look, bool asci
 
 void append_triangle(std::string& out, const std::array<std::uint32_t, 3>& t, std::uint32_t first, bool ascii) {
   if (ascii) {
-    fmt::format_to(std::back_inserter(out), "3 {} {} {}\n", first + t[0], first + t[1], first + t[2]);
+    out += fmt::format("3 {} {} {}\n", first + t[0], first + t[1], first + t[2]);
     return;
   }
   append_little_endian(out, std::uint8_t{3});

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "output/medial_formats/ball_colours.h"
 #include "output/medial_formats/ball_mesh.h"
@@ -42,7 +41,7 @@ std::string root_node(const Point& middle, std::size_t children) {
   std::string out =
       fmt::format("[{{\"name\":\"medial spheres\",\"translation\":[{},{},{}]", middle[0], middle[1], middle[2]);
   for (std::size_t i = 1; i <= children; ++i) {
-    fmt::format_to(std::back_inserter(out), "{}{}", i == 1 ? ",\"children\":[" : ",", i);
+    out += fmt::format("{}{}", i == 1 ? ",\"children\":[" : ",", i);
   }
   return out + (children > 0 ? "]}" : "}");
 }
@@ -121,10 +120,10 @@ class GlbEncoder {
     const GlbBall ball = glb_ball(sphere, middle_);
     const std::array<double, 3> centre = {ball.centre[0], ball.centre[1], ball.centre[2]};
     const double radius = ball.radius;
-    fmt::format_to(std::back_inserter(out),
-                   ",{{\"mesh\":{},\"name\":\"{}\",\"translation\":[{},{},{}],\"scale\":[{},{},{}],\"extras\":"
-                   "{{\"object_angle\":{},\"sheet\":{}}}}}",
-                   mesh, i, centre[0], centre[1], centre[2], radius, radius, radius, sphere.object_angle, sphere.sheet);
+    out += fmt::format(
+        ",{{\"mesh\":{},\"name\":\"{}\",\"translation\":[{},{},{}],\"scale\":[{},{},{}],\"extras\":"
+        "{{\"object_angle\":{},\"sheet\":{}}}}}",
+        mesh, i, centre[0], centre[1], centre[2], radius, radius, radius, sphere.object_angle, sphere.sheet);
   }
 
   GltfJson instances_node(std::uint32_t mesh, const Indices& indices) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace medial_vk {
@@ -34,11 +33,11 @@ std::string encode_json(const MedialHeader& header, std::span<const MedialSphere
   const char* separator = "\n";
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const MedialSphere& s = spheres[i];
-    fmt::format_to(std::back_inserter(out),
-                   "{}{{\"centre\":{},\"radius\":{},\"spoke_a\":{},\"spoke_b\":{},\"object_angle\":{},\"flux\":{},"
-                   "\"sheet\":{},\"seam\":{},\"rim\":{},\"voxel\":{}}}",
-                   separator, triple(s.centre), s.radius, triple(s.spoke_a), triple(s.spoke_b), s.object_angle, s.flux,
-                   s.sheet, (marks[i] & kSeam) != 0, (marks[i] & kRim) != 0, triple(s.voxel));
+    out += fmt::format(
+        "{}{{\"centre\":{},\"radius\":{},\"spoke_a\":{},\"spoke_b\":{},\"object_angle\":{},\"flux\":{},"
+        "\"sheet\":{},\"seam\":{},\"rim\":{},\"voxel\":{}}}",
+        separator, triple(s.centre), s.radius, triple(s.spoke_a), triple(s.spoke_b), s.object_angle, s.flux, s.sheet,
+        (marks[i] & kSeam) != 0, (marks[i] & kRim) != 0, triple(s.voxel));
     separator = ",\n";
   }
   return out + "\n]\n}\n";

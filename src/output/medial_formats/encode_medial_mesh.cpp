@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "common/file_extension.h"
 #include "output/atomic_files/little_endian.h"
@@ -45,16 +44,15 @@ void append_binary(std::string& out, std::span<const MedialSphere> spheres, cons
 
 void append_text(std::string& out, std::span<const MedialSphere> spheres, const Sheets& sheets,
                  const MedialMesh& mesh) {
-  const auto end = std::back_inserter(out);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Point& c = spheres[i].centre;
-    fmt::format_to(end, "{:.17g} {:.17g} {:.17g} {:.17g} {} {} {}\n", c[0], c[1], c[2], spheres[i].radius,
-                   sheets.of_point[i], flag(sheets.marks[i], kSeam), flag(sheets.marks[i], kRim));
+    out += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {} {} {}\n", c[0], c[1], c[2], spheres[i].radius,
+                       sheets.of_point[i], flag(sheets.marks[i], kSeam), flag(sheets.marks[i], kRim));
   }
-  for (const Triangle& t : mesh.triangles) fmt::format_to(end, "3 {} {} {}\n", t[0], t[1], t[2]);
+  for (const Triangle& t : mesh.triangles) out += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
-    fmt::format_to(end, "{} {} {} {}\n", mesh.edges[i][0], mesh.edges[i][1], flag(mesh.edge_marks[i], kSeam),
-                   flag(mesh.edge_marks[i], kRim));
+    out += fmt::format("{} {} {} {}\n", mesh.edges[i][0], mesh.edges[i][1], flag(mesh.edge_marks[i], kSeam),
+                       flag(mesh.edge_marks[i], kRim));
   }
 }
 
@@ -73,12 +71,11 @@ std::string encode_medial_mesh_ply(const MedialHeader& header, std::span<const M
 
 std::string encode_medial_mesh_ma(std::span<const MedialSphere> spheres, const MedialMesh& mesh) {
   std::string out = fmt::format("{} {} {}\n", spheres.size(), mesh.edges.size(), mesh.triangles.size());
-  const auto end = std::back_inserter(out);
   for (const MedialSphere& s : spheres) {
-    fmt::format_to(end, "v {} {} {} {}\n", s.centre[0], s.centre[1], s.centre[2], s.radius);
+    out += fmt::format("v {} {} {} {}\n", s.centre[0], s.centre[1], s.centre[2], s.radius);
   }
-  for (const MeshEdge& e : mesh.edges) fmt::format_to(end, "e {} {}\n", e[0], e[1]);
-  for (const Triangle& t : mesh.triangles) fmt::format_to(end, "f {} {} {}\n", t[0], t[1], t[2]);
+  for (const MeshEdge& e : mesh.edges) out += fmt::format("e {} {}\n", e[0], e[1]);
+  for (const Triangle& t : mesh.triangles) out += fmt::format("f {} {} {}\n", t[0], t[1], t[2]);
   return out;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "common/file_extension.h"
@@ -38,15 +37,15 @@ void append_binary(std::string& out, const MedialSphere& sphere) {
 }
 
 void append_text(std::string& out, const MedialSphere& sphere, char separator) {
-  const auto number = [&](double x) { fmt::format_to(std::back_inserter(out), "{:.17g}{}", x, separator); };
-  const auto single = [&](float x) { fmt::format_to(std::back_inserter(out), "{:.9g}{}", x, separator); };
+  const auto number = [&](double x) { out += fmt::format("{:.17g}{}", x, separator); };
+  const auto single = [&](float x) { out += fmt::format("{:.9g}{}", x, separator); };
   for (const double x : sphere.centre) number(x);
   number(sphere.radius);
   for (const float x : sphere.spoke_a) single(x);
   for (const float x : sphere.spoke_b) single(x);
   single(sphere.object_angle);
   single(sphere.flux);
-  fmt::format_to(std::back_inserter(out), "{}\n", sphere.sheet);
+  out += fmt::format("{}\n", sphere.sheet);
 }
 
 }  // namespace

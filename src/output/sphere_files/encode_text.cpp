@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "output/sphere_files/encoders.h"
@@ -24,9 +23,8 @@ std::string csv_word(const std::string& word) {
 std::size_t levels_of(const SphereFile& file) { return file.parts.empty() ? 0 : file.parts.front().levels.size(); }
 
 void append_sphere(std::string& out, const char* centre, const Ball& ball) {
-  fmt::format_to(std::back_inserter(out), "{{\"{}\": [{}, {}, {}], \"radius\": {}}}", centre,
-                 float_text(ball.centre[0]), float_text(ball.centre[1]), float_text(ball.centre[2]),
-                 float_text(ball.radius));
+  out += fmt::format("{{\"{}\": [{}, {}, {}], \"radius\": {}}}", centre, float_text(ball.centre[0]),
+                     float_text(ball.centre[1]), float_text(ball.centre[2]), float_text(ball.radius));
 }
 
 /// A list with one line per sphere.
@@ -144,8 +142,7 @@ std::string encode_spheres_csv(const SphereFile& file) {
     for (const PartSpheres& part : file.parts) {
       for (const Ball& ball : part.levels[level]) {
         if (file.is_robot) out += csv_word(part.link) + ",";
-        fmt::format_to(std::back_inserter(out), "{},{},{},{}", ball.centre[0], ball.centre[1], ball.centre[2],
-                       ball.radius);
+        out += fmt::format("{},{},{},{}", ball.centre[0], ball.centre[1], ball.centre[2], ball.radius);
         out += file.with_levels ? fmt::format(",{}\n", level) : "\n";
       }
     }

@@ -1,10 +1,9 @@
 #include "proximity/neighbours/placed_bodies.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "proximity/body.h"
 #include "proximity/placement.h"
@@ -53,15 +52,15 @@ Status check_world_pose(const Pose& pose, const std::string& whose) {
   }
   if (is_good) return {};
   return Error{ErrorCode::kUsage,
-               fmt::format("the `pose` of {} shifts beyond {:g} or is no rigid motion", whose, kLargestCoordinate)};
+               format_text("the `pose` of {} shifts beyond {:g} or is no rigid motion", whose, kLargestCoordinate)};
 }
 
 Result<PlacedBodies> PlacedBodies::create(std::span<const PlacedBody> bodies) {
   if (bodies.size() > kMostBodyBalls) {
-    return Error{ErrorCode::kUsage, fmt::format("there are {} `bodies`, more than {}", bodies.size(), kMostBodyBalls)};
+    return Error{ErrorCode::kUsage, format_text("there are {} `bodies`, more than {}", bodies.size(), kMostBodyBalls)};
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (Status status = check_world_pose(bodies[i].pose, fmt::format("body {}", i)); !status) return status.error();
+    if (Status status = check_world_pose(bodies[i].pose, format_text("body {}", i)); !status) return status.error();
   }
   return catch_out_of_memory("indexing bodies", [&]() -> Result<PlacedBodies> {
     auto impl = std::make_shared<PlacedBodiesImpl>();

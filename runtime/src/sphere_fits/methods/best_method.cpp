@@ -1,7 +1,5 @@
 #include "sphere_fits/methods/best_method.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/point_ops.h"
 #include "sphere_fits/cover/cover_family.h"
 #include "sphere_fits/methods/prefixes.h"
@@ -147,13 +146,13 @@ class Placing {
   Error unmet() {
     std::string left;
     if (options_.error > 0)
-      left = fmt::format("{:.3g} of the volume {}", moves_->error(balls_),
+      left = format_text("{:.3g} of the volume {}", moves_->error(balls_),
                          options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
     if (options_.max_gap > 0) {
-      left += fmt::format("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
+      left += format_text("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
     }
     const std::size_t n = balls_.size();
-    return {ErrorCode::kUsage, fmt::format("{} {} {}; raise {}", n, n == 1 ? "ball leaves" : "balls leave", left,
+    return {ErrorCode::kUsage, format_text("{} {} {}; raise {}", n, n == 1 ? "ball leaves" : "balls leave", left,
                                            options_.max_gap <= 0 ? "`count` or `error`"
                                            : options_.error <= 0 ? "`count` or `max_gap`"
                                                                  : "`count`, `error` or `max_gap`")};

@@ -1,11 +1,10 @@
 // Balls for one solid: approximated, proved, measured.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <utility>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "base/point_ops.h"
 #include "medial_vk/sphere_fits.h"
@@ -40,7 +39,7 @@ Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop) {
 Status check_contract(SphereContract contract, const SphereMeasures& measures) {
   const InsideProof& inside = measures.inside;
   if (contract == SphereContract::kInside && !inside.proved()) {
-    return Error{ErrorCode::kInternal, fmt::format("{} of {} spheres reach out of the solid, the worst by {:.3g}",
+    return Error{ErrorCode::kInternal, format_text("{} of {} spheres reach out of the solid, the worst by {:.3g}",
                                                    inside.failed, inside.tested, inside.greatest_excess)};
   }
   if (contract == SphereContract::kCover && !measures.cover.surface_proved()) {

@@ -1,12 +1,11 @@
 #include "sphere_fits/methods/source_method.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "base/format_text.h"
 #include "medial_vk/ball_union.h"
 #include "sphere_fits/methods/prefixes.h"
 
@@ -31,7 +30,7 @@ class GridSearch {
     if (!status) return status.error();
     if (by_count && by_error && !(error_of(best_).value_or(1) <= options_.error)) {
       return source_usage(
-          fmt::format("one ball per voxel leaves {:.3g} of the volume uncovered with {} balls, more than the "
+          format_text("one ball per voxel leaves {:.3g} of the volume uncovered with {} balls, more than the "
                       "`error` of {:.3g}; raise `count`, or use `method` best",
                       error_of(best_).value_or(1), best_.size(), options_.error));
     }
@@ -114,7 +113,7 @@ class GridSearch {
     if (!best_.empty()) return {};
     if (fewest_ == SIZE_MAX) return no_balls();
     return source_usage(
-        fmt::format("one ball per voxel gives {} balls even on the coarsest grid that has any, more than the {} "
+        format_text("one ball per voxel gives {} balls even on the coarsest grid that has any, more than the {} "
                     "allowed; raise `count`, or use `method` best",
                     fewest_, options_.count));
   }
@@ -124,11 +123,11 @@ class GridSearch {
     if (!found) return found.error();
     if (!best_.empty()) return {};
     return source_usage(
-        fmt::format("one ball per voxel reaches an `error` of {:.3g} on no grid; use `method` best", options_.error));
+        format_text("one ball per voxel reaches an `error` of {:.3g} on no grid; use `method` best", options_.error));
   }
 
   Status no_balls() const {
-    return source_usage(fmt::format("no medial ball has an object angle of {:.3g} or more; lower `object_angle`",
+    return source_usage(format_text("no medial ball has an object angle of {:.3g} or more; lower `object_angle`",
                                     options_.object_angle));
   }
 

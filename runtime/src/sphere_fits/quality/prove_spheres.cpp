@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "base/format_text.h"
 #include "base/host_memory.h"
 #include "medial_vk/sphere_proofs.h"
 #include "sphere_fits/quality/sphere_certificate.h"
@@ -14,13 +13,13 @@ constexpr std::size_t kMostProved = std::size_t{1} << 24;
 
 Status check_numbers(std::span<const Ball> balls, const char* set) {
   if (balls.size() > kMostProved) {
-    return Error{ErrorCode::kUsage, fmt::format("{} has {} balls, more than {}", set, balls.size(), kMostProved)};
+    return Error{ErrorCode::kUsage, format_text("{} has {} balls, more than {}", set, balls.size(), kMostProved)};
   }
   for (std::size_t i = 0; i < balls.size(); ++i) {
     bool is_good = balls[i].radius >= 0 && balls[i].radius <= kFarthest;
     for (const double x : balls[i].centre) is_good = is_good && std::fabs(x) <= kFarthest;
     if (is_good) continue;
-    return Error{ErrorCode::kUsage, fmt::format("ball {} of {} is not finite, has a negative radius or is beyond {:g}",
+    return Error{ErrorCode::kUsage, format_text("ball {} of {} is not finite, has a negative radius or is beyond {:g}",
                                                 i, set, kFarthest)};
   }
   return {};
