@@ -33,7 +33,7 @@ Candidate nearest_on_segments(const Point& p, const Point& d, const Point& q, co
   double s = share(de * er - dr * ee, dd * ee - de * de);
   const double t_on_line = s * de + er;
   const double t = share(t_on_line, ee);
-  if (t_on_line < 0 || t_on_line > ee) s = share(t * de - dr, dd);
+  if (t_on_line <= 0 || t_on_line >= ee) s = share(t * de - dr, dd);  // also where rounding has left e no length
   return between(p + s * d, q + t * e);
 }
 

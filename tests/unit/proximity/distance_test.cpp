@@ -307,6 +307,18 @@ TEST(Distance, OfSliversIsNotBelowTheTrueOne) {
   EXPECT_LE(found.upper, 1.34e-09);
 }
 
+// In the frame of the other one, a triangle that is smaller than the rounding there is a point.
+TEST(Distance, OfASolidSmallerThanRoundingIsThatOfAPoint) {
+  Random random(6);
+  const Mesh large = make_box({2, 0.01, 0.02}), small = make_box({1e-18, 1e-18, 1e-18});
+  const Body a = body_of(large), b = body_of(small);
+  for (int i = 0; i < 100; ++i) {
+    const Pose pose = any_pose(random, point_in_cube(random, 1.5));
+    expect_holds(distance(a, b, pose).value(), exact_distance(large, small, pose, false), 10);
+    expect_holds(distance(b, a, pose).value(), exact_distance(small, large, pose, false), 10);
+  }
+}
+
 // Of products of many rotations: their inverse is not their transpose to all digits.
 TEST(Distance, RotationsNeedNotBePerfect) {
   Random random(9);
