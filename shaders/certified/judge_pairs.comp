@@ -159,8 +159,8 @@ void main() {
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
   Remains narrower, inside, last;
-  // The inner part at a larger angle; the inner part; the whole cell.
-  for (uint k = classifies ? 0u : 2u; k < 3u;) {
+  // The inner part at a larger angle; the inner part; the whole cell. Most cells are not classified, and skip all.
+  for (uint k = !exists ? 3u : classifies ? 0u : 2u; k < 3u;) {
     Box box = inner;
     if (k == 2u) box = whole;
     last = what_remains(cell, box, k == 0u ? theta + margin : theta, d0, classifies && k == 2u);
