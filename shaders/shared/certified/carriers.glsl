@@ -49,12 +49,12 @@ float corner_distance[8];  // from the corners of the box to the triangle neares
 // Bound of the rounding of distances, feet and chords of the contacts listed so far (docs/theory.md, "Rounding"). Near
 // the centre it is far less than step.slack, which holds for any two points of the unit box.
 float near_slack;  // the same in all lanes
+shared uint near_slack_bits;
 const float kVertexSlack = 2.5e-7, kReachSlack = 1e-6;
 
 float slack_of(TriangleTexels t, Box box) {
-  vec3 bc = t.ac.xyz - t.ab.xyz, to_a = box.centre - t.a.xyz;
-  float longest = max(dot(bc, bc), max(dot(t.ab.xyz, t.ab.xyz), dot(t.ac.xyz, t.ac.xyz)));
-  return min(step.slack, kVertexSlack + kReachSlack * (length(to_a) + sqrt(longest)));
+  float reach = distance(box.centre, t.a.xyz) + length(t.ab.xyz) + length(t.ac.xyz);  // at least that with any edge
+  return min(step.slack, kVertexSlack + kReachSlack * reach);
 }
 
 // As distance_slack().
@@ -261,14 +261,15 @@ void list_carriers(uint lane, Cell cell, Box box) {
   uint begin = 0u;
   while (carrier_count <= kMostCarriers) {
     uint end = min(begin + kEntriesAtOnce, cell.touching);
-    float mine = near_slack;
+    float mine = 0.0;
     for (uint i = begin + lane; i < end; i += kLanes) {
       uint t = lists[cell.list_begin + i];
       mine = max(mine, slack_of(load_triangle(t), box));
       list_features(t);
     }
-    near_slack = -least_of_lanes(-mine);
+    atomicMax(near_slack_bits, floatBitsToUint(mine));
     synchronize();
+    near_slack = uintBitsToFloat(near_slack_bits);
     for (uint i = lane; i < feature_count; i += kLanes) {
       uint name = feature_name[i];
       add_carrier(feature_named(name, box), name, box);
@@ -296,11 +297,11 @@ bool gather_carriers(Cell cell, Box box) {
   uint lane = gl_LocalInvocationID.x;
   TriangleTexels nearest = load_triangle(cell.nearest);
   measure_corners(lane, nearest, box);
-  near_slack = slack_of(nearest, box);
   synchronize();
   if (lane == 0u) {
     feature_count = 0u;
     carrier_count = 0u;
+    near_slack_bits = floatBitsToUint(slack_of(nearest, box));
   }
   synchronize();
   kept_count = 0u;
