@@ -31,5 +31,5 @@ void main() {
     return;
   }
   bool found = winners[index] != kNoWinner;
-  states[index] = uvec4(found ? 1u : 0u, found ? 0u : given_up[index], 0u, 0u);
+  states[index] = uvec4(found ? 1u : 0u, found ? 0u : given_up[index] >> 31, 0u, 0u);
 }

@@ -11,7 +11,7 @@ layout(set = 0, binding = 1) readonly buffer Cells { Cell cells[]; };
 layout(set = 0, binding = 2) readonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 3) readonly buffer Lines { Line lines[]; };
 layout(set = 0, binding = 4) readonly buffer Voxels { Cell voxels[]; };
-layout(set = 0, binding = 5) writeonly buffer GivenUp { uint given_up[]; };
+layout(set = 0, binding = 5) buffer GivenUp { uint given_up[]; };
 layout(set = 0, binding = 6) writeonly buffer Points { FoundPoint points[]; };
 layout(set = 0, binding = 7) writeonly buffer States { uvec4 states[]; };
 
@@ -37,6 +37,7 @@ void main() {
   }
   bool done = found || (flags & kCellEmpty) != 0u;
   bool last = step.second_task == 0u && ((step.ends & kEndsAll) != 0u || is_hopeless(flags) || (flags & kCellSettled) != 0u);
-  if (!done && last) given_up[voxel] = 1u;
+  if (!done && last) atomicOr(given_up[voxel], kGivenUpBit);
+  if (!done && !last && step.depth > 0u) atomicAdd(given_up[voxel], 1u);
   states[index] = uvec4(done || last ? 0u : 1u, 0u, 0u, 0u);
 }

@@ -16,7 +16,7 @@
 #include "lanes/lanes.glsl"
 #include "certified/step.glsl"
 #define TRIANGLE_STORAGE_BINDING 0
-#define TRIANGLE_TEXEL_BINDING 9
+#define TRIANGLE_TEXEL_BINDING 10
 #include "tree/triangles.glsl"
 
 layout(set = 0, binding = 1) buffer Cells { Cell cells[]; };
@@ -24,18 +24,20 @@ layout(set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 3) buffer Counters { uint counters[]; };
 #define LINK_STORAGE_BINDING 4
 #define CORNER_STORAGE_BINDING 5
-#define LINK_TEXEL_BINDING 10
-#define CORNER_TEXEL_BINDING 11
+#define LINK_TEXEL_BINDING 11
+#define CORNER_TEXEL_BINDING 12
 #include "certified/links.glsl"
 layout(set = 0, binding = 6) writeonly buffer Aims { Aim aims[]; };
 layout(set = 0, binding = 7) readonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
+layout(set = 0, binding = 9) readonly buffer GivenUp { uint given_up[]; };  // kGivenUpBit
 #include "certified/pair_queue.glsl"
 #include "certified/foot_sides.glsl"
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
 const float kAngleMargin = 0.05;
 const float kSettleMargin = 0.02;  // radians: the same margin above the last level, where cells are given up early
+const uint kMostCells = 256u;  // of a voxel, before they may be given up above the last level
 const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 
 // Limit of the rounds over queued pairs of an invocation: some 70 iterations each where directions at corners are
@@ -148,7 +150,7 @@ void main() {
   bool gives_up = (step.ends & kEndsAll) != 0u || is_hopeless(cell.flags);
   if (classifies) {
     exists = exists && (cell.flags & kCellEmpty) == 0u && winners[cell.voxel] == kNoWinner &&
-             (gives_up || (step.ends & kEndsSettled) != 0u);
+             (gives_up || ((step.ends & kEndsSettled) != 0u && given_up[cell.voxel] > kMostCells));
   }
   if (!exists) cell.touching = 0u;
   Box whole = Box(cell_centre(uvec3(cell.x, cell.y, cell.z)), vec3(step.half_side), step.circumradius);
@@ -157,8 +159,8 @@ void main() {
   bool has_inner;
   Box inner = inner_part(cell, whole, has_inner);
   Remains narrower, inside, last;
-  // The inner part at a larger angle; the inner part; the whole cell.
-  for (uint k = classifies ? 0u : 2u; k < 3u;) {
+  // The inner part at a larger angle; the inner part; the whole cell. Most cells are not classified, and skip all.
+  for (uint k = !exists ? 3u : classifies ? 0u : 2u; k < 3u;) {
     Box box = inner;
     if (k == 2u) box = whole;
     last = what_remains(cell, box, k == 0u ? theta + margin : theta, d0, classifies && k == 2u);

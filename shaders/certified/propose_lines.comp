@@ -58,6 +58,16 @@ Candidate best_of_run(Cell cell, uint lane, vec3 centre, vec3 g0, float d0, floa
   return best;
 }
 
+// Loops of turns whose values the lanes of a cell exchange: cells that need none skip them. (Without lockstep, lanes of
+// all cells of a workgroup meet in every turn.)
+uint turns_of(Cell cell, uint turns) {
+#ifdef LOCKSTEP
+  return cell.touching != 0u ? turns : 0u;
+#else
+  return turns;
+#endif
+}
+
 // The vector from the centre to the point equally far from all contacts that are about as near as the nearest, in the
 // sense of least squares: D_j - g_j.x = t for all j, by Gauss-Newton. Where the directions leave a degree of freedom
 // (along a sheet or a curve) the step has no component in it. The eight lanes of a cell share its contacts; all of them
@@ -66,7 +76,8 @@ vec3 step_to_tie(Cell cell, uint lane, vec3 centre, float d0) {
   vec3 x = vec3(0.0);
   float nearest_distance = d0;
   uint stride = kLinesPerCell * (1u + cell.touching / kTieEntries);
-  for (uint k = 0; k < kTieSteps + 2u * min(step.depth, 1u); ++k) {
+  uint turns = turns_of(cell, kTieSteps + 2u * min(step.depth, 1u));
+  for (uint k = 0; k < turns; ++k) {
     vec4 directions = vec4(0.0), mixed = vec4(0.0);  // sums of w (g, 1) and w d (g, 1)
     vec4 squares = vec4(0.0), products = vec4(0.0);  // sums of w g g^T: diagonal; xy, xz, yz
     float least = 3e38;
@@ -114,19 +125,21 @@ vec3 opposite_direction(Cell cell, uint lane, vec3 point, float nearest_distance
   return sum.xyz / max(sum.w, 1.0);
 }
 
-// The normal of the sheet between the two contacts at the tie whose spokes differ most, or nearly most.
+// The normal of the sheet between the two contacts at the tie whose spokes differ most, or nearly most; 0 at the finest
+// level, where no line takes it.
 vec3 widest_turn(Cell cell, uint lane, vec3 point) {
   float nearest_distance = 3e38;
-  uint stride = kLinesPerCell * (1u + cell.touching / kMostEntries);
-  for (uint entry = lane; entry < cell.touching; entry += stride)
+  uint stride = kLinesPerCell * (1u + cell.touching / kMostEntries), turns = turns_of(cell, step.depth > 0u ? 3u : 0u);
+  uint count = step.depth > 0u ? cell.touching : 0u;
+  for (uint entry = lane; entry < count; entry += stride)
     nearest_distance =
         min(nearest_distance, squared_distance_to_triangle(point, load_triangle(lists[cell.list_begin + entry])));
   nearest_distance = sqrt(least_of_lanes(nearest_distance));
-  vec3 a = vec3(0.0), b;
-  for (uint k = 0; k < 3u;) {
+  vec3 a = vec3(0.0), b = vec3(0.0);
+  for (uint k = 0; k < turns;) {
     b = a;
     a = opposite_direction(cell, lane, point, nearest_distance, b);
-    if (++k == 3u) break;
+    if (++k >= turns) break;
   }
   return unit_or_zero(a - b);
 }

@@ -74,7 +74,7 @@ bool can_be_wide(Carrier first, Carrier second, float sine, Box box) {
   float excess = max(max(-share, share - 1.0), 0.0);
   float bend = excess * 0.5 * box.circumradius * box.circumradius / max(share < 0.0 ? b.w : a.w, 1e-30);
   float slack = 4.0 * (at_a.foot.w + at_b.foot.w) +
-                (1.0 + 2.0 * excess) * distance_slack(min(a.w, b.w), box.circumradius);
+                (1.0 + 2.0 * excess) * near_distance_slack(min(a.w, b.w), box.circumradius);
   vec4 mixture = a + share * ab;
   bool wide = false;
   for (uint k = 0; k < 8u; ++k) {
@@ -199,11 +199,11 @@ bool can_face(uint first, uint second, float sine) {
   for (uint k = 0; k < 9u;) {
     vec3 chord = q[0] - p[0];
     bool apart = dot(chord, chord) > 0.0;  // else a corner of both
-    float along = dot(chord, mean) - step.slack;
-    float depth_a = depth_along(a, chord) + step.slack, depth_b = depth_along(b, -chord) + step.slack;
+    float along = dot(chord, mean) - near_slack;
+    float depth_a = depth_along(a, chord) + near_slack, depth_b = depth_along(b, -chord) + near_slack;
     bounded = bounded && (!apart || along > 0.0);
-    behind_a = behind_a || (apart && depth_a > 2.0 * step.slack);
-    behind_b = behind_b || (apart && depth_b > 2.0 * step.slack);
+    behind_a = behind_a || (apart && depth_a > 2.0 * near_slack);
+    behind_b = behind_b || (apart && depth_b > 2.0 * near_slack);
     float inverse = apart ? 1.0 / max(along, 1e-30) : 0.0;
     most_a = max(most_a, depth_a * inverse);
     most_b = max(most_b, depth_b * inverse);

@@ -46,10 +46,24 @@ const float kUnknownSpan = 0.0, kPlane = 1.0, kLine = 2.0, kPoint = 3.0;
 
 float corner_distance[8];  // from the corners of the box to the triangle nearest to its centre
 
+// Bound of the rounding of distances, feet and chords of the contacts listed so far (docs/theory.md, "Rounding"). Near
+// the centre it is far less than step.slack, which holds for any two points of the unit box.
+float near_slack;  // the same in all lanes
+shared uint near_slack_bits;
+const float kVertexSlack = 2.5e-7, kReachSlack = 1e-6;
+
+float slack_of(TriangleTexels t, Box box) {
+  float reach = distance(box.centre, t.a.xyz) + length(t.ab.xyz) + length(t.ac.xyz);  // at least that with any edge
+  return min(step.slack, kVertexSlack + kReachSlack * reach);
+}
+
+// As distance_slack().
+float near_distance_slack(float d, float circumradius) { return 4.0 * near_slack * (1.0 + circumradius / max(d, 1e-30)); }
+
 // Lemma A for a box.
 bool touches_box(vec3 v, float d, Box box) {
   vec4 along = corners_along(box.half_sides * (v / max(d, 1e-30)));
-  return d - distance_slack(d, box.circumradius) <= most_at_corners(corner_distance, along);
+  return d - near_distance_slack(d, box.circumradius) <= most_at_corners(corner_distance, along);
 }
 
 // A candidate for a carrier.
@@ -65,10 +79,10 @@ struct Feature {
 Feature face_feature(TriangleTexels texels, uint flags, bool front, Box box) {
   vec3 v = vector_to_triangle(box.centre, texels), n = texels.normal.xyz;
   bool whole = (distrust_of(flags) & kLinkWhole) != 0u;
-  float behind = dot(n, texels.a.xyz - box.centre), reach = dot(box.half_sides, abs(n)) + step.slack;
+  float behind = dot(n, texels.a.xyz - box.centre), reach = dot(box.half_sides, abs(n)) + near_slack;
   Feature f = Feature(v, vec4(0.0, 0.0, 1.0, 4.0), vec4(v, 0.0), vec4(kUnknownSpan), tilt_of(texels), true);
   f.spokes = whole ? f.spokes : vec4(front ? -n : n, kAngleSlack);
-  f.foot = whole ? f.foot : vec4(n * behind, step.slack);
+  f.foot = whole ? f.foot : vec4(n * behind, near_slack);
   f.span = whole ? f.span : vec4(n, kPlane);
   f.meets = (distrust_of(flags) & kLinkBothSides) == 0u || (front ? -behind : behind) >= -reach;
   return f;
@@ -95,15 +109,15 @@ Feature edge_feature(TriangleTexels texels, uint k, uint neighbour, bool has_arc
   float size_e = max(length(e), 1e-30);
   vec3 u = e / size_e;
   float tilt = 1.2e-7 / size_e, sway = tilt * length(box.centre - a);
-  float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + step.slack + sway;
-  vec4 foot = vec4(a + along * u - box.centre, step.slack * (1.0 + box.circumradius / size_e) + sway);
+  float along = dot(box.centre - a, u), reach = dot(box.half_sides, abs(u)) + near_slack + sway;
+  vec4 foot = vec4(a + along * u - box.centre, near_slack * (1.0 + box.circumradius / size_e) + sway);
   return Feature(a + clamp(along, 0.0, size_e) * u - box.centre, arc, foot, vec4(u, kLine), tilt,
                  along >= -reach && along <= size_e + reach);
 }
 
 Feature corner_feature(TriangleTexels texels, uint k, vec4 cone, Box box) {
   vec3 v = corner_of(texels, k) - box.centre;
-  return Feature(v, cone, vec4(v, step.slack), vec4(kPoint), 0.0, true);
+  return Feature(v, cone, vec4(v, near_slack), vec4(kPoint), 0.0, true);
 }
 
 // All three kinds are computed and one is selected: lanes hold different kinds, so every branch would be executed
@@ -132,7 +146,7 @@ Feature feature_named(uint name, Box box) {
 void add_carrier(Feature f, uint name, Box box) {
   float d = length(f.nearest);
   vec3 g = unit_or_zero(f.nearest);
-  float rho = box.circumradius + 2.0 * step.slack;
+  float rho = box.circumradius + 2.0 * near_slack;
   bool outside = d > rho;
   float wander = (outside ? arcsine(rho / d) : 4.0) + f.tilt + kAngleSlack;
   float sum = wander + f.spokes.w;
@@ -210,7 +224,7 @@ const uint kRivals = 4u, kPairRivals = 8u;  // the nearest carriers, tried as ri
 // Bound of the error of the estimate D - g.x: x for rounding; y for bending, where it is an upper bound (Lemma F).
 vec2 error_of(Carrier c, Box box) {
   float rho = box.circumradius, d = c.nearest.w;
-  return vec2(distance_slack(d, rho), 0.5 * rho * rho / max(d, 1e-30));
+  return vec2(near_distance_slack(d, rho), 0.5 * rho * rho / max(d, 1e-30));
 }
 
 // Lemma F: true if a rival is nearer than the mixture of two others wherever these are equally near.
@@ -247,8 +261,15 @@ void list_carriers(uint lane, Cell cell, Box box) {
   uint begin = 0u;
   while (carrier_count <= kMostCarriers) {
     uint end = min(begin + kEntriesAtOnce, cell.touching);
-    for (uint i = begin + lane; i < end; i += kLanes) list_features(lists[cell.list_begin + i]);
+    float mine = 0.0;
+    for (uint i = begin + lane; i < end; i += kLanes) {
+      uint t = lists[cell.list_begin + i];
+      mine = max(mine, slack_of(load_triangle(t), box));
+      list_features(t);
+    }
+    atomicMax(near_slack_bits, floatBitsToUint(mine));
     synchronize();
+    near_slack = uintBitsToFloat(near_slack_bits);
     for (uint i = lane; i < feature_count; i += kLanes) {
       uint name = feature_name[i];
       add_carrier(feature_named(name, box), name, box);
@@ -280,6 +301,7 @@ bool gather_carriers(Cell cell, Box box) {
   if (lane == 0u) {
     feature_count = 0u;
     carrier_count = 0u;
+    near_slack_bits = floatBitsToUint(slack_of(nearest, box));
   }
   synchronize();
   kept_count = 0u;

@@ -89,6 +89,10 @@ struct Aim {
 };
 MEDIAL_VK_GPU_CONSTANT kAimsPerCell = 4u;
 
+// Per finest voxel: the number of its cells that remained after the search, of all levels below the finest, and this
+// bit if one of its cells was given up.
+MEDIAL_VK_GPU_CONSTANT kGivenUpBit = 0x80000000u;
+
 // A finest voxel that is neither found nor proved empty.
 struct UndecidedCell {
   uint x, y, z;

@@ -165,7 +165,7 @@ struct Budget {
 Budget budget_of(std::string_view name) {
   static const std::pair<std::string_view, Budget> kBudgets[] = {
       {"judge_pairs_lockstep_with", {70'000, 3'900, 120}},
-      {"judge_pairs", {115'000, 6'500, 120}},
+      {"judge_pairs", {117'000, 6'600, 120}},
       {"mark_contacts_lockstep", {88'000, 4'500, 310}},  // unrolled for lavapipe
       {"measure_balls", {88'000, 5'000, 150}},
       {"mark_samples", {30'000, 1'500, 610}},

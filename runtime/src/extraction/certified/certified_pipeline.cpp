@@ -350,7 +350,7 @@ void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const 
       {"judge_pairs",
        {mesh_->storage_of(mesh_->triangles), level.cells->range(), level.lists->range(), counters_.range(),
         mesh_->storage_of(mesh_->triangle_links), mesh_->storage_of(mesh_->corner_cones), aims_.range(),
-        winners_.range(), reasons_.range()},
+        winners_.range(), reasons_.range(), given_up_.range()},
        Reads::kLinks,
        {has_untrusted ? 1u : 0u},
        kEightLanes,
