@@ -18,15 +18,18 @@ layout(set = 0, binding = 3) writeonly buffer Bounds { ProximityBounds bounds[];
 
 const float kFarther = 9.1e18;  // than any two balls in range
 const float kSquare = 3.0e38;   // more than any square of lengths in range
+const float kLargest = 1.8e19;  // its square is a float
 const uint kNone = 0xffffffffu;
 const float kUnit = 1.1920929e-7;  // 2^-23: a result of a sum or product may be rounded either way
 
 // The pose, and the errors of separations.
+uint body_a, body_b;
 vec4 row_x, row_y, row_z;
 float inside_error, cover_error;
 
 // The search. Its stack has pairs of nodes with pairs of balls that are still to be followed, bit 8 j + k for ball k of
-// a and ball j of b; the nodes of a with their level in the upper bits.
+// a and ball j of b; the nodes of a with their level in the upper bits. Levels increase along the stack, and two nodes of
+// the lowest level are never there, so that it has room.
 ProximityTree tree_a, tree_b;
 float reach;      // pairs of balls with a computed separation of this or more are passed over
 float is_enough;  // the search ends at balls that are as close
@@ -92,9 +95,10 @@ bool place(ProximityPose pose) {
   row_z = pose.row_z;
   inside_error = pose.inside_error;
   cover_error = pose.cover_error;
-  if (max(pose.a, pose.b) >= push.body_count) return false;
-  if (inside_error == 0.0 && cover_error == 0.0) return centre_pose(bodies[pose.a], bodies[pose.b]);
-  return inside_error > 0.0 && cover_error > 0.0;
+  body_a = pose.a & ~kProximityCentred;
+  body_b = pose.b;
+  if (max(body_a, body_b) >= push.body_count) return false;
+  return (pose.a & kProximityCentred) != 0u || centre_pose(bodies[body_a], bodies[body_b]);
 }
 
 void go_to(uint a, uint b, uint to_level, vec4 around) {
@@ -112,12 +116,12 @@ void go_to_roots() {
 
 // Balls inside prove a hit where they overlap by more than the error; covers that they are apart, where none are closer
 // than the error.
-void begin_search(bool is_inside, ProximityPose pose) {
-  tree_a = bodies[pose.a].cover;
-  tree_b = bodies[pose.b].cover;
+void begin_search(bool is_inside) {
+  tree_a = bodies[body_a].cover;
+  tree_b = bodies[body_b].cover;
   if (is_inside) {
-    tree_a = bodies[pose.a].inside;
-    tree_b = bodies[pose.b].inside;
+    tree_a = bodies[body_a].inside;
+    tree_b = bodies[body_b].inside;
   }
   float error = is_inside ? -inside_error : cover_error;
   reach = kVerdicts ? error : kFarther;
@@ -147,7 +151,7 @@ uvec2 compare(bool is_lowest, out uint closest) {
     if (ball.w < 0.0) break;
     vec3 centre = in_frame_of_a(ball.xyz);
     float more = ball.w + reach;
-    if (!is_closer(square_of(around_a.xyz - centre), around_a.w + more)) continue;
+    if (!is_closer(square_of(around_a.xyz - centre), min(around_a.w + more, kLargest))) continue;
     uint row = 0u;
     [[unroll]] for (uint k = 0u; k < kProximityWidth; ++k) {
       float square = square_of(of_a[k].xyz - centre), both = of_a[k].w + more;
@@ -264,35 +268,41 @@ bool has_found() { return closest_balls.x != kNone; }
 void main() {
   uint pose = workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
   if (pose >= push.pose_count) return;
-  ProximityPose posed = poses[pose];
-  ProximityBounds found = ProximityBounds(0.0, uintBitsToFloat(0x7f800000u), kNone, kNone, kNone, kNone);
+  ProximityBounds found = ProximityBounds(0.0, -1.0, kNone, kNone, kNone, kNone);
   uint verdict = kProximityUndecided;
-  bool is_inside = false, is_placed = place(posed), goes_on = is_placed, is_complete = is_placed;
-  if (goes_on) begin_search(is_inside, posed);
+  bool is_inside = false, covers_are_done = false, inside_is_done = false, goes_on = place(poses[pose]);
+  if (goes_on) begin_search(is_inside);
   [[dont_unroll]] while (goes_on) {
     bool is_empty = min(tree_a.levels, tree_b.levels) == 0u;
     if (!is_empty && ++steps <= push.most_steps && search_on()) continue;
     bool is_searched = !is_empty && steps <= push.most_steps;
-    is_complete = is_complete && (is_empty || is_searched);
-    if (is_inside && has_found()) {
-      verdict = kProximityHit;
-      found.inside_a = closest_balls.x;
-      found.inside_b = closest_balls.y;
-      found.upper = max(0.0, (reach + inside_error) * 1.0000005);
-    } else if (!is_inside && is_searched) {
-      if (!has_found()) verdict = kProximityFree;
-      found.cover_a = closest_balls.x;
-      found.cover_b = closest_balls.y;
-      if (has_found()) found.lower = max(0.0, (reach - cover_error) * 0.9999995);
+    if (is_inside) {
+      inside_is_done = is_empty || is_searched;
+      if (has_found()) {
+        verdict = kProximityHit;
+        found.inside_a = closest_balls.x;
+        found.inside_b = closest_balls.y;
+        found.upper = max(0.0, (reach + inside_error) * 1.0000005);
+      }
+    } else {
+      covers_are_done = is_empty || is_searched;
+      if (is_searched && has_found()) {
+        found.cover_a = closest_balls.x;
+        found.cover_b = closest_balls.y;
+        found.lower = max(0.0, (reach - cover_error) * 0.9999995);
+      } else if (is_searched) {
+        verdict = kProximityFree;
+      }
     }
     goes_on = !is_inside && (!kVerdicts || verdict == kProximityUndecided);
     is_inside = true;
-    if (goes_on) begin_search(is_inside, posed);
+    if (goes_on) begin_search(is_inside);
   }
-  if (!is_complete && push.leaves_rest != 0u) {
+  if (!(covers_are_done && inside_is_done) && push.leaves_rest != 0u) {
     if (verdict == kProximityUndecided) verdict = kProximityGivenUp;
     found.lower = -1.0;
   }
+  if (found.upper < 0.0) found.upper = uintBitsToFloat(0x7f800000u);  // infinity
   if (kVerdicts) verdicts[pose] = verdict;
   else bounds[pose] = found;
 }

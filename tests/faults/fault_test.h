@@ -18,11 +18,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/host_memory.h"
 #include "device/context_impl.h"
 #include "failing_new.h"
 #include "medial_vk/device_bodies.h"
 #include "medial_vk/extraction.h"
 #include "medial_vk/scene.h"
+#include "proximity_jobs/device_bodies_impl.h"
+#include "proximity_jobs/pose_batches.h"
 #include "support/device/device.h"
 #include "support/extraction.h"
 #include "support/indexed.h"
@@ -126,8 +129,9 @@ inline Answer make_scene_and_query(Context& context, const PreparedMesh& mesh) {
   return query_everything(scene.value());
 }
 
-/// Verdicts and bounds for some pairs of two bodies, on the device.
-inline Answer query_bodies(Context& context) {
+/// Verdicts and bounds for some pairs of two bodies, on the device. `copies`: in small batches, as on a device with
+/// memory of its own.
+inline Answer query_bodies(Context& context, bool copies = false) {
   const std::vector<Ball> few = {{{0, 0, 0}, 1}}, more(9, {{0.5, 0, 0}, 0.5});
   const std::vector<Body> bodies = {Body::create(few, few).value(), Body::create(more, more).value()};
   std::vector<PosedPair> pairs;
@@ -137,6 +141,14 @@ inline Answer query_bodies(Context& context) {
   const Status done = in_runtime([&]() -> Status {
     Result<DeviceBodies> on_device = DeviceBodies::create(context, bodies);
     if (!on_device.ok()) return on_device.error();
+    DeviceBodiesImpl& impl = Internals::of(on_device.value());
+    if (copies) {
+      const Status made = catch_out_of_memory("a test", [&]() -> Status {
+        impl.batches = std::make_unique<PoseBatches>(impl, 2, false);  // two are in progress
+        return {};
+      });
+      if (!made.ok()) return made;
+    }
     if (Status status = on_device.value().collide_by_balls(pairs, verdicts, {1}); !status.ok()) return status;
     return on_device.value().distance_bounds(pairs, bounds, {1});
   });

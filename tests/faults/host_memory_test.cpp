@@ -73,6 +73,7 @@ TEST_F(HostMemory, RunsOutInManyPoses) {
   Result<Context> context = open();
   ASSERT_TRUE(context.ok());
   fail_every_allocation("many poses", [&] { return query_bodies(context.value()); });
+  fail_every_allocation("poses in batches", [&] { return query_bodies(context.value(), true); });
 }
 
 TEST_F(HostMemory, RunsOutInCertifiedExtraction) {

@@ -124,7 +124,13 @@ TEST_F(VulkanFaults, OfQueries) {
   fail_every_call_of("queries", [&](Context& context) { return make_scene_and_query(context, mesh); });
 }
 
-TEST_F(VulkanFaults, OfManyPoses) { fail_every_call_of("many poses", query_bodies); }
+TEST_F(VulkanFaults, OfManyPoses) {
+  fail_every_call_of("many poses", [](Context& context) { return query_bodies(context); });
+}
+
+TEST_F(VulkanFaults, OfPosesInBatches) {
+  fail_every_call_of("poses in batches", [](Context& context) { return query_bodies(context, true); });
+}
 
 TEST_F(VulkanFaults, OfCertifiedExtraction) {
   const PreparedMesh mesh = small_box();

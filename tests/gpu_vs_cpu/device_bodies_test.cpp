@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -114,7 +115,7 @@ TEST_F(BodiesOnDevice, AnswerAsAllPairsDo) {
   for (const int times : seen_) EXPECT_GT(times, 20);
 }
 
-// One tree has five levels more than the other; one pose is far away.
+// One tree has four levels more than the other; one pose is far away.
 TEST_F(BodiesOnDevice, OfFewBallsAndMany) {
   Random random(22);
   const Body bodies[] = {body_of(balls_at_random(random, 20000, {0, 0, 0}, 1)),
@@ -127,6 +128,33 @@ TEST_F(BodiesOnDevice, OfFewBallsAndMany) {
   expect_answers(bodies, pairs, 40);
   EXPECT_GT(seen_[0], 0);
   EXPECT_GT(seen_[1], 0);
+}
+
+// Balls at gaps about zero, far smaller and greater than the errors, at any place and in any direction: a kernel
+// without its errors would give proofs that are false.
+TEST_F(BodiesOnDevice, OfBallsThatAlmostTouch) {
+  Random random(25);
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    SCOPED_TRACE(testing::Message() << "size " << size);
+    std::vector<Body> bodies;
+    std::vector<Ball> balls;
+    for (int i = 0; i < 20; ++i) {
+      balls.push_back({point_in_cube(random, size), uniform(random, 0.1, 1) * size});
+      bodies.push_back(Body::create({&balls.back(), 1}, {&balls.back(), 1}).value());
+    }
+    std::vector<PosedPair> pairs;
+    for (std::uint32_t i = 0; i < 4000; ++i) {
+      const Ball &a = balls[i % 20], &b = balls[i / 20 % 20];
+      PosedPair pair = {any_pose(random, {0, 0, 0}), i % 20, i / 20 % 20};
+      const Point away = point_in_cube(random, 1);
+      const double gap = uniform(random, -1, 1) * std::pow(10, uniform(random, -9, -4)) * size;
+      const Point to = a.centre + (a.radius + b.radius + gap) / length(away) * away;
+      pair.pose.shift = to - pair.pose * b.centre;
+      pairs.push_back(pair);
+    }
+    expect_answers(bodies, pairs, 8 * size);
+  }
+  for (const int times : seen_) EXPECT_GT(times, 20);
 }
 
 // Around the balls of one body lie small balls of the other one in all directions, at nearly the same distance: balls
@@ -193,21 +221,43 @@ TEST_F(BodiesOnDevice, AnswerAsTheHostAtTheEnds) {
   }
 }
 
+// In range for the host alone, whose answers are returned.
+TEST_F(BodiesOnDevice, AnswerAsTheHostWhereFloatsEnd) {
+  std::vector<Ball> corners;
+  for (const double x : {-0.99e18, 0.99e18}) corners.push_back({{x, x, x}, 1e15});
+  const Body bodies[] = {body_of(corners)};
+  const PosedPair pairs[] = {{make_pose({5.9e18, 0, 0}, {0, 0, 0}), 0, 0}};
+  DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
+  Collision found = Collision::kUndecided;
+  DistanceBounds bounds, of_host;
+  ASSERT_TRUE(on_device.collide_by_balls(pairs, {&found, 1}).ok());
+  ASSERT_TRUE(on_device.distance_bounds(pairs, {&bounds, 1}).ok());
+  distance_bounds(bodies, pairs, {&of_host, 1});
+  EXPECT_EQ(found, Collision::kFree);
+  EXPECT_EQ(bounds.lower, of_host.lower);
+  EXPECT_EQ(bounds.upper, of_host.upper);
+}
+
+/// Some pairs of bodies whose middles are 0 or 9 apart.
+std::vector<PosedPair> near_and_far(std::size_t count, std::size_t step) {
+  const PosedPair far = {make_pose({9, 0, 0}, {0, 0, 0}), 0, 0}, near = {make_pose({0, 0, 0}, {0, 0, 0}), 0, 0};
+  std::vector<PosedPair> pairs(count, far);
+  for (std::size_t i = 0; i < count; i += step) pairs[i] = near;
+  return pairs;
+}
+
 TEST_F(BodiesOnDevice, AnyNumberOfPairs) {
   Random random(23);
   const Body bodies[] = {body_of(balls_at_random(random, 5, {0, 0, 0}, 1))};
   DeviceBodies on_device = DeviceBodies::create(*context_, bodies).value();
   EXPECT_TRUE(on_device.collide_by_balls({}, {}).ok());
-  const std::size_t count = 3 * (1u << 18) + 5;  // more than three blocks
-  const PosedPair far = {make_pose({9, 0, 0}, {0, 0, 0}), 0, 0}, near = {make_pose({0, 0, 0}, {0, 0, 0}), 0, 0};
-  std::vector<PosedPair> pairs(count, far);
-  for (std::size_t i = 0; i < count; i += 100'003) pairs[i] = near;
-  pairs.back() = near;
-  std::vector<Collision> verdicts(count, Collision::kUndecided);
-  ASSERT_TRUE(on_device.collide_by_balls(pairs, verdicts).ok());
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool is_near = i % 100'003 == 0 || i + 1 == count;
-    ASSERT_EQ(verdicts[i], is_near ? Collision::kHit : Collision::kFree) << i;
+  const std::size_t count = 2 * (1u << 18) + 5, step = 100'003;  // more than two blocks
+  for (const std::size_t some : {std::size_t{3}, count, std::size_t{2000}}) {
+    std::vector<Collision> verdicts(some, Collision::kUndecided);
+    ASSERT_TRUE(on_device.collide_by_balls(near_and_far(some, step), verdicts).ok());
+    for (std::size_t i = 0; i < some; ++i) {
+      ASSERT_EQ(verdicts[i], i % step == 0 ? Collision::kHit : Collision::kFree) << i;
+    }
   }
 }
 
@@ -220,6 +270,7 @@ TEST_F(BodiesOnDevice, RefuseWhatIsWrong) {
   const Status status = on_device.collide_by_balls(pairs, verdicts);
   EXPECT_EQ(status.error().code, ErrorCode::kUsage);
   EXPECT_NE(status.error().message.find("pair 1"), std::string::npos) << status.error().message;
+  EXPECT_EQ(on_device.collide_by_balls({pairs, 1}, verdicts).error().code, ErrorCode::kUsage);
 }
 
 }  // namespace

@@ -126,8 +126,9 @@ TEST_F(RecordedProximity, OfPosesThatAreNone) {
   const std::vector<Ball> ball = {{{0, 0, 0}, 1}};
   const std::vector<Body> bodies = {Body::create(ball, ball).value()};
   DeviceBodies on_device = DeviceBodies::create(context, bodies).value();
-  ProximityJob job = ProximityJob::create(on_device, {.poses = 9}).value();
-  const RecordedPose apart = recorded({make_pose({2.01, 0, 0}, {0, 0, 0}), 0, 0});
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 12}).value();
+  const RecordedPose apart = recorded({make_pose({2.01, 0, 0}, {0, 0, 0}), 0, 0}),
+                     close = recorded({make_pose({2.0004, 0, 0}, {0, 0, 0}), 0, 0});
   std::vector<RecordedPose> written(9, apart);
   written[1].row_x[0] = 1.0003f;  // no rotation, but close to one: the error is 6e-4 of the lengths
   written[2].row_x[0] = 1.1f;
@@ -137,8 +138,95 @@ TEST_F(RecordedProximity, OfPosesThatAreNone) {
   written[6].b = ~std::uint32_t{0};
   written[7].row_x[3] = 0;
   written[8].row_z[2] = -1;
-  const auto found = run<std::uint32_t>(job, 9, written);
-  EXPECT_EQ(found, (std::vector<std::uint32_t>{0, 0, 2, 2, 2, 2, 2, 1, 2}));
+  written.insert(written.end(), {close, close, apart});
+  written[10].row_x[0] = 1.0003f;
+  written[11].a = 0x7fffffff;
+  const auto found = run<std::uint32_t>(job, 12, written);
+  EXPECT_EQ(found, (std::vector<std::uint32_t>{0, 0, 2, 2, 2, 2, 2, 1, 2, 0, 2, 2}));
+}
+
+// A host's kernel writes over poses that were set, and need not write the words that it has no use for.
+TEST_F(RecordedProximity, ReservedWordsAreNotRead) {
+  Context context = adopt();
+  DeviceBodies on_device = DeviceBodies::create(context, bodies_).value();
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 400}).value();
+  std::vector<RecordedPose> written;
+  for (const PosedPair& pair : pairs_) written.push_back(recorded(pair));
+  const auto expected = run<std::uint32_t>(job, 400, written);
+  for (RecordedPose& pose : written) pose.reserved[0] = pose.reserved[1] = 1e-3f;
+  EXPECT_EQ(run<std::uint32_t>(job, 400, written), expected);
+}
+
+// The balls are 1e4 away from the origins of the frames, so that centres, shifts and rotations in float cost up to 0.1.
+TEST_F(RecordedProximity, FarFromTheOriginsOfTheFrames) {
+  Context context = adopt();
+  const std::vector<Ball> ball = {{{1e4, 0, 0}, 1}};
+  const std::vector<Body> bodies = {Body::create(ball, ball).value()};
+  DeviceBodies on_device = DeviceBodies::create(context, bodies).value();
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 4}).value();
+  const double apart[] = {2.0, 2.01, 2.5, 1.5};  // of the middles of the balls
+  std::vector<RecordedPose> written;
+  std::vector<PosedPair> pairs;
+  for (const double by : apart) {
+    pairs.push_back({make_pose({0, by, 0}, {0, 0, 0}), 0, 0});
+    written.push_back(recorded(pairs.back()));
+  }
+  EXPECT_EQ(run<std::uint32_t>(job, 4, written), (std::vector<std::uint32_t>{2, 2, 0, 1}));
+  ASSERT_TRUE(job.set_poses(pairs).ok());  // these are relative to the bodies
+  EXPECT_EQ(run<std::uint32_t>(job, 4), (std::vector<std::uint32_t>{2, 0, 0, 1}));
+}
+
+// Small balls at one distance from the middle of a large one, around which groups of them overlap it: no group is
+// passed over, and the search takes too many steps for lavapipe. Other devices complete it.
+TEST_F(RecordedProximity, SearchesThatAreTooLongAreUndecided) {
+  Context context = adopt();
+  std::mt19937 random(32);
+  std::normal_distribution<> normal;
+  std::vector<Ball> shell;
+  while (shell.size() < 60'000) {
+    const Point p = {normal(random), normal(random), normal(random)};
+    const double length = std::hypot(p[0], p[1], p[2]);
+    shell.push_back({{p[0] / length, p[1] / length, p[2] / length}, 0.002});
+  }
+  const std::vector<Ball> middle = {{{0, 0, 0}, 0.985}};
+  const std::vector<Body> bodies = {Body::create(shell, shell).value(), Body::create(middle, middle).value()};
+  DeviceBodies on_device = DeviceBodies::create(context, bodies).value();
+  const PosedPair pair = {Pose(), 0, 1};
+  ProximityJob verdicts = ProximityJob::create(on_device, {.poses = 1}).value(),
+               bounds = ProximityJob::create(on_device, {.poses = 1, .answers = ProximityAnswers::kBounds}).value();
+  ASSERT_TRUE(verdicts.set_poses({&pair, 1}).ok());
+  ASSERT_TRUE(bounds.set_poses({&pair, 1}).ok());
+  const bool is_too_long = context.device().driver.find("llvmpipe") != std::string::npos;
+  EXPECT_EQ(run<std::uint32_t>(verdicts, 1).front(), is_too_long ? 2u : 0u);
+  const auto found = run<RecordedBounds>(bounds, 1).front();
+  EXPECT_NEAR(found.lower, is_too_long ? 0 : 0.013, 1e-4);
+  EXPECT_GE(found.upper, 0.013 - 1e-4);
+  Collision completed = Collision::kUndecided;
+  ASSERT_TRUE(on_device.collide_by_balls({&pair, 1}, {&completed, 1}).ok());
+  EXPECT_EQ(completed, Collision::kFree);
+}
+
+// Each sequence has the poses that were set before it was recorded.
+TEST_F(RecordedProximity, TwoFramesInFlightHaveTheirOwnPoses) {
+  Context context = adopt();
+  DeviceBodies on_device = DeviceBodies::create(context, bodies_).value();
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 200, .frames = 2}).value();
+  std::vector<Collision> expected(400);
+  ASSERT_TRUE(on_device.collide_by_balls(pairs_, expected).ok());
+  const VkCommandBuffer commands = begin();
+  std::vector<HostBuffer> answers;
+  for (const std::size_t first : {0, 200}) {
+    ASSERT_TRUE(job.set_poses({pairs_.data() + first, 200}).ok());
+    ASSERT_TRUE(job.record(commands, 200).ok());
+    answers.push_back(copy_of(commands, job.buffers().answers, 200 * sizeof(std::uint32_t)));
+  }
+  end_and_submit(commands);
+  ASSERT_EQ(vkQueueWaitIdle(vulkan_->queue), VK_SUCCESS);
+  for (std::size_t i = 0; i < 400; ++i) {
+    const auto* words = static_cast<const std::uint32_t*>(answers[i / 200].mapped);
+    EXPECT_EQ(static_cast<Collision>(words[i % 200]), expected[i]) << i;
+  }
+  for (HostBuffer& buffer : answers) vulkan_->destroy(buffer);
 }
 
 TEST_F(RecordedProximity, RefusesWhatIsWrong) {

@@ -95,12 +95,13 @@ struct PosedPair {
 
 /// Bounds of the distance between the solid of `a` and that of `b`, whose frame `pose` takes to the frame of `a`. The
 /// bounds include all rounding errors: they hold if the balls inside are inside and the covers cover. They are within
-/// 3e-6 M + 1e-17 of the distances of the sets, where M is the distance of the bodies' middles plus the size of both.
-/// `start` may be the result of an earlier query of the same two bodies: the search then begins with its pairs, and is
-/// faster if the pose has changed little. A start may change the bounds within that accuracy, and which of nearly equal
-/// pairs is named; indices that the bodies do not have are ignored. Allocates nothing. Precondition: the rows of the
-/// rotation are perpendicular unit vectors to within 1e-12. Where a coordinate of the shift is beyond 1e18, or no
-/// number, the bounds may be 0 and infinity.
+/// 3e-6 M + 4e-15 L + 1e-17 of the distances of the sets, where M is the distance of the bodies' middles plus the size
+/// of both, and L the length of the shift plus the distances of both middles from the origins of their frames. `start`
+/// may be the result of an earlier query of the same two bodies: the search then begins with its pairs, and is faster
+/// if the pose has changed little. A start may change the bounds within that accuracy, and which of nearly equal pairs
+/// is named; indices that the bodies do not have are ignored. Allocates nothing. Precondition: the rows of the rotation
+/// are perpendicular unit vectors to within 1e-12. Where a coordinate of the shift is beyond 1e18, or no number, the
+/// bounds may be 0 and infinity.
 DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, const DistanceBounds& start = {});
 
 /// The same for every pose; most searches start from the result before them. Precondition: `bounds` has the size of

@@ -28,7 +28,7 @@ struct RecordedPose {
   float row_z[4];
   std::uint32_t a;  ///< Indices of the bodies that were passed to DeviceBodies::create().
   std::uint32_t b;
-  float reserved[2];  ///< Both 0.
+  float reserved[2];  ///< Not read.
 };
 
 /// An element of ProximityBuffers::answers for ProximityAnswers::kBounds, 24 bytes: DistanceBounds in float.
@@ -52,22 +52,25 @@ struct ProximityJobOptions {
 };
 
 /// Buffers of the job, on its device and for its queue family; they stay the same until the job is destroyed. Both have
-/// the usages of the buffers of an ExtractionJob.
+/// the usages storage, vertex, indirect, transfer source and transfer destination. At first they contain anything.
 struct ProximityBuffers {
   VkBuffer poses = VK_NULL_HANDLE;    ///< RecordedPose, from byte 0 on; a host may write them.
   VkBuffer answers = VK_NULL_HANDLE;  ///< In the order of the poses.
 };
 
-/// The answers have the accuracy of DeviceBodies for poses of set_poses(). For a RecordedPose the proof is about the
-/// rigid motion whose rotation is nearest to its rows; the shift and the distances of the bodies from the origins of
-/// their frames then count in M, too. A search that is too long for the device's loops gives the verdict undecided, or
-/// the lower bound 0 with the upper bound so far.
+/// Answers for poses of set_poses() have the accuracy of DeviceBodies; a pose out of the range of float is undecided.
+/// For a RecordedPose the proof is about the rigid motion whose rotation is nearest to its rows. Let L be the length of
+/// the shift plus the distances of both bodies from the origins of their frames. For rows of a rotation that were
+/// rounded to float, bounds are then within 1.3e-5 (M + L) + 1e-17 of the distances of the sets, and overlaps and gaps
+/// beyond that are decided. A search that is too long for the device's loops gives the verdict undecided, or the lower
+/// bound 0 with the upper bound so far.
 ///
-/// Move-only. For one thread at a time, like the context of its bodies. Both must outlive it.
+/// Move-only. For one thread at a time, like the context of its bodies. The context is one that shares the host's
+/// device (host_device.h). It and the bodies must outlive the job.
 class ProximityJob {
  public:
-  /// Allocates memory and compiles the program, so that recording does neither. Errors: kUsage (no poses, no frames),
-  /// kOutOfMemory, kInternal.
+  /// Allocates memory of the device and compiles the program, so that recording does neither. Errors: kUsage (no poses,
+  /// no frames), kOutOfMemory, kInternal.
   static Result<ProximityJob> create(DeviceBodies& bodies, const ProximityJobOptions& options = {});
   ProximityJob(ProximityJob&&) noexcept;
   ProximityJob& operator=(ProximityJob&&) noexcept;
@@ -80,10 +83,10 @@ class ProximityJob {
 
   /// Appends the answers for the first `count` poses of the buffer to `commands`. Precondition: `commands` are in the
   /// recording state, outside of a render pass, and belong to the context's queue family or to one that shares its
-  /// resources. Barriers before and after order it against everything else in the queue. A RecordedPose with an index
-  /// that is too large, or whose rows are no rotation to within 1e-3, is answered with undecided, or with 0 and
-  /// infinity. Errors: kUsage (more than `poses` of the options), kOutOfMemory, kInternal; `commands` are then
-  /// unusable.
+  /// resources. Barriers before and after order it against everything else in the queue. A RecordedPose is answered
+  /// with undecided, or with 0 and infinity, if an index is too large (below 2^31), if it is out of the range of float,
+  /// or if R R^T - I has a Frobenius norm of 1e-3 or more, where R are its rows. Errors: kUsage (more than `poses` of
+  /// the options); kOutOfMemory, kInternal: `commands` are then unusable.
   Status record(VkCommandBuffer commands, std::uint32_t count);
 
   ProximityBuffers buffers() const;

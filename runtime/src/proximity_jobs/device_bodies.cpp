@@ -18,8 +18,8 @@ namespace {
 constexpr std::uint32_t kWorkgroupSize = 64;
 /// Steps of a search, of which there are two for a pose. lavapipe silently ends all loops of an invocation after 65,535
 /// iterations, and counts an iteration if any of its neighbours makes it: a step is one, and has nine at most, for the
-/// balls of a node and the end of their loop. On a GPU a search ends within a second.
-constexpr std::uint32_t kStepsOnProcessors = 3'200, kStepsOnGpus = 1'000'000;
+/// balls of a node and the end of their loop. On a GPU a search so long takes a fraction of a second.
+constexpr std::uint32_t kStepsOnProcessors = 3'200, kStepsOnGpus = 100'000;
 
 constexpr std::size_t kAnswersAtATime = 4096;  // that one thread takes
 
@@ -67,7 +67,9 @@ Status DeviceBodies::Impl::check(std::span<const PosedPair> pairs) const {
 }
 
 PoseBatches& DeviceBodies::Impl::pose_batches() {
-  if (batches == nullptr) batches = std::make_unique<PoseBatches>(*this);
+  if (batches == nullptr) {
+    batches = std::make_unique<PoseBatches>(*this, PoseBatches::kMostPoses, context.description.type == "cpu");
+  }
   return *batches;
 }
 
@@ -87,7 +89,7 @@ DeviceBodies::~DeviceBodies() = default;
 
 Status DeviceBodies::collide_by_balls(std::span<const PosedPair> pairs, std::span<Collision> verdicts,
                                       const BatchOptions& options) {
-  if (Status status = impl_->check(pairs); !status.ok()) return status;
+  if (verdicts.size() != pairs.size()) return Error{ErrorCode::kUsage, "`verdicts` do not have the number of `pairs`"};
   const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
     const std::span words(static_cast<const std::uint32_t*>(answers), count);
     parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
@@ -98,14 +100,15 @@ Status DeviceBodies::collide_by_balls(std::span<const PosedPair> pairs, std::spa
       }
     });
   };
-  return catch_out_of_memory("testing collisions", [&] {
+  return catch_out_of_memory("testing collisions", [&]() -> Status {
+    if (Status status = impl_->check(pairs); !status.ok()) return status;
     return impl_->pose_batches().run(pairs, {.are_verdicts = true, .leave_rest = true}, options.threads, read);
   });
 }
 
 Status DeviceBodies::distance_bounds(std::span<const PosedPair> pairs, std::span<DistanceBounds> bounds,
                                      const BatchOptions& options) {
-  if (Status status = impl_->check(pairs); !status.ok()) return status;
+  if (bounds.size() != pairs.size()) return Error{ErrorCode::kUsage, "`bounds` do not have the number of `pairs`"};
   const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
     const std::span items(static_cast<const gpu::ProximityBounds*>(answers), count);
     parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
@@ -119,7 +122,8 @@ Status DeviceBodies::distance_bounds(std::span<const PosedPair> pairs, std::span
       }
     });
   };
-  return catch_out_of_memory("bounding distances", [&] {
+  return catch_out_of_memory("bounding distances", [&]() -> Status {
+    if (Status status = impl_->check(pairs); !status.ok()) return status;
     return impl_->pose_batches().run(pairs, {.are_verdicts = false, .leave_rest = true}, options.threads, read);
   });
 }

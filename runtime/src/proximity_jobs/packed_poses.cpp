@@ -33,7 +33,7 @@ gpu::ProximityPose packed_pose(std::span<const Body> bodies, const PosedPair& pa
   packed.row_x = {rows[0][0], rows[0][1], rows[0][2], shift[0]};
   packed.row_y = {rows[1][0], rows[1][1], rows[1][2], shift[1]};
   packed.row_z = {rows[2][0], rows[2][1], rows[2][2], shift[2]};
-  packed.a = pair.a;
+  packed.a = pair.a | gpu::kProximityCentred;
   packed.b = pair.b;
   packed.inside_error = rounded_up(error_on_device(a.inside_tree, b.inside_tree, placement));
   packed.cover_error = rounded_up(error_on_device(a.cover_tree, b.cover_tree, placement));

@@ -1,6 +1,8 @@
 #include "proximity_jobs/pose_batches.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "proximity_jobs/packed_poses.h"
 
@@ -16,27 +18,26 @@ Status create(Arena& arena, Buffer& buffer, VkDeviceSize bytes, MemoryKind kind)
 
 }  // namespace
 
-PoseBatches::PoseBatches(DeviceBodiesImpl& bodies)
-    : bodies_(bodies), shares_memory_(bodies.context.description.type == "cpu") {}
-
 Status PoseBatches::create_buffers(Batch& batch) const {
-  constexpr VkDeviceSize kPoseBytes = VkDeviceSize{kMostPoses} * sizeof(gpu::ProximityPose),
-                         kAnswerBytes = VkDeviceSize{kMostPoses} * sizeof(gpu::ProximityBounds);
-  if (Status s = create(batch.arena, batch.poses, kPoseBytes, MemoryKind::kDevice); !s.ok()) return s;
-  if (Status s = create(batch.arena, batch.answers, kAnswerBytes, MemoryKind::kDevice); !s.ok()) return s;
+  const VkDeviceSize poses = batch.capacity * sizeof(gpu::ProximityPose),
+                     answers = batch.capacity * sizeof(gpu::ProximityBounds);
+  batch.arena.expect(poses + answers);
+  if (Status s = create(batch.arena, batch.poses, poses, MemoryKind::kDevice); !s.ok()) return s;
+  if (Status s = create(batch.arena, batch.answers, answers, MemoryKind::kDevice); !s.ok()) return s;
   if (shares_memory_ && batch.poses.mapped && batch.answers.mapped) return {};
-  if (Status s = create(batch.arena, batch.upload, kPoseBytes, MemoryKind::kUpload); !s.ok()) return s;
-  return create(batch.arena, batch.download, kAnswerBytes, MemoryKind::kReadback);
+  batch.arena.expect(poses + answers);
+  if (Status s = create(batch.arena, batch.upload, poses, MemoryKind::kUpload); !s.ok()) return s;
+  return create(batch.arena, batch.download, answers, MemoryKind::kReadback);
 }
 
-Result<PoseBatches::Batch*> PoseBatches::batch(std::size_t number) {
-  std::unique_ptr<Batch>& batch = batches_[shares_memory_ ? 0 : number % batches_.size()];
-  if (batch == nullptr) {
-    auto made = std::make_unique<Batch>(bodies_.context);
-    if (Status created = create_buffers(*made); !created.ok()) return created.error();
-    batch = std::move(made);
-  }
-  return batch.get();
+/// Buffers grow by factors of two, so that a few poses take little memory.
+Status PoseBatches::make_room(std::unique_ptr<Batch>& batch, std::size_t count) const {
+  if (batch != nullptr && batch->capacity >= count) return {};
+  auto made = std::make_unique<Batch>(bodies_.context);
+  made->capacity = std::min(most_poses_, static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(count, 1024))));
+  if (Status created = create_buffers(*made); !created.ok()) return created;
+  batch = std::move(made);
+  return {};
 }
 
 Status PoseBatches::run(std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads,
@@ -54,14 +55,15 @@ Status PoseBatches::run(std::span<const PosedPair> pairs, const AnswersOfKernel&
 Status PoseBatches::run_all(std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads,
                             const Read& read) {
   std::size_t number = 0;
-  for (std::size_t first = 0; first < pairs.size(); first += kMostPoses, ++number) {
-    const Result<Batch*> found = batch(number);
-    if (!found.ok()) return found.error();
-    Batch& here = *found.value();
-    if (Status answered = complete(here, read); !answered.ok()) return answered;
-    here.first = first;
-    const std::size_t count = std::min<std::size_t>(kMostPoses, pairs.size() - first);
-    if (Status sent = submit(here, pairs.subspan(first, count), kind, threads); !sent.ok()) return sent;
+  for (std::size_t first = 0; first < pairs.size(); first += most_poses_, ++number) {
+    const std::size_t count = std::min<std::size_t>(most_poses_, pairs.size() - first);
+    std::unique_ptr<Batch>& here = batch(number);
+    if (here != nullptr) {
+      if (Status answered = complete(*here, read); !answered.ok()) return answered;
+    }
+    if (Status made = make_room(here, count); !made.ok()) return made;
+    here->first = first;
+    if (Status sent = submit(*here, pairs.subspan(first, count), kind, threads); !sent.ok()) return sent;
   }
   for (std::size_t last = number; last < number + batches_.size(); ++last) {
     const std::unique_ptr<Batch>& batch = batches_[last % batches_.size()];

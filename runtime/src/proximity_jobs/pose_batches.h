@@ -20,10 +20,13 @@ class PoseBatches {
  public:
   static constexpr std::uint32_t kMostPoses = 1u << 18;
 
-  explicit PoseBatches(DeviceBodiesImpl& bodies);
+  /// Of at most `most_poses` each. `shares_memory`: host and device have the same memory, at the same speed, and
+  /// nothing is copied where memory can be mapped.
+  PoseBatches(DeviceBodiesImpl& bodies, std::uint32_t most_poses, bool shares_memory)
+      : bodies_(bodies), most_poses_(most_poses), shares_memory_(shares_memory) {}
 
-  /// Calls read(first, answers) for each batch, in order. Blocks until all are answered; after an error nothing is
-  /// pending either. Errors: kOutOfMemory, kInternal (device lost).
+  /// Calls read(first, count, answers) for each batch, in order. Blocks until all are answered; after an error nothing
+  /// is pending either. Errors: kOutOfMemory, kInternal (device lost).
   using Read = std::function<void(std::size_t first, std::size_t count, const void* answers)>;
   Status run(std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads, const Read& read);
 
@@ -34,15 +37,18 @@ class PoseBatches {
     Buffer poses, answers;    // of the device
     Buffer upload, download;  // none where the host uses the others
     Commands commands;
+    std::uint32_t capacity = 0;        // poses
     std::size_t first = 0, count = 0;  // of the pending batch; 0: none is
   };
-  Result<Batch*> batch(std::size_t number);
+  std::unique_ptr<Batch>& batch(std::size_t number) { return batches_[shares_memory_ ? 0 : number % batches_.size()]; }
+  Status make_room(std::unique_ptr<Batch>& batch, std::size_t count) const;
   Status create_buffers(Batch& batch) const;
   Status run_all(std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads, const Read& read);
   Status submit(Batch& batch, std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads) const;
   static Status complete(Batch& batch, const Read& read);
 
   DeviceBodiesImpl& bodies_;
+  std::uint32_t most_poses_;
   bool shares_memory_;
   std::array<std::unique_ptr<Batch>, 2> batches_;
 };

@@ -54,6 +54,7 @@ Status ProximityJob::Impl::make_buffers() {
     return {};
   };
   constexpr VkDeviceSize kPose = sizeof(gpu::ProximityPose);
+  arena.expect(options.poses * (kPose + kind().bytes()));
   if (Status status = make(kPose, MemoryKind::kDevice, poses); !status.ok()) return status;
   if (Status status = make(kind().bytes(), MemoryKind::kDevice, answers); !status.ok()) return status;
   frames.resize(options.frames);
@@ -93,12 +94,14 @@ ProximityJob::~ProximityJob() = default;
 
 Status ProximityJob::set_poses(std::span<const PosedPair> pairs, const BatchOptions& options) {
   if (pairs.size() > impl_->options.poses) return Error{ErrorCode::kUsage, "there are more `pairs` than `poses`"};
-  if (Status status = impl_->bodies.check(pairs); !status.ok()) return status;
-  Impl::Frame& frame = impl_->frames[impl_->next];
-  const std::span packed(static_cast<gpu::ProximityPose*>(frame.staged.mapped), pairs.size());
-  pack_poses(impl_->bodies.bodies, pairs, packed, options.threads);
-  frame.count = static_cast<std::uint32_t>(pairs.size());
-  return {};
+  return catch_out_of_memory("setting poses", [&]() -> Status {
+    if (Status status = impl_->bodies.check(pairs); !status.ok()) return status;
+    Impl::Frame& frame = impl_->frames[impl_->next];
+    const std::span packed(static_cast<gpu::ProximityPose*>(frame.staged.mapped), pairs.size());
+    pack_poses(impl_->bodies.bodies, pairs, packed, options.threads);
+    frame.count = static_cast<std::uint32_t>(pairs.size());
+    return {};
+  });
 }
 
 Status ProximityJob::record(VkCommandBuffer commands, std::uint32_t count) {

@@ -32,12 +32,14 @@ struct ProximityBody {
   vec4 centre;  // the origin of the trees, to the nearest float
 };
 
-// Layout of RecordedPose.
+// Layout of RecordedPose. A pose from the host has the bit kProximityCentred in `a`: it is between the origins of the
+// trees, and has the errors of separations. All others are between the frames of the bodies.
 struct ProximityPose {
   vec4 row_x, row_y, row_z;  // of the rotation; w: of the shift
   uint a, b;
-  float inside_error, cover_error;  // 0: the pose is between the frames of the bodies, else between those of the trees
+  float inside_error, cover_error;
 };
+MEDIAL_VK_GPU_CONSTANT kProximityCentred = 0x80000000u;
 
 // Layout of RecordedBounds.
 struct ProximityBounds {
