@@ -105,7 +105,8 @@ void find_chains(std::span<Piece> pieces, std::vector<std::pair<double, Piece*>>
     if (piece.is_pillar()) pillars.emplace_back(piece.sum_of_lowers(), &piece);
   }
   std::ranges::sort(pillars, {}, [](const auto& pillar) { return pillar.first; });
-  for (const auto& [height, pillar] : pillars) {
+  for (const auto& entry : pillars) {
+    Piece* const pillar = entry.second;
     const auto chain = std::ranges::find_if(chains, [&](const Chain& c) { return overlap(*c.last, *pillar); });
     if (chain == chains.end()) {
       chains.push_back({pillar, pillar});
