@@ -64,8 +64,8 @@ std::string clearance_summary(const ClearanceOptions& options, std::span<const C
     text += labelled("limits", fmt::format("beyond them in {}", counted(beyond, "configuration", "configurations")));
   }
   const auto time = std::ranges::find(times, "distances", &StageTime::stage);
-  const double each = 1e6 * time->seconds / static_cast<double>(clearances.size());
-  text += labelled("each", fmt::format("{:.3g} microseconds a configuration", each));
+  const double each = time->seconds / static_cast<double>(clearances.size());
+  text += labelled("each", microseconds(each) + " microseconds a configuration");
   text += labelled("time", times_text(times, options.verbose));
   for (const OutputFile& file : files) {
     if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));

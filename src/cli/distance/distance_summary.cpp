@@ -45,8 +45,8 @@ std::string summary_of(const DistanceCommandOptions& options, std::span<const In
                        const std::vector<StageTime>& times, std::span<const OutputFile> files) {
   std::string text = distances.size() == 1 ? one_pose(distances.front()) : many_poses(distances);
   const auto time = std::ranges::find(times, "distances", &StageTime::stage);
-  const double each = 1e6 * time->seconds / static_cast<double>(distances.size());
-  if (distances.size() > 1) text += labelled("each", fmt::format("{:.3g} microseconds a pose", each));
+  const double each = time->seconds / static_cast<double>(distances.size());
+  if (distances.size() > 1) text += labelled("each", microseconds(each) + " microseconds a pose");
   text += labelled("time", times_text(times, options.verbose));
   for (const OutputFile& file : files) {
     if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));

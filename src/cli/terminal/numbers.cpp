@@ -33,6 +33,11 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+std::string microseconds(double seconds) {
+  const double number = 1e6 * seconds;
+  return number < 999.5 ? fmt::format("{:.3g}", number) : grouped(static_cast<std::uint64_t>(std::llround(number)));
+}
+
 std::string byte_size(std::uint64_t bytes) {
   static constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
   return scaled(static_cast<double>(bytes), 1000, kUnits, 5);

@@ -374,6 +374,9 @@ TEST(OptionsText, NumbersForPeople) {
   EXPECT_EQ(duration(59.7), "1 min 00 s");
   EXPECT_EQ(duration(185), "3 min 05 s");
   EXPECT_EQ(duration(7800), "2 h 10 min");
+  EXPECT_EQ(microseconds(1.234e-7), "0.123");
+  EXPECT_EQ(microseconds(0.0009996), "1,000");
+  EXPECT_EQ(microseconds(0.0123456), "12,346");
   EXPECT_EQ(byte_size(812), "812 B");
   EXPECT_EQ(byte_size(1234567), "1.2 MB");
   EXPECT_EQ(memory_size(512ull << 20), "512 MiB");
