@@ -19,7 +19,8 @@ void require_usable(const cli::ClearanceOptions& options) {
   require(options.threads <= 1024, "--threads keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   const GroupOptions of_library = cli::group_options(options);
-  require(of_library.exact && of_library.tolerance == options.tolerance, "the library is asked the same");
+  require(of_library.exact == (options.balls == 0), "triangles decide, unless balls are to");
+  require(of_library.tolerance == options.tolerance, "the library has the same tolerance");
   require(options.limit > 0 ? of_library.limit == options.limit : std::isinf(of_library.limit),
           "there is no limit, or that one");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {
