@@ -89,7 +89,8 @@ DeviceBodies::~DeviceBodies() = default;
 
 Status DeviceBodies::collide_by_balls(std::span<const PosedPair> pairs, std::span<Collision> verdicts,
                                       const BatchOptions& options) {
-  if (verdicts.size() != pairs.size()) return Error{ErrorCode::kUsage, "`verdicts` do not have the number of `pairs`"};
+  if (verdicts.size() != pairs.size())
+    return Error{ErrorCode::kUsage, "there is another number of answers than of `pairs`"};
   const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
     const std::span words(static_cast<const std::uint32_t*>(answers), count);
     parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
@@ -108,7 +109,8 @@ Status DeviceBodies::collide_by_balls(std::span<const PosedPair> pairs, std::spa
 
 Status DeviceBodies::distance_bounds(std::span<const PosedPair> pairs, std::span<DistanceBounds> bounds,
                                      const BatchOptions& options) {
-  if (bounds.size() != pairs.size()) return Error{ErrorCode::kUsage, "`bounds` do not have the number of `pairs`"};
+  if (bounds.size() != pairs.size())
+    return Error{ErrorCode::kUsage, "there is another number of answers than of `pairs`"};
   const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
     const std::span items(static_cast<const gpu::ProximityBounds*>(answers), count);
     parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
