@@ -20,10 +20,10 @@ struct FittedLinks {
   std::size_t inside = 0, cover = 0;
 };
 
-/// Fits up to `options.balls` balls inside the solids of each link, and as many that cover them, with proof; the files
+/// Fits up to `of_run.balls` balls inside the solids of each link, and as many that cover them, with proof; the files
 /// of the scene are further links. A mesh that is not closed encloses nothing and has a cover alone. Without a context,
 /// the CPU reference finds the medial points. Errors: those of fit_parts().
-Result<FittedLinks> fit_links(const RobotAndScene& all, const ClearanceOptions& options,
-                              std::optional<Context>& context, Progress& progress, const std::stop_source& stop);
+Result<FittedLinks> fit_links(const RobotAndScene& all, const ClearanceOptions& of_run, std::optional<Context>& context,
+                              Progress& progress, const std::stop_source& stop);
 
 }  // namespace medial_vk::cli
