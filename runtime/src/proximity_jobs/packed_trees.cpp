@@ -18,17 +18,10 @@ gpu::ProximityNode packed_node(const BodyNode& node, std::uint32_t first) {
   return packed;
 }
 
-std::uint32_t levels_of(const NodeTree& tree) {
-  if (tree.is_empty()) return 0;
-  std::uint32_t levels = 1;
-  for (std::uint32_t node = 0; !tree.node(node).is_lowest; node = tree.node(node).below[0]) ++levels;
-  return levels;
-}
-
 gpu::ProximityTree add_tree(const NodeTree& tree, std::vector<gpu::ProximityNode>& nodes) {
   const auto first = static_cast<std::uint32_t>(nodes.size());
   for (std::uint32_t i = 0; i < tree.size(); ++i) nodes.push_back(packed_node(tree.node(i), first));
-  return {first, levels_of(tree), rounded_up(tree.reach()), 0};
+  return {first, static_cast<std::uint32_t>(tree.levels()), rounded_up(tree.reach()), 0};
 }
 
 }  // namespace
