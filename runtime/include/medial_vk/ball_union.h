@@ -33,6 +33,9 @@ struct BallUnion {
   /// Per ball: of the ball in its power cell, vol(b | P(b)) of equation 6.1; sums to volume.
   std::vector<double> volumes;
   std::vector<double> areas;  ///< Per ball: of the part of its sphere on the envelope; sums to area.
+  /// Per ball: the integral of the outward unit normals over that part, by area, as Exposure::vector: if the centre
+  /// moves by d, the volume grows by vector . d to first order.
+  std::vector<Point> vectors;
   DualComplex complex;
   std::vector<EnvelopeVertex> vertices;  ///< In the order of their balls; up to two for the same three.
 };

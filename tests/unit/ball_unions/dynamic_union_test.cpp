@@ -95,10 +95,12 @@ TEST(DynamicUnion, ExposureIsTheDerivativeOfTheVolume) {
   const std::vector<Ball> some = {
       {{0, 0, 0}, 0.5}, {{0.4, 0.1, 0}, 0.4}, {{0.1, 0.5, 0.2}, 0.45}, {{0.2, 0.2, 0.5}, 0.3}};
   for (const Ball& ball : some) ASSERT_TRUE(balls.add(ball).ok());
+  const BallUnion measured = measure_ball_union(some).value();
   const double h = 1e-5;  // second derivative of order 1: central differences err by 1e-10, rounding by 1e-11
   for (std::uint32_t i = 0; i < 4; ++i) {
     const Exposure exposure = balls.exposure(i);
     const Ball ball = balls.ball(i);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(measured.vectors[i][k], exposure.vector[k], 1e-13);
     const auto volume_with = [&](const Ball& other) {
       EXPECT_TRUE(balls.move(i, other).ok());
       const double volume = balls.volume();

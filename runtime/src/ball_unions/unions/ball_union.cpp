@@ -50,6 +50,7 @@ class Measuring {
   BallUnion run() {
     result_.volumes.resize(balls_.size());
     result_.areas.resize(balls_.size());
+    result_.vectors.resize(balls_.size(), Point{0, 0, 0});
     if (options_.complex) chunks_.resize((balls_.size() + block_ - 1) / block_);
     parallel_blocks(balls_.size(), block_, threads_, [&](std::size_t begin, std::size_t end) { measure(begin, end); });
     result_.volume = careful_sum(result_.volumes);
@@ -88,6 +89,7 @@ class Measuring {
       const BallInCell part = measure_ball_in_cell(cell, ball.radius);
       result_.volumes[i] = part.volume;
       result_.areas[i] = part.area;
+      result_.vectors[i] = part.area_vector;
       if (options_.complex) {
         Chunk& chunk = chunks_[begin / block_];
         collector.collect(cell, ball, chunk.complex, chunk.vertices);
@@ -110,6 +112,7 @@ void scale_back(BallUnion& result, double unit) {
   const double square = unit * unit, cube = square * unit;
   for (double& volume : result.volumes) volume *= cube;
   for (double& area : result.areas) area *= square;
+  for (Point& vector : result.vectors) vector = square * vector;
   for (EnvelopeVertex& vertex : result.vertices) vertex.at = unit * vertex.at;
   result.volume *= cube;
   result.area *= square;
