@@ -16,6 +16,7 @@
 #include "medial_vk/extraction.h"
 #include "medial_vk/fatness.h"
 #include "medial_vk/foam.h"
+#include "medial_vk/follower.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/measurements.h"
 #include "medial_vk/medial_mesh.h"

@@ -1,15 +1,13 @@
 #include "solid/solid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/point_ops.h"
 #include "bvh/refined_tree.h"
-#include "bvh/signed_crossings.h"
+#include "solid/number_by_rays.h"
 
 namespace medial_vk {
 namespace {
@@ -20,30 +18,6 @@ constexpr double kDoubt = 0.05;
 // Above the rounding of a sum of a million angles, each with an error of some 2^-50. The angle of a triangle has a
 // greater error next to one of its edges: at a distance of s times its size, some 2^-50 / s.
 constexpr double kSharp = 1e-6;
-
-// A ray that passes an edge passes none in most other directions.
-constexpr std::array<std::array<double, 2>, 4> kAcross = {
-    {{0.1373, 0.2917}, {-0.2339, 0.1713}, {0.3191, -0.1131}, {-0.0729, -0.3571}}};
-
-/// Mostly along the axis along which the box ends soonest.
-Point direction_out(const BvhBox& box, const Point& p, const std::array<double, 2>& across) {
-  std::size_t axis = 0;
-  double nearest = std::numeric_limits<double>::infinity(), along = 1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const bool up : {false, true}) {
-      const double left = up ? box.upper[k] - p[k] : p[k] - box.lower[k];
-      if (left >= nearest) continue;
-      nearest = left;
-      axis = k;
-      along = up ? 1 : -1;
-    }
-  }
-  Point direction;
-  direction[axis] = along;
-  direction[(axis + 1) % 3] = across[0];
-  direction[(axis + 2) % 3] = across[1];
-  return direction;
-}
 
 }  // namespace
 
@@ -86,14 +60,7 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
 double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
 
 std::optional<std::int64_t> Solid::whole_number(const Point& p) const {
-  for (const auto& across : kAcross) {
-    const Point direction = direction_out(bvh_.nodes().front().box, p, across);
-    const std::optional<std::int64_t> crossings = signed_crossings(bvh_, p, direction);
-    if (!crossings) continue;
-    if (!closing_) return crossings;
-    if (const auto closing = signed_crossings(closing_->bvh(), p, direction)) return *crossings + *closing;
-  }
-  return std::nullopt;
+  return closing_ ? number_by_rays({&bvh_, &closing_->bvh()}, p) : number_by_rays({&bvh_}, p);
 }
 
 double Solid::rough_number(const Point& p, const std::optional<std::int64_t>& whole) const {

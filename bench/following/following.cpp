@@ -1,0 +1,129 @@
+// Balls that follow a mesh through five motions of 20 frames: rows of a table.
+//   bench_following [--frames N] [--repeats N] [--fresh] MESH BALLS.csv
+// For each motion and rule: the share of the solid's volume that is in no ball at its end, and after the way back; the
+// time of a frame, the median of all frames and repeats; with --fresh beside a new fit of as many balls to the last
+// frame.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "../helpers.h"
+#include "../unions/ball_files.h"
+#include "input/read_mesh.h"
+#include "medial_vk/context.h"
+#include "medial_vk/follower.h"
+#include "medial_vk/prepare.h"
+#include "medial_vk/sphere_fits.h"
+#include "support/solids/motions.h"
+
+namespace {
+
+using namespace medial_vk;
+using namespace medial_vk::bench;
+using namespace medial_vk::test;
+
+using Frames = std::vector<std::vector<Point>>;
+
+struct Rule {
+  const char* name;
+  FollowRule rule;
+  std::uint32_t steps;
+};
+constexpr std::array kRules = {Rule{"published", FollowRule::kPublished, 0}, Rule{"tangent", FollowRule::kTangent, 0},
+                               Rule{"tangent, 1 step", FollowRule::kTangent, 1},
+                               Rule{"tangent, 2 steps", FollowRule::kTangent, 2}};
+
+Frames frames_of(std::span<const Point> rest, Motion motion, int count) {
+  Frames frames;
+  for (int i = 1; i <= count; ++i) frames.push_back(moved_vertices(rest, motion, static_cast<double>(i) / count));
+  return frames;
+}
+
+/// Percent of the solid's volume.
+struct Uncovered {
+  double share, outside_bound;
+};
+Uncovered uncovered(const Follower& follower) {
+  const FollowMeasures measures = or_exit(follower.measure());
+  return {100 * measures.uncovered() / measures.solid_volume, 100 * measures.outside_bound / measures.solid_volume};
+}
+
+void exit_unless(const Status& status) {
+  if (status.ok()) return;
+  std::fprintf(stderr, "%s\n", status.error().message.c_str());
+  std::exit(1);
+}
+
+double timed_update(Follower& follower, const std::vector<Point>& frame) {
+  const auto begin = std::chrono::steady_clock::now();
+  exit_unless(follower.update(frame));
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh, std::span<const Ball> balls,
+            const Frames& frames, int repeats, const std::string& fresh, unsigned threads) {
+  FollowerOptions options;
+  options.rule = rule.rule;
+  options.steps = rule.steps;
+  options.threads = threads;
+  Follower follower = or_exit(Follower::create(mesh, balls, options));
+  const Uncovered rest = uncovered(follower);
+  std::vector<double> times;
+  Uncovered end{}, back{};
+  std::size_t medial = 0;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    exit_unless(follower.reset());
+    for (const auto& frame : frames) times.push_back(timed_update(follower, frame));
+    end = uncovered(follower);
+    medial = static_cast<std::size_t>(std::ranges::count(follower.states(), FollowState::kMedial));
+    for (std::size_t i = frames.size() - 1; i-- > 0;) times.push_back(timed_update(follower, frames[i]));
+    times.push_back(timed_update(follower, {mesh.view().vertices.begin(), mesh.view().vertices.end()}));
+    back = uncovered(follower);
+  }
+  fmt::print("| {} | {} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} |\n", title, rule.name, rest.share,
+             end.share, fresh, back.share / rest.share, end.outside_bound,
+             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times));
+  std::fflush(stdout);
+}
+
+/// Percent of the volume that a new fit to the frame leaves uncovered.
+std::string fresh_fit(const IndexedMesh& mesh, const std::vector<Point>& frame, std::size_t count, Context& context) {
+  Mesh moved;
+  moved.vertices = frame;
+  moved.triangles.assign(mesh.view().triangles.begin(), mesh.view().triangles.end());
+  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(std::move(moved)))));
+  SphereFitOptions options;
+  options.count = count;
+  const SphereFit fit = or_exit(fit_spheres(indexed, options, context));
+  return fmt::format("{:.2f}", 100 * fit.measures.volume.uncovered / fit.measures.volume.solid);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Balls that follow a mesh"};
+  std::string mesh_file, ball_file;
+  int frames = 20, repeats = 1;
+  bool fresh = false;
+  unsigned threads = 0;
+  app.add_option("--frames", frames)->check(CLI::PositiveNumber);
+  app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
+  app.add_option("--threads", threads);
+  app.add_flag("--fresh", fresh);
+  app.add_option("MESH", mesh_file)->required();
+  app.add_option("BALLS", ball_file)->required();
+  CLI11_PARSE(app, argc, argv);
+  const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(or_exit(read_mesh(mesh_file))))));
+  const std::vector<Ball> balls = read_balls(ball_file);
+  std::optional<Context> context;
+  if (fresh) context.emplace(or_exit(Context::create()));
+  for (const Motion motion : kMotions) {
+    const Frames moved = frames_of(mesh.view().vertices, motion, frames);
+    const std::string again = context ? fresh_fit(mesh, moved.back(), balls.size(), *context) : "";
+    for (const Rule& rule : kRules) follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);
+  }
+}

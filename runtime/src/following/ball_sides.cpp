@@ -1,0 +1,70 @@
+#include "following/ball_sides.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+/// True only if the open balls share a point: six roundings of sums of at most the lengths compared, and a margin.
+bool overlap(const Ball& a, const Ball& b) {
+  const double reach = a.radius + b.radius;
+  if (!(a.radius > 0 && b.radius > 0)) return false;
+  const Point between = a.centre - b.centre;
+  return length(between) < reach * (1 - 0x1p-40);
+}
+
+}  // namespace
+
+Result<BallSides> BallSides::build(std::span<const Ball> rest, unsigned threads) {
+  BallSides sides;
+  sides.parents_.resize(rest.size());
+  sides.largest_.resize(rest.size());
+  sides.sides_.resize(rest.size());
+  Result<BallUnion> ball_union = measure_ball_union(rest, BallUnionOptions{threads, true});
+  if (!ball_union) return ball_union.error();
+  sides.edges_ = std::move(ball_union.value().complex.edges);
+  return sides;
+}
+
+std::uint32_t BallSides::root(std::uint32_t ball) {
+  while (parents_[ball] != ball) ball = parents_[ball] = parents_[parents_[ball]];
+  return ball;
+}
+
+void BallSides::connect(std::span<const Ball> balls) {
+  std::iota(parents_.begin(), parents_.end(), 0u);
+  for (const auto& [a, b] : edges_) {
+    if (overlap(balls[a], balls[b])) parents_[root(a)] = root(b);
+  }
+  largest_ = parents_;
+  for (std::uint32_t i = 0; i < balls.size(); ++i) {
+    std::uint32_t& largest = largest_[root(i)];
+    if (balls[i].radius > balls[largest].radius) largest = i;
+  }
+}
+
+void BallSides::find(const MovingSurface& surface, std::span<const Ball> balls, std::span<std::uint8_t> is_inside) {
+  queries_ = 0;
+  if (!surface.is_closed()) {
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      is_inside[i] = balls[i].radius > 0 && surface.holds(balls[i]) ? 1 : 0;
+    }
+    queries_ = balls.size();
+    return;
+  }
+  connect(balls);
+  for (std::uint32_t i = 0; i < balls.size(); ++i) {
+    if (parents_[i] != i) continue;
+    const Ball& largest = balls[largest_[i]];
+    sides_[i] = largest.radius > 0 && surface.contains(largest.centre) ? 1 : 0;
+    queries_ += largest.radius > 0 ? 1 : 0;
+  }
+  for (std::uint32_t i = 0; i < balls.size(); ++i) {
+    is_inside[i] = balls[i].radius > 0 && sides_[root(i)] != 0 ? 1 : 0;
+  }
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,40 @@
+// On which side of the surface balls lie that do not meet it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "following/moving_surface.h"
+#include "medial_vk/ball.h"
+
+namespace medial_vk {
+
+/// Two open balls that hold no point of a closed surface and overlap lie on the same side, since the winding number is
+/// constant in their union. So one ray decides for each component of the union that is known to hang together.
+class BallSides {
+ public:
+  /// Of balls in the rest pose: those whose parts of the union meet are expected to overlap later, too. Errors:
+  /// kOutOfMemory, kUsage (as measure_ball_union()).
+  static Result<BallSides> build(std::span<const Ball> rest, unsigned threads);
+
+  /// Replaces `is_inside`, one element per ball: 1 if it is known to lie inside, 0 otherwise and for a radius of 0. The
+  /// surface does not meet any ball.
+  void find(const MovingSurface& surface, std::span<const Ball> balls, std::span<std::uint8_t> is_inside);
+  /// The number of points whose side the last find() determined.
+  std::size_t queries() const { return queries_; }
+
+ private:
+  std::uint32_t root(std::uint32_t ball);
+  void connect(std::span<const Ball> balls);
+
+  std::vector<std::array<std::uint32_t, 2>> edges_;
+  std::vector<std::uint32_t> parents_;
+  std::vector<std::uint32_t> largest_;  // by root: the largest ball of the component
+  std::vector<std::uint8_t> sides_;     // by root
+  std::size_t queries_ = 0;
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,267 @@
+#include "medial_vk/follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/host_memory.h"
+#include "base/parallel.h"
+#include "following/ascent.h"
+#include "following/ball_sides.h"
+#include "following/greatest_ball.h"
+#include "following/moving_surface.h"
+#include "following/published_rule.h"
+#include "following/tangent_rule.h"
+#include "following/tracked_ball.h"
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kBlock = 16;  // balls that one thread takes at a time
+
+/// By which a given ball may reach out of the mesh, as a share of the longest side: that of coordinates in float.
+constexpr double kGivenError = 1e-6;
+
+Status check_options(std::span<const Ball> balls, const FollowerOptions& options) {
+  const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
+  if (balls.empty()) return usage("there is no ball to follow the mesh");
+  if (!(options.protrusion > 0 && options.protrusion < 1)) return usage("`protrusion` must be positive and below 1");
+  if (!(options.shrunk >= 0 && options.shrunk <= 1)) return usage("`shrunk` must be from 0 to 1");
+  if (!(options.object_angle >= 0 && std::isfinite(options.object_angle))) {
+    return usage("`object_angle` must be finite and not negative");
+  }
+  return {};
+}
+
+/// The ball in the rest pose with its first contact, or an error that names it.
+Result<TrackedBall> track(const MovingSurface& surface, const Ball& ball, std::size_t index) {
+  const auto refuse = [&](const std::string& why) {
+    return Error{ErrorCode::kUsage, "ball " + std::to_string(index) + " " + why};
+  };
+  if (!std::isfinite(dot(ball.centre, ball.centre)) || !(ball.radius > 0) || !std::isfinite(ball.radius)) {
+    return refuse("has a number that is not finite, or no positive radius");
+  }
+  const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
+  const double distance = std::sqrt(nearest.squared_distance);
+  if (ball.radius > distance + kGivenError * surface.longest_side() || !(distance > 2 * surface.rounding()) ||
+      !surface.contains(ball.centre)) {
+    return refuse("is not inside the mesh");
+  }
+  TrackedBall tracked;
+  tracked.ball = ball;
+  tracked.a = {surface.surface_point(nearest), (1 / distance) * (ball.centre - nearest.point)};
+  return tracked;
+}
+
+}  // namespace
+
+class Follower::Impl {
+ public:
+  static Result<std::unique_ptr<Impl>> create(const IndexedMesh& rest, std::span<const Ball> balls,
+                                              const FollowerOptions& options) {
+    Result<MovingSurface> surface = MovingSurface::build(rest);
+    if (!surface) return surface.error();
+    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options));
+    if (Status status = impl->take(balls); !status) return status.error();
+    return impl;
+  }
+
+  Status update(std::span<const Point> vertices) {
+    if (Status status = surface_.move(vertices, options_.threads); !status) return status;
+    if (options_.rule == FollowRule::kPublished) {
+      find_vertex_normals(surface_, vertex_normals_);
+    }
+    for_each_ball([&](TrackedBall& tracked) { follow(tracked); });
+    drop_outside();
+    for (std::uint32_t step = 0; step < options_.steps && options_.rule == FollowRule::kTangent; ++step) {
+      if (Status status = ascend_all(); !status) return status;
+    }
+    if (options_.rule == FollowRule::kTangent) draw_to_rest();
+    report();
+    return {};
+  }
+
+  Status reset() {
+    if (Status status = surface_.return_to_rest(options_.threads); !status) return status;
+    std::ranges::copy(rest_, tracked_.begin());
+    report();
+    return {};
+  }
+
+  std::span<const Ball> balls() const { return balls_; }
+  std::span<const FollowState> states() const { return states_; }
+
+  Result<FollowMeasures> measure() const {
+    FollowMeasures measures;
+    measures.solid_volume = surface_.volume();
+    Result<BallUnion> balls = measure_ball_union(balls_, BallUnionOptions{options_.threads});
+    if (!balls) return balls.error();
+    measures.ball_volume = balls.value().volume;
+    if (options_.rule == FollowRule::kTangent) return measures;
+    std::vector<Ball> within = balls_;
+    for (Ball& ball : within) ball.radius = std::max(0.0, ball.radius - protrusion());
+    Result<BallUnion> inner = measure_ball_union(within, BallUnionOptions{options_.threads});
+    if (!inner) return inner.error();
+    measures.outside_bound = measures.ball_volume - inner.value().volume;
+    return measures;
+  }
+
+ private:
+  Impl(MovingSurface surface, const FollowerOptions& options) : surface_(std::move(surface)), options_(options) {}
+
+  double protrusion() const { return options_.protrusion * surface_.rest_side(); }
+
+  Status take(std::span<const Ball> balls) {
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      Result<TrackedBall> tracked = track(surface_, balls[i], i);
+      if (!tracked) return tracked.error();
+      tracked_.push_back(tracked.value());
+    }
+    balls_.resize(balls.size());
+    states_.resize(balls.size());
+    is_inside_.resize(balls.size());
+    vertex_normals_.resize(surface_.vertices().size());
+    if (options_.rule == FollowRule::kTangent) {
+      for_each_ball([&](TrackedBall& tracked) { tracked = greatest_ball(surface_, tracked.a, {}); });
+    }
+    for (TrackedBall& tracked : tracked_) tracked.rest_radius = tracked.ball.radius;
+    copy_balls();
+    Result<BallSides> sides = BallSides::build(balls_, options_.threads);
+    if (!sides) return sides.error();
+    sides_ = std::move(sides).value();
+    before_ = tracked_;
+    drop_outside();  // of an open mesh: balls whose centres are inside may reach through a hole
+    rest_ = tracked_;
+    report();
+    return {};
+  }
+
+  template <class Work>
+  void for_each_ball(const Work& work) {
+    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) { work(tracked_[i]); });
+  }
+
+  void follow(TrackedBall& tracked) {
+    if (options_.rule == FollowRule::kPublished) {
+      tracked = follow_published(surface_, vertex_normals_, tracked, protrusion());
+      return;
+    }
+    replace(tracked, follow_tangent(surface_, tracked));
+  }
+
+  static void replace(TrackedBall& tracked, const TrackedBall& now) {
+    tracked.ball = now.ball;
+    tracked.a = now.a;
+    tracked.b = now.b;
+  }
+
+  void draw_to_rest() {
+    std::ranges::copy(tracked_, before_.begin());
+    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) {
+      const double share = share_of_rest(surface_, rest_[i]);
+      if (share > 0) replace(tracked_[i], drawn_to_rest(surface_, rest_[i], share, tracked_[i]));
+    });
+    take_back_outside();
+  }
+
+  void copy_balls() {
+    for (std::size_t i = 0; i < tracked_.size(); ++i) balls_[i] = tracked_[i].ball;
+  }
+
+  /// Balls by the tangent rule do not meet the surface, but may lie on its other side.
+  void drop_outside() {
+    if (options_.rule == FollowRule::kPublished) return;
+    find_sides();
+    for (std::size_t i = 0; i < tracked_.size(); ++i) {
+      if (is_inside_[i] != 0) continue;
+      tracked_[i].ball.radius = 0;
+      replace(tracked_[i], recovered_ball(surface_, tracked_[i]));
+    }
+  }
+
+  /// Balls that were inside before a further motion in the same frame, and are not now, return.
+  void take_back_outside() {
+    find_sides();
+    for (std::size_t i = 0; i < tracked_.size(); ++i) {
+      if (is_inside_[i] == 0) replace(tracked_[i], before_[i]);
+    }
+  }
+
+  void find_sides() {
+    copy_balls();
+    sides_.find(surface_, balls_, is_inside_);
+  }
+
+  /// All balls move at once, by what the union of the present ones exposes.
+  Status ascend_all() {
+    copy_balls();
+    Result<BallUnion> measured = measure_ball_union(balls_, BallUnionOptions{options_.threads});
+    if (!measured) return measured.error();
+    const BallUnion& exposed = measured.value();
+    std::ranges::copy(tracked_, before_.begin());
+    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) {
+      ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]);
+    });
+    take_back_outside();
+    return {};
+  }
+
+  FollowState state_of(const TrackedBall& tracked) const {
+    if (!(tracked.ball.radius > 0)) return FollowState::kOutside;
+    if (tracked.ball.radius < options_.shrunk * tracked.rest_radius) return FollowState::kShrunk;
+    const bool is_flat = tracked.has_two_contacts() && tracked.object_angle() < options_.object_angle;
+    return is_flat ? FollowState::kFlat : FollowState::kMedial;
+  }
+
+  void report() {
+    copy_balls();
+    std::ranges::transform(tracked_, states_.begin(), [&](const TrackedBall& tracked) { return state_of(tracked); });
+  }
+
+  MovingSurface surface_;
+  FollowerOptions options_;
+  std::vector<TrackedBall> tracked_, rest_;
+  std::vector<TrackedBall> before_;  // the last step of the same frame: inside, or of radius 0
+  BallSides sides_;
+  std::vector<Point> vertex_normals_;  // by vertex; of the published rule
+  // By ball, in the order in which they were given.
+  std::vector<Ball> balls_;
+  std::vector<FollowState> states_;
+  std::vector<std::uint8_t> is_inside_;
+};
+
+Follower::Follower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Follower::Follower(Follower&&) noexcept = default;
+Follower& Follower::operator=(Follower&&) noexcept = default;
+Follower::~Follower() = default;
+
+Result<Follower> Follower::create(const IndexedMesh& rest, std::span<const Ball> balls,
+                                  const FollowerOptions& options) {
+  if (Status status = check_options(balls, options); !status) return status.error();
+  return catch_out_of_memory("preparing balls to follow a mesh", [&]() -> Result<Follower> {
+    Result<std::unique_ptr<Impl>> impl = Impl::create(rest, balls, options);
+    if (!impl) return impl.error();
+    return Follower(std::move(impl).value());
+  });
+}
+
+Status Follower::update(std::span<const Point> vertices) {
+  return catch_out_of_memory("moving balls with a mesh", [&] { return impl_->update(vertices); });
+}
+
+Status Follower::reset() {
+  return catch_out_of_memory("returning balls to the rest pose", [&] { return impl_->reset(); });
+}
+
+std::span<const Ball> Follower::balls() const { return impl_->balls(); }
+std::span<const FollowState> Follower::states() const { return impl_->states(); }
+
+Result<FollowMeasures> Follower::measure() const {
+  return catch_out_of_memory("measuring balls that follow a mesh", [&] { return impl_->measure(); });
+}
+
+}  // namespace medial_vk

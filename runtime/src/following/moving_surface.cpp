@@ -1,0 +1,110 @@
+#include "following/moving_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "bvh/refined_tree.h"
+#include "mesh/winding/winding_number.h"
+#include "solid/number_by_rays.h"
+
+namespace medial_vk {
+namespace {
+
+double longest_side_of(const BvhBox& box) {
+  const Point sides = box.upper - box.lower;
+  return std::max({sides[0], sides[1], sides[2]});
+}
+
+/// Of the cones from a point near the middle of the box to all triangles, which keeps rounding small.
+double signed_volume(std::span<const Point> vertices, std::span<const Triangle> triangles, const BvhBox& box) {
+  const Point middle = 0.5 * (box.lower + box.upper);
+  CompensatedSum sum;
+  for (const Triangle& t : triangles) {
+    sum.add(dot(vertices[t[0]] - middle, cross(vertices[t[1]] - middle, vertices[t[2]] - middle)));
+  }
+  return sum.value() / 6;
+}
+
+}  // namespace
+
+MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh)
+    : rest_(rest),
+      vertices_(rest.view().vertices.begin(), rest.view().vertices.end()),
+      last_vertices_(vertices_),
+      bvh_(std::move(bvh)) {}
+
+Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest) {
+  constexpr std::uint32_t kLeafSize = 4;
+  Result<Bvh> bvh = refined_tree(rest.bvh(), kLeafSize);
+  if (!bvh) return bvh.error();
+  MovingSurface surface(rest, std::move(bvh).value());
+  if (Status status = surface.measure(1); !status) return status.error();
+  surface.last_front_ = surface.rest_front_ = surface.front_;
+  return surface;
+}
+
+Status MovingSurface::move(std::span<const Point> vertices, unsigned threads) {
+  if (vertices.size() != vertices_.size()) {
+    return Error{ErrorCode::kInvalidMesh, "the frame has " + std::to_string(vertices.size()) +
+                                              " vertices, the mesh has " + std::to_string(vertices_.size())};
+  }
+  const MeshView moved = {vertices, triangles(), {}, is_closed()};
+  if (Status status = bvh_.refit(moved, {threads}); !status) return status;
+  if (!(longest_side_of(bvh_.nodes().front().box) > 0)) {
+    const MeshView present = {vertices_, triangles(), {}, is_closed()};
+    if (Status status = bvh_.refit(present, {threads}); !status) return status;
+    return Error{ErrorCode::kInvalidMesh, "the frame has no extent: all vertices are equal"};
+  }
+  std::swap(vertices_, last_vertices_);
+  std::ranges::copy(vertices, vertices_.begin());
+  last_front_ = front_;
+  return measure(threads);
+}
+
+Status MovingSurface::return_to_rest(unsigned threads) {
+  if (Status status = move(rest_.view().vertices, threads); !status) return status;
+  last_vertices_ = vertices_;
+  last_front_ = front_;
+  return {};
+}
+
+Status MovingSurface::measure(unsigned threads) {
+  const BvhBox& box = bvh_.nodes().front().box;
+  rounding_ = distance_rounding(bvh_);
+  longest_side_ = longest_side_of(box);
+  const double volume = signed_volume(vertices_, triangles(), box);
+  front_ = volume < 0 ? -1 : 1;
+  volume_ = std::fabs(volume);
+  if (is_closed()) return {};
+  IndexedMesh moved = rest_;
+  if (Status status = moved.move_vertices(vertices_, {{}, threads}); !status) return status;
+  Result<Solid> solid = Solid::build(moved);
+  if (!solid) return solid.error();
+  open_solid_.emplace(std::move(solid).value());
+  return {};
+}
+
+Point MovingSurface::inward_normal(std::uint32_t triangle) const {
+  const Corners3 c = corners(triangle);
+  double shorter = 0;
+  const Point area = double_area(c[0], c[1], c[2], shorter);
+  const double size = length(area);
+  return size > kAreaRounding * shorter ? (-front_ / size) * area : Point{0, 0, 0};
+}
+
+bool MovingSurface::contains(const Point& p) const {
+  if (!is_closed()) return open_solid_->contains(p);
+  if (const auto number = number_by_rays({&bvh_}, p)) return front_ * static_cast<double>(*number) > 0;
+  double number = 0;
+  for (const Corners3& triangle : bvh_.corners()) number += triangle_winding(triangle, p);
+  return front_ * number >= 0.5;
+}
+
+bool MovingSurface::holds(const Ball& ball) const {
+  if (is_closed()) return contains(ball.centre);
+  return open_solid_->side_of_ball(ball.centre, ball.radius) == SolidSide::kInside;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,86 @@
+// The boundary of a solid in the present and in the last frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "following/surface_point.h"
+#include "medial_vk/ball.h"
+#include "medial_vk/indexed_mesh.h"
+#include "solid/solid.h"
+
+namespace medial_vk {
+
+/// Queries may come from several threads at once.
+class MovingSurface {
+ public:
+  /// Throws std::bad_alloc. Errors: kOutOfMemory.
+  static Result<MovingSurface> build(const IndexedMesh& rest);
+
+  /// The next frame. Errors: kInvalidMesh (another number of vertices, a coordinate that is not finite, no extent; the
+  /// surface is unchanged), kOutOfMemory.
+  Status move(std::span<const Point> vertices, unsigned threads);
+  /// Makes the rest pose the present frame, and the last one, too.
+  Status return_to_rest(unsigned threads);
+
+  std::span<const Point> vertices() const { return vertices_; }
+  std::span<const Triangle> triangles() const { return rest_.view().triangles; }
+  Corners3 corners(std::uint32_t triangle) const { return corners_of(vertices_, triangle); }
+  Point at(const SurfacePoint& point) const { return point_at(point, corners(point.triangle)); }
+  Point at_rest(const SurfacePoint& point) const {
+    return point_at(point, corners_of(rest_.view().vertices, point.triangle));
+  }
+  SurfacePoint surface_point(const BvhHit& hit) const {
+    return surface_point_at(hit.point, hit.triangle, corners(hit.triangle));
+  }
+  /// The direction in the last frame at a triangle, in the present one.
+  Point carried(const Point& direction, std::uint32_t triangle) const {
+    return carried_direction(direction, corners_of(last_vertices_, triangle), last_front_, corners(triangle), front_);
+  }
+  /// The direction in the rest pose at a triangle, in the present frame.
+  Point carried_from_rest(const Point& direction, std::uint32_t triangle) const {
+    return carried_direction(direction, corners_of(rest_.view().vertices, triangle), rest_front_, corners(triangle),
+                             front_);
+  }
+  /// Towards the inside, of length 1, or 0 where the triangle has no area.
+  Point inward_normal(std::uint32_t triangle) const;
+  /// 1 if triangles are counter-clockwise seen from outside, -1 if the frame is mirrored: its signed volume is
+  /// negative.
+  double front() const { return front_; }
+
+  /// The nearest point of the boundary, if it is closer than `bound`.
+  BvhHit closest(const Point& p, double bound) const { return bvh_.closest(p, bound); }
+  /// The error of a distance at a point within one longest side of the box.
+  double rounding() const { return rounding_; }
+  double longest_side() const { return longest_side_; }
+  /// Of the rest pose.
+  double rest_side() const { return rest_.longest_side(); }
+  /// That of a closed mesh, by its triangles; positive in a mirrored frame, too.
+  double volume() const { return volume_; }
+
+  bool is_closed() const { return rest_.prepared().report.closed; }
+  /// True if the winding number at a point off the boundary is at least 1/2 (at most -1/2, in a mirrored frame of a
+  /// closed mesh).
+  bool contains(const Point& p) const;
+  /// True if the ball, which the boundary does not meet, is known to lie inside.
+  bool holds(const Ball& ball) const;
+
+ private:
+  MovingSurface(const IndexedMesh& rest, Bvh bvh);
+  Corners3 corners_of(std::span<const Point> vertices, std::uint32_t triangle) const {
+    const Triangle& t = rest_.view().triangles[triangle];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+  Status measure(unsigned threads);
+
+  IndexedMesh rest_;
+  std::vector<Point> vertices_, last_vertices_;
+  Bvh bvh_;
+  double front_ = 1, last_front_ = 1, rest_front_ = 1;
+  double rounding_ = 0, longest_side_ = 0, volume_ = 0;
+  std::optional<Solid> open_solid_;  // of a mesh that is not closed
+};
+
+}  // namespace medial_vk

@@ -1,0 +1,39 @@
+// Points of triangles that move with them, and directions that triangles carry.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/point_ops.h"
+#include "medial_vk/bvh.h"
+
+namespace medial_vk {
+
+using Corners3 = std::array<Point, 3>;
+
+/// A point of a triangle by its barycentric coordinates (Section 7.4.1): corner 0, and shares of the edges from there
+/// to the corners 1 and 2.
+struct SurfacePoint {
+  std::uint32_t triangle = BvhHit().triangle;
+  double v = 0, w = 0;
+
+  bool is_known() const { return triangle != BvhHit().triangle; }
+  /// False on edges and corners, up to rounding.
+  bool is_within_face() const { return v > 1e-9 && w > 1e-9 && v + w < 1 - 1e-9; }
+};
+
+inline Point point_at(const SurfacePoint& point, const Corners3& corners) {
+  return corners[0] + point.v * (corners[1] - corners[0]) + point.w * (corners[2] - corners[0]);
+}
+
+/// The coordinates of `point`, a point of the triangle up to rounding.
+SurfacePoint surface_point_at(const Point& point, std::uint32_t triangle, const Corners3& corners);
+
+/// The inward normal of the surface, by its component along that of a triangle: the image of a unit vector under F^-T,
+/// with F the map of the triangle and its inward unit normal from one frame to the next, of length 1. `front` and
+/// `new_front`: 1 if the triangle is counter-clockwise seen from outside in that frame, else -1. A triangle without an
+/// area in one of the frames leaves the direction as it is.
+Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,
+                        double new_front);
+
+}  // namespace medial_vk
