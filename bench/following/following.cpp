@@ -1,13 +1,14 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
 //   bench_following [--frames N] [--repeats N] [--fresh] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, and after the way back; the
-// time of a frame, the median of all frames and repeats; with --fresh beside a new fit of as many balls to the last
-// frame.
+// time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
+// of as many balls to the last frame.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -58,11 +59,18 @@ void exit_unless(const Status& status) {
   std::exit(1);
 }
 
-double timed_update(Follower& follower, const std::vector<Point>& frame) {
-  const auto begin = std::chrono::steady_clock::now();
-  exit_unless(follower.update(frame));
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
+/// Milliseconds of each frame.
+struct Times {
+  std::vector<double> clock, processor;
+
+  void update(Follower& follower, const std::vector<Point>& frame) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin_of_processor = std::clock();
+    exit_unless(follower.update(frame));
+    processor.push_back(1e3 * static_cast<double>(std::clock() - begin_of_processor) / CLOCKS_PER_SEC);
+    clock.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  }
+};
 
 void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh, std::span<const Ball> balls,
             const Frames& frames, int repeats, const std::string& fresh, unsigned threads) {
@@ -72,21 +80,22 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   options.threads = threads;
   Follower follower = or_exit(Follower::create(mesh, balls, options));
   const Uncovered rest = uncovered(follower);
-  std::vector<double> times;
+  Times times;
   Uncovered end{}, back{};
   std::size_t medial = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     exit_unless(follower.reset());
-    for (const auto& frame : frames) times.push_back(timed_update(follower, frame));
+    for (const auto& frame : frames) times.update(follower, frame);
     end = uncovered(follower);
     medial = static_cast<std::size_t>(std::ranges::count(follower.states(), FollowState::kMedial));
-    for (std::size_t i = frames.size() - 1; i-- > 0;) times.push_back(timed_update(follower, frames[i]));
-    times.push_back(timed_update(follower, {mesh.view().vertices.begin(), mesh.view().vertices.end()}));
+    for (std::size_t i = frames.size() - 1; i-- > 0;) times.update(follower, frames[i]);
+    times.update(follower, {mesh.view().vertices.begin(), mesh.view().vertices.end()});
     back = uncovered(follower);
   }
-  fmt::print("| {} | {} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} |\n", title, rule.name, rest.share,
-             end.share, fresh, back.share / rest.share, end.outside_bound,
-             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times));
+  fmt::print("| {} | {} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} |\n", title, rule.name,
+             rest.share, end.share, fresh, back.share / rest.share, end.outside_bound,
+             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times.clock),
+             median(times.processor));
   std::fflush(stdout);
 }
 

@@ -33,7 +33,8 @@ MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh)
     : rest_(rest),
       vertices_(rest.view().vertices.begin(), rest.view().vertices.end()),
       last_vertices_(vertices_),
-      bvh_(std::move(bvh)) {}
+      bvh_(std::move(bvh)),
+      wide_(bvh_) {}
 
 Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest) {
   constexpr std::uint32_t kLeafSize = 4;
@@ -72,6 +73,7 @@ Status MovingSurface::return_to_rest(unsigned threads) {
 
 Status MovingSurface::measure(unsigned threads) {
   const BvhBox& box = bvh_.nodes().front().box;
+  wide_.refit(bvh_);
   rounding_ = distance_rounding(bvh_);
   longest_side_ = longest_side_of(box);
   const double volume = signed_volume(vertices_, triangles(), box);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bvh/wide_tree.h"
 #include "following/surface_point.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/indexed_mesh.h"
@@ -51,7 +52,7 @@ class MovingSurface {
   double front() const { return front_; }
 
   /// The nearest point of the boundary, if it is closer than `bound`.
-  BvhHit closest(const Point& p, double bound) const { return bvh_.closest(p, bound); }
+  BvhHit closest(const Point& p, double bound) const { return wide_.closest(bvh_, p, bound); }
   /// The error of a distance at a point within one longest side of the box.
   double rounding() const { return rounding_; }
   double longest_side() const { return longest_side_; }
@@ -78,6 +79,7 @@ class MovingSurface {
   IndexedMesh rest_;
   std::vector<Point> vertices_, last_vertices_;
   Bvh bvh_;
+  WideTree wide_;
   double front_ = 1, last_front_ = 1, rest_front_ = 1;
   double rounding_ = 0, longest_side_ = 0, volume_ = 0;
   std::optional<Solid> open_solid_;  // of a mesh that is not closed

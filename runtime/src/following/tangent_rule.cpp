@@ -15,7 +15,7 @@ constexpr double kMedialAngle = 0.5;
 constexpr double kShrunk = 0.8;
 
 // By which a distance relative to the radius, and the cosine of the angle between the spokes, may have changed.
-constexpr double kNoLongerRest = 0.005;
+constexpr double kNoLongerRest = 0.001;
 constexpr double kAtRest = 1 - 1e-6;
 
 BallContact carried(const MovingSurface& surface, const BallContact& contact) {

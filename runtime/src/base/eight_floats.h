@@ -1,0 +1,70 @@
+// Eight floats at a time, by the vector types of gcc and clang: one instruction where the processor has one for eight
+// floats, and several elsewhere.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// Inlined into a function for processors with AVX2, a function is compiled for these.
+#define MEDIAL_VK_INLINE inline __attribute__((always_inline))
+
+namespace medial_vk {
+
+using EightFloats = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));  // of a comparison: -1 for true, 0 for false
+
+MEDIAL_VK_INLINE EightFloats load(const std::array<float, 8>& values) {
+  EightFloats floats;
+  std::memcpy(&floats, values.data(), sizeof floats);
+  return floats;
+}
+
+MEDIAL_VK_INLINE std::array<float, 8> stored(const EightFloats& floats) {
+  std::array<float, 8> values;
+  std::memcpy(values.data(), &floats, sizeof floats);
+  return values;
+}
+
+MEDIAL_VK_INLINE EightFloats square_root(const EightFloats& floats) {
+  std::array<float, 8> values = stored(floats);
+  for (float& value : values) value = std::sqrt(value);
+  return load(values);
+}
+
+MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& yes, const EightFloats& no) {
+  return reinterpret_cast<EightFloats>((where & reinterpret_cast<EightInts>(yes)) |
+                                       (~where & reinterpret_cast<EightInts>(no)));
+}
+
+MEDIAL_VK_INLINE EightFloats greater(const EightFloats& a, const EightFloats& b) { return select(a > b, a, b); }
+MEDIAL_VK_INLINE EightFloats lesser(const EightFloats& a, const EightFloats& b) { return select(a < b, a, b); }
+
+/// Bit k is set if element k is true.
+MEDIAL_VK_INLINE std::uint32_t bits_of(const EightInts& where) {
+  const EightInts bits = where & EightInts{1, 2, 4, 8, 16, 32, 64, 128};
+  std::array<std::uint64_t, 4> pairs;
+  std::memcpy(pairs.data(), &bits, sizeof bits);
+  const std::uint64_t all = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+  return static_cast<std::uint32_t>(all | all >> 32);
+}
+
+/// Calls work() compiled for processors with AVX2 where there is one. `Work` is a function object whose call is
+/// inlined.
+#if defined(__x86_64__) && defined(__GNUC__)
+template <class Work>
+__attribute__((target("avx2"))) auto run_with_avx2(Work& work) {
+  return work();
+}
+#endif
+
+template <class Work>
+auto run_on_this_processor(Work& work) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2")) return run_with_avx2(work);
+#endif
+  return work();
+}
+
+}  // namespace medial_vk

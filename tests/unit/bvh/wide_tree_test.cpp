@@ -1,0 +1,115 @@
+// The tree with eight children a node gives the answers of the tree that it was made of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base/point_ops.h"
+#include "bvh/wide_tree.h"
+#include "support/solids/motions.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+/// Points in and around the box, on the surface and far away.
+std::vector<Point> points_around(const Mesh& mesh) {
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  const Point first = mesh.vertices[0];
+  double size = 0;
+  for (const Point& p : mesh.vertices) size = std::max(size, length(p - first));
+  std::vector<Point> points;
+  for (const double reach : {0.1, 1.0, 100.0, 1e9}) {
+    for (int i = 0; i < 200; ++i) {
+      points.push_back(first + (reach * size) * Point{normal(random), normal(random), normal(random)});
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 5) {
+    const Triangle& c = mesh.triangles[t];
+    points.push_back(mesh.vertices[c[0]]);
+    points.push_back(0.5 * (mesh.vertices[c[0]] + mesh.vertices[c[1]]));
+  }
+  return points;
+}
+
+/// Distances are equal up to their rounding: less than 32 u times the lengths involved, u = 2^-53.
+void expect_same(const Bvh& bvh, const WideTree& wide, const std::vector<Point>& points, const std::string& name) {
+  const BvhBox& box = bvh.nodes().front().box;
+  const double size = length(box.upper - box.lower) + length(box.lower);
+  std::size_t different = 0;
+  for (const Point& p : points) {
+    const double distance = std::sqrt(bvh.closest(p).squared_distance);
+    const double rounding = 32 * 0x1p-53 * (size + length(p));
+    const BvhHit found = wide.closest(bvh, p), within = wide.closest(bvh, p, 1.001 * distance + 2 * rounding);
+    const BvhHit beyond = wide.closest(bvh, p, 0.999 * distance - 2 * rounding);
+    for (const BvhHit& hit : {found, within}) {
+      different += std::fabs(std::sqrt(hit.squared_distance) - distance) <= rounding ? 0 : 1;
+      different += length(hit.point - p) <= distance + rounding ? 0 : 1;
+    }
+    different += beyond.triangle != BvhHit().triangle ? 1 : 0;
+  }
+  EXPECT_EQ(different, 0u) << name;
+}
+
+void expect_same_trees(const Mesh& mesh, const std::string& name) {
+  for (const std::uint32_t leaf_size : {1u, 4u, 30u}) {
+    const Bvh bvh = Bvh::build(test::view_of(mesh), {leaf_size, 1}).value();
+    expect_same(bvh, WideTree(bvh), points_around(mesh), name + ", leaves of " + std::to_string(leaf_size));
+  }
+}
+
+Mesh needles() {
+  Mesh mesh = test::make_turned_torus(40, 20);
+  for (Point& p : mesh.vertices) p = {1000 * p[0], p[1], 1e-6 * p[2]};
+  return mesh;
+}
+
+TEST(WideTree, GivesTheHitsOfItsTree) {
+  expect_same_trees(test::make_turned_torus(40, 20), "torus");
+  expect_same_trees(test::make_box({1, 2, 3}), "box");
+  expect_same_trees(test::make_l_shape(2, 0.6, 0.8), "L");
+  expect_same_trees(needles(), "needles");
+  Mesh one;
+  one.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  one.triangles = {{0, 1, 2}};
+  expect_same_trees(one, "one triangle");
+}
+
+TEST(WideTree, InAnyUnitAndPlace) {
+  for (const double unit : {1e-140, 1e-30, 1e30, 1e140}) {
+    Mesh mesh = test::make_turned_torus(30, 12);
+    test::scale(mesh, unit);
+    expect_same_trees(mesh, "unit " + std::to_string(std::log10(unit)));
+  }
+  Mesh far = test::make_turned_torus(30, 12);
+  test::translate(far, {1e9, -1e9, 1e9});
+  expect_same_trees(far, "far away");
+}
+
+TEST(WideTree, ManyTrianglesAtOnePlace) {
+  Mesh mesh = test::make_box({1, 1, 1});
+  const Mesh one = mesh;
+  for (int i = 0; i < 20; ++i) test::append(mesh, one);
+  expect_same_trees(mesh, "21 boxes at one place");
+}
+
+TEST(WideTree, FollowsARefit) {
+  Mesh mesh = test::make_turned_torus(40, 20);
+  Bvh bvh = Bvh::build(test::view_of(mesh), {4, 1}).value();
+  WideTree wide(bvh);
+  for (const test::Motion motion : test::kMotions) {
+    Mesh moved = mesh;
+    moved.vertices = test::moved_vertices(mesh.vertices, motion, 1);
+    test::scale(moved, 3);
+    ASSERT_TRUE(bvh.refit(test::view_of(moved)).ok());
+    wide.refit(bvh);
+    expect_same(bvh, wide, points_around(moved), test::name_of(motion));
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk
