@@ -40,24 +40,33 @@ void take_segments(const Vector3d& p, const Vector3d& p2, const Vector3d& q, con
   if (s >= 0 && s <= 1 && t >= 0 && t <= 1) take(p + s * d, q + t * e, best);
 }
 
-double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  return (b - a).cross(c - a).dot(d - a);
+/// In more digits than the corners have: in double, the signs are noise where a segment lies in the plane of a
+/// triangle, and beside slivers.
+using Long = long double;
+
+Long volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  using LongVector = Eigen::Matrix<Long, 3, 1>;
+  const LongVector from = a.cast<Long>();
+  return (b.cast<Long>() - from).cross(c.cast<Long>() - from).dot(d.cast<Long>() - from);
 }
 
 /// True if the segment passes through the triangle or ends on it, by the signs of five volumes. Where the triangle is
 /// smaller than the roundings of the ends, three of these are noise: so the common point must also be at the triangle.
 bool meets(const Vector3d& p, const Vector3d& q, const Corners& triangle, Vector3d& at) {
   const auto& [a, b, c] = triangle;
-  const double of_p = volume(a, b, c, p), of_q = volume(a, b, c, q);
+  const Long of_p = volume(a, b, c, p), of_q = volume(a, b, c, q);
   if ((of_p > 0 && of_q > 0) || (of_p < 0 && of_q < 0) || of_p == of_q) return false;
-  const double x = volume(p, q, a, b), y = volume(p, q, b, c), z = volume(p, q, c, a);
+  // A volume has an error of less than 16 roundings of the product of its edges. Where that leaves open at which
+  // quarter of the segment the point is, the segment lies in the plane as far as can be told, or the triangle in a
+  // line: then corners and edges are as near as a common point.
+  const double of_volume = 8 * static_cast<double>(std::numeric_limits<Long>::epsilon()) * (b - a).norm() *
+                           (c - a).norm() * ((p - a).norm() + (q - a).norm());
+  const double between = static_cast<double>(std::abs(of_p - of_q));
+  if (8 * of_volume > between) return false;
+  const Long x = volume(p, q, a, b), y = volume(p, q, b, c), z = volume(p, q, c, a);
   if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) return false;
-  at = p + of_p / (of_p - of_q) * (q - p);
-  // A volume has an error of less than 16 roundings of the product of its edges, and beside a sliver that moves the
-  // point.
-  const double of_volume = 16 * 0x1p-53 * (b - a).norm() * (c - a).norm() * ((p - a).norm() + (q - a).norm());
-  const double rounding =
-      64 * 0x1p-53 * (p.norm() + q.norm() + a.norm()) + 2 * of_volume / std::abs(of_p - of_q) * (q - p).norm();
+  at = p + static_cast<double>(of_p / (of_p - of_q)) * (q - p);
+  const double rounding = 64 * 0x1p-53 * (p.norm() + q.norm() + a.norm()) + 2 * of_volume / between * (q - p).norm();
   return closest_point_on_triangle(at, a, b, c).squared_distance <= rounding * rounding;
 }
 
