@@ -24,6 +24,12 @@ double area_of(const BvhBox& box) {
   return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
 }
 
+using EightPoints = std::array<EightFloats, 3>;
+
+MEDIAL_VK_INLINE EightFloats product(const EightPoints& a, const EightPoints& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 }  // namespace
 
 /// The triangles below each node of the Bvh, by position.
@@ -197,17 +203,16 @@ class WideTree::Walk {
   /// A bit for each triangle that is not known to be beyond the limit. For s it takes the sum of the corners.
   MEDIAL_VK_INLINE std::uint32_t near_triangles(const Block& block) const {
     constexpr float kMeaningful = 1e-20f;  // squares of shorter vectors may underflow
-    std::array<std::array<EightFloats, 3>, 3> corners;
-    std::array<EightFloats, 3> s = {};
+    std::array<EightPoints, 3> corners;
+    EightPoints s = {};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         corners[corner][axis] = load(block.corners[corner][axis]) - query_[axis];
         s[axis] += corners[corner][axis];
       }
     }
-    const auto along = [&](const std::array<EightFloats, 3>& c) { return s[0] * c[0] + s[1] * c[1] + s[2] * c[2]; };
-    const EightFloats least = lesser(along(corners[0]), lesser(along(corners[1]), along(corners[2])));
-    const EightFloats s_s = along(s);
+    const EightFloats least = lesser(product(s, corners[0]), lesser(product(s, corners[1]), product(s, corners[2])));
+    const EightFloats s_s = product(s, s);
     const EightInts is_beyond = (least > 0.0f) & (s_s > kMeaningful) & (least * least > squared_limit_ * s_s);
     return ~bits_of(is_beyond) & ((1u << block.count) - 1);
   }
