@@ -41,7 +41,7 @@ void squash(Point& p, double time) {
 }
 
 void move_limb(Point& p, double time) {
-  constexpr double kJoint = 1.0 / 6, kBlend = 0.2;
+  constexpr double kJoint = 1.0 / 6, kBlend = 0.4;
   const double share = smooth_step((p[0] - kJoint) / kBlend + 0.5);
   p[0] -= kJoint;
   turn(p, 0, 1, 45 * kDegree * time * share);

@@ -14,7 +14,7 @@ enum class Motion {
   kTwist,   ///< By 60 degrees from end to end.
   kBend,    ///< To an arc of 90 degrees.
   kSquash,  ///< By 20 percent; the volume stays.
-  kLimb,    ///< The last third turns by 45 degrees, with a blend over a fifth of L.
+  kLimb,    ///< The last third turns by 45 degrees, with a blend over two fifths of L.
   kRipple,  ///< Waves of length L / 10 and height 1.2 percent of L; no part turns inside out.
 };
 inline constexpr std::array kMotions = {Motion::kTwist, Motion::kBend, Motion::kSquash, Motion::kLimb, Motion::kRipple};
