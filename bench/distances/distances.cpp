@@ -3,12 +3,12 @@
 //   bench_distances [--poses N] [--repeats N] MESH                         exact distances
 // Poses: any rotation, a shift of up to two sides (of the box around the mesh) in any direction; those that overlap,
 // and distances above one side, are left out. "Warm" queries start from the result for a pose one degree and one
-// percent of a side away. Times are medians of the repeats, per query, on one thread; the methods take turns.
+// percent of a side away. Times are of the processor, medians of the repeats, per query, on one thread; the methods
+// take turns.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -29,8 +29,8 @@ using namespace medial_vk;
 using bench::FclPeer;
 using bench::longest_side;
 using bench::median;
-using bench::microseconds_each;
 using bench::or_exit;
+using bench::processor_microseconds_each;
 
 using Random = std::mt19937_64;
 
@@ -93,7 +93,7 @@ class FclTimes {
   void measure(const Queries& all) {
     if (!FclPeer::is_there()) return;
     const std::size_t few = std::min<std::size_t>(all.size(), 200);
-    times_.push_back(microseconds_each(few, [&] {
+    times_.push_back(processor_microseconds_each(few, [&] {
       for (std::size_t i = 0; i < few; ++i) sum_ += peer_.distance(all[i].pose);
     }));
   }
@@ -117,10 +117,10 @@ std::string times_of(const std::vector<Query<Answer>>& all, const Ask& ask, cons
   std::vector<double> cold, warm;
   FclTimes fcl(peer);
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    cold.push_back(microseconds_each(all.size(), [&] {
+    cold.push_back(processor_microseconds_each(all.size(), [&] {
       for (const auto& query : all) sum += ask(query.pose, Answer()).lower;
     }));
-    warm.push_back(microseconds_each(all.size(), [&] {
+    warm.push_back(processor_microseconds_each(all.size(), [&] {
       for (const auto& query : all) sum += ask(query.pose, query.before).lower;
     }));
     fcl.measure(all);
@@ -159,7 +159,8 @@ void measure_exact(const std::string& name, const Mesh& mesh, std::size_t poses,
   const FclPeer peer(mesh);
   const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(mesh))));
   Body body = or_exit(Body::create(indexed));
-  const double building = 1e-6 * microseconds_each(1, [&] { body = or_exit(Body::create(indexed, {}, {}, {1})); });
+  const double building =
+      1e-6 * processor_microseconds_each(1, [&] { body = or_exit(Body::create(indexed, {}, {}, {1})); });
   DistanceOptions options;
   const auto ask = [&](const Pose& pose, const Distance& start) {
     return or_exit(distance(body, body, pose, options, start));

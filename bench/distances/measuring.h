@@ -1,6 +1,8 @@
 // What the measurements of distances share.
 #pragma once
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -28,6 +30,19 @@ inline double microseconds_each(std::size_t count, const std::function<void()>& 
   work();
   return 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
          static_cast<double>(count);
+}
+
+/// Of this thread's processor time, which other programs disturb less than the time that passes. For work on one
+/// thread.
+inline double processor_microseconds_each(std::size_t count, const std::function<void()>& work) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return (now() - begin) / static_cast<double>(count);
 }
 
 }  // namespace medial_vk::bench
