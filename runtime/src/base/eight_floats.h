@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -45,6 +46,27 @@ MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& y
 
 MEDIAL_VK_INLINE EightFloats greater(const EightFloats& a, const EightFloats& b) { return select(a > b, a, b); }
 MEDIAL_VK_INLINE EightFloats lesser(const EightFloats& a, const EightFloats& b) { return select(a < b, a, b); }
+
+MEDIAL_VK_INLINE EightFloats absolute(const EightFloats& floats) {
+  return reinterpret_cast<EightFloats>(reinterpret_cast<EightInts>(floats) & std::int32_t{0x7fffffff});
+}
+
+MEDIAL_VK_INLINE float greatest_of(const EightFloats& floats) {
+  const std::array<float, 8> values = stored(floats);
+  float greatest = values[0];
+  for (const float value : values) greatest = value > greatest ? value : greatest;
+  return greatest;
+}
+
+/// Bits 8 k to 8 k + 7 are the lowest eight of element k, which has no others.
+MEDIAL_VK_INLINE std::uint64_t bytes_of(const EightInts& bits) {
+  using EightBytes = std::uint8_t __attribute__((vector_size(8)));
+  const EightBytes bytes = __builtin_convertvector(bits, EightBytes);
+  std::uint64_t all;
+  std::memcpy(&all, &bytes, sizeof all);
+  if constexpr (std::endian::native == std::endian::big) all = __builtin_bswap64(all);
+  return all;
+}
 
 /// Bit k is set if element k is true.
 MEDIAL_VK_INLINE std::uint32_t bits_of(const EightInts& where) {

@@ -6,11 +6,16 @@ namespace medial_vk {
 namespace {
 
 struct BallsGoal {
+  static constexpr bool kHasExcess = false;
+
   ClosestBalls best;
   float enough;
 
   MEDIAL_VK_INLINE float reach() const { return best.separation; }
-  MEDIAL_VK_INLINE void take(const CloseItems& items) { best = {items.separation, {items.a, items.b}}; }
+  MEDIAL_VK_INLINE bool take(const CloseItems& items) {
+    best = {items.separation, {items.a, items.b}};
+    return false;
+  }
   MEDIAL_VK_INLINE void see(float, const BallsOfNodes&) const {}
   MEDIAL_VK_INLINE static std::uint64_t pairs_of(std::uint32_t, std::uint32_t) { return ~std::uint64_t{0}; }
   MEDIAL_VK_INLINE bool is_reached() const { return best.separation <= enough; }

@@ -15,6 +15,11 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// No separation in float below this is less than `most`, whose errors are up to `error`.
 float in_float(double most, double error) { return most < kFarther ? rounded_up(most + error) : kFarther; }
 
+double length_without_underflow(const Point& p) {
+  const double squared = dot(p, p);
+  return squared > 1e-280 ? std::sqrt(squared) : std::hypot(p[0], p[1], p[2]);
+}
+
 }  // namespace
 
 double lower_bound(const BodyTree& a, const BodyTree& b, const Placement& placement, double most, BallPair& pair) {
@@ -36,7 +41,7 @@ double upper_bound(const BodyImpl& a, const BodyImpl& b, const Placement& placem
   const Point away = ball_a.centre - placement.pose() * ball_b.centre;
   // Eleven roundings of sums of at most this; a rotation that is one to within 1e-12 may also shrink the ball.
   const double size = length(ball_a.centre) + length(ball_b.centre) + length(placement.pose().shift) + ball_a.radius;
-  const double separation = std::hypot(away[0], away[1], away[2]) - ball_a.radius - ball_b.radius;  // no underflow
+  const double separation = length_without_underflow(away) - ball_a.radius - ball_b.radius;
   const double bound = std::max(0.0, separation + 0x1p-48 * size + 4e-12 * ball_b.radius + placement.error());
   if (!(bound < most)) return most;
   pair = found.balls;

@@ -37,26 +37,52 @@ class Planes {
     return (start + shift_) - end;
   }
 
-  /// Bit 8 j + k is set unless triangle k of a and triangle j of b are apart by at least `reach`.
-  MEDIAL_VK_INLINE std::uint64_t pairs_within(const SurfaceTree::EightTriangles& a,
-                                              const SurfaceTree::EightTriangles& b, float reach) const {
-    EightFloats end = along(a[0], float_of_a_), start = along(b[0], float_of_b_);
+  /// How far eight triangles of a, or what eight boxes hold, reach along the direction.
+  MEDIAL_VK_INLINE EightFloats end_of(const SurfaceTree::EightTriangles& a) const {
+    EightFloats end = along(a[0], float_of_a_);
     for (std::size_t corner = 1; corner < 3; ++corner) {
-      const EightFloats next_of_a = along(a[corner], float_of_a_), next_of_b = along(b[corner], float_of_b_);
-      end = select(next_of_a > end, next_of_a, end);
-      start = select(next_of_b < start, next_of_b, start);
+      const EightFloats next = along(a[corner], float_of_a_);
+      end = select(next > end, next, end);
     }
+    return end;
+  }
+  MEDIAL_VK_INLINE EightFloats end_of(const EightBoxes& a) const {
+    return along(a.centre, float_of_a_) + half_width(a, float_of_a_);
+  }
+
+  /// Where those of b begin.
+  MEDIAL_VK_INLINE EightFloats start_of(const SurfaceTree::EightTriangles& b) const {
+    EightFloats start = along(b[0], float_of_b_);
+    for (std::size_t corner = 1; corner < 3; ++corner) {
+      const EightFloats next = along(b[corner], float_of_b_);
+      start = select(next < start, next, start);
+    }
+    return start;
+  }
+  MEDIAL_VK_INLINE EightFloats start_of(const EightBoxes& b) const {
+    return along(b.centre, float_of_b_) - half_width(b, float_of_b_);
+  }
+
+  bool are_apart(float end, float start, float reach) const { return start >= end + (reach - float_shift_); }
+
+  /// Bit 8 k + j is set unless element k of a and element j of b are apart by at least `reach`.
+  MEDIAL_VK_INLINE std::uint64_t pairs_within(const EightFloats& end, const EightFloats& start, float reach) const {
     const EightFloats nearer = end + (reach - float_shift_);
     const std::array<float, kWidth> starts = stored(start);
-    std::uint64_t pairs = 0;
-    for (std::size_t j = 0; j < kWidth; ++j) pairs |= std::uint64_t{bits_of(starts[j] < nearer)} << (kWidth * j);
-    return pairs;
+    EightInts pairs{};
+    for (std::size_t j = 0; j < kWidth; ++j) pairs |= (starts[j] < nearer) & (std::int32_t{1} << j);
+    return bytes_of(pairs);
   }
 
  private:
   MEDIAL_VK_INLINE static EightFloats along(const std::array<std::array<float, kWidth>, 3>& points,
                                             const std::array<float, 3>& d) {
     return load(points[0]) * d[0] + load(points[1]) * d[1] + load(points[2]) * d[2];
+  }
+
+  MEDIAL_VK_INLINE static EightFloats half_width(const EightBoxes& boxes, const std::array<float, 3>& d) {
+    return absolute(along(boxes.half_edges[0], d)) + absolute(along(boxes.half_edges[1], d)) +
+           absolute(along(boxes.half_edges[2], d));
   }
 
   Point of_a_ = {0, 0, 0}, of_b_ = {0, 0, 0};
@@ -81,6 +107,8 @@ class TrianglesGoal {
     shorten();
   }
 
+  static constexpr bool kHasExcess = true;
+
   float reach() const { return reach_; }
   bool is_reached() const { return best_.upper == 0; }
 
@@ -91,25 +119,32 @@ class TrianglesGoal {
     if (most < between_inner_balls_) shorten(most, balls);
   }
 
-  /// Bit 8 j + k: triangle k of a and triangle j of b may be closer than the target.
+  /// Bit 8 k + j: what ball k of a node of a and ball j of one of b hold may be closer than the target.
   MEDIAL_VK_INLINE std::uint64_t pairs_of(std::uint32_t node_a, std::uint32_t node_b) const {
+    if (count_ == 0) return ~std::uint64_t{0};
+    const bool is_lowest_a = a_.nodes().node(node_a).is_lowest, is_lowest_b = b_.nodes().node(node_b).is_lowest;
+    if (is_lowest_a && is_lowest_b && are_apart(node_a, node_b)) return 0;
     std::uint64_t pairs = ~std::uint64_t{0};
     for (std::size_t i = 0; i < count_ && pairs != 0; ++i) {
-      pairs &= planes_[i].pairs_within(a_.triangles(node_a), b_.triangles(node_b), reach_by_planes_);
+      const Planes& planes = planes_[i];
+      const EightFloats end = is_lowest_a ? planes.end_of(a_.triangles(node_a)) : planes.end_of(a_.boxes(node_a));
+      const EightFloats start = is_lowest_b ? planes.start_of(b_.triangles(node_b)) : planes.start_of(b_.boxes(node_b));
+      pairs &= planes.pairs_within(end, start, reach_by_planes_);
     }
     return pairs;
   }
 
-  void take(const CloseItems& items) {
+  bool take(const CloseItems& items) {
     const Corners of_a = a_.corners(items.a), of_b = b_.corners(items.b);
     // Nearly all neighbours of the nearest two triangles lie behind the planes that separate these two.
     for (std::size_t i = 0; i < count_; ++i) {
       const double apart = planes_[i].apart(of_a, of_b) - error_;
       if (apart < target_) continue;
       proved_ = std::min(proved_, apart);
-      return;
+      return false;
     }
     test(items, of_a, in_frame_of_a(of_b));
+    return true;
   }
 
   /// All pairs of triangles that were tested are at least `proved_` apart, those that were passed over at least the
@@ -126,7 +161,30 @@ class TrianglesGoal {
   }
 
  private:
-  static constexpr std::size_t kMostPlanes = 4;
+  static constexpr std::size_t kMostPlanes = 2;  // more take longer than they save
+
+  /// How far all triangles of a node reach along the first direction, or against it.
+  struct Support {
+    std::uint32_t node = ~std::uint32_t{0};
+    std::uint32_t direction = 0;  // counts the first directions there have been
+    float value = 0;
+
+    bool is_of(std::uint32_t of_node, std::uint32_t along) const { return node == of_node && direction == along; }
+  };
+  static constexpr std::size_t kSupports = 64;
+
+  /// Two nodes of the lowest level, by the first planes. A node is compared with many, so what is computed for it is
+  /// kept, until another one takes its place.
+  MEDIAL_VK_INLINE bool are_apart(std::uint32_t node_a, std::uint32_t node_b) const {
+    Support &of_a = ends_[node_a % kSupports], &of_b = starts_[node_b % kSupports];
+    if (!of_a.is_of(node_a, directions_)) {
+      of_a = {node_a, directions_, greatest_of(planes_[0].end_of(a_.triangles(node_a)))};
+    }
+    if (!of_b.is_of(node_b, directions_)) {
+      of_b = {node_b, directions_, -greatest_of(-planes_[0].start_of(b_.triangles(node_b)))};
+    }
+    return planes_[0].are_apart(of_a.value, of_b.value, reach_by_planes_);
+  }
 
   double proved_now() const { return std::min({proved_, target_, waiting_}); }
 
@@ -178,16 +236,17 @@ class TrianglesGoal {
     shorten();
   }
 
-  /// The planes of the nearest two triangles are the first; of the others the last few are kept.
+  /// The planes of the nearest two triangles are the first; the others are those before, or of a later pair.
   void keep(const Point& direction, bool is_best) {
+    const Planes planes(direction, placement_.pose(), placement_.shift());
     if (count_ < kMostPlanes) ++count_;
-    if (is_best) {
-      for (std::size_t i = count_ - 1; i > 0; --i) planes_[i] = planes_[i - 1];
-      planes_[0] = Planes(direction, placement_.pose(), placement_.shift());
-    } else {
-      for (std::size_t i = count_ - 1; i > 1; --i) planes_[i] = planes_[i - 1];
-      planes_[count_ > 1 ? 1 : 0] = Planes(direction, placement_.pose(), placement_.shift());
+    if (!is_best && count_ > 1) {
+      planes_[1] = planes;
+      return;
     }
+    planes_[1] = planes_[0];
+    planes_[0] = planes;
+    ++directions_;
   }
 
   /// Pairs at `target_` and beyond no longer matter: the nearest two triangles are not among them, or the interval is
@@ -200,7 +259,8 @@ class TrianglesGoal {
     target_ = std::min({best_.upper - options_.tolerance, most, limit}) - 4 * error_;
     reach_ = std::min(kFarther, rounded_up(target_ + float_error_));
     // A corner has an error of u M, u = 2^-24, and so has a direction; a product with it 4 u M more: 12 u M for both
-    // sides, and 8 u M for the shift and the last differences.
+    // sides, and 8 u M for the shift and the last differences. Boxes have 27 u M in all (docs/theory.md, "Exact
+    // distances"). float_error_ is at least 18 u M.
     reach_by_planes_ = std::min(kFarther, rounded_up(target_ + 2 * float_error_));
   }
 
@@ -219,6 +279,8 @@ class TrianglesGoal {
   float between_inner_balls_ = kFarther;  // the distance of the solids is at most this and two errors
   std::size_t count_ = 0;
   std::array<Planes, kMostPlanes> planes_;
+  mutable std::array<Support, kSupports> ends_, starts_;
+  std::uint32_t directions_ = 0;
 };
 
 }  // namespace
@@ -230,7 +292,10 @@ Distance nearest_triangles(const SurfaceTree& a, const SurfaceTree& b, const Pla
   if (has_start) goal.take({0, start.triangle_a, start.triangle_b});
   TreeSearch search(a.nodes(), b.nodes(), placement.float_pose(), goal);
   const auto run = [&]() __attribute__((always_inline)) {
-    if (!has_start) search.dive();
+    if (!has_start) {
+      search.template dive<true>();  // where solids are thin, the better way
+      search.dive();
+    }
     if (options.most_comparisons == DistanceOptions().most_comparisons) {
       search.run();
     } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "proximity/groups/smallest_ball_centre.h"
 
 namespace medial_vk {
@@ -157,23 +158,70 @@ SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned
   const BallsOfTriangles balls(solid, centre);
   tree.nodes_ = NodeTree::build(
       middles, [&](std::span<const std::uint32_t> triangles) { return balls.around(triangles); }, threads, {}, &watch);
+  tree.find_places();
   tree.collect_triangles(centre);
+  tree.collect_boxes(centre, threads, watch);
   return tree;
 }
 
+void SurfaceTree::find_places() {
+  std::uint32_t lowest = 0, others = 0;
+  place_.reserve(nodes_.size());
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) place_.push_back(nodes_.node(i).is_lowest ? lowest++ : others++);
+  triangles_.resize(lowest);
+  boxes_.resize(others);
+}
+
 void SurfaceTree::collect_triangles(const Point& centre) {
-  triangles_.resize(nodes_.size());
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const BodyNode& node = nodes_.node(i);
     if (!node.is_lowest) continue;
+    EightTriangles& triangles = triangles_[place_[i]];
     for (std::uint32_t k = 0; k < BodyNode::kWidth; ++k) {
       const Corners corners_of_slot = corners(node.below[k < node.count ? k : 0]);
       for (std::size_t c = 0; c < 3; ++c) {
         const std::array<float, 3> corner = float_ball_at(corners_of_slot[c] - centre).centre;
-        for (std::size_t axis = 0; axis < 3; ++axis) triangles_[i][c][axis][k] = corner[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) triangles[c][axis][k] = corner[axis];
       }
     }
   }
+}
+
+void SurfaceTree::collect_boxes(const Point& centre, unsigned threads, BuildWatch& watch) {
+  constexpr std::size_t kNodesOfBlock = 8;
+  parallel_for(nodes_.size(), kNodesOfBlock, threads, [&](std::size_t i) {
+    const BodyNode& node = nodes_.node(static_cast<std::uint32_t>(i));
+    if (node.is_lowest) return;
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      watch.check();
+      triangles.clear();
+      add_triangles_below(node, k, triangles);
+      boxes_[place_[i]].set(k, box_of(triangles, centre));
+    }
+  });
+}
+
+void SurfaceTree::add_triangles_below(const BodyNode& node, std::uint32_t slot,
+                                      std::vector<std::uint32_t>& triangles) const {
+  if (node.is_lowest) {
+    triangles.push_back(node.below[slot]);
+    return;
+  }
+  const BodyNode& below = nodes_.node(node.below[slot]);
+  for (std::uint32_t k = 0; k < below.count; ++k) add_triangles_below(below, k, triangles);
+}
+
+FloatBox SurfaceTree::box_of(std::span<const std::uint32_t> triangles, const Point& centre) const {
+  std::vector<Point> points;
+  points.reserve(3 * triangles.size());
+  Point normal = {0, 0, 0};
+  for (const std::uint32_t t : triangles) {
+    const auto [a, b, c] = corners(t);
+    normal = normal + cross(b - a, c - a);
+    for (const Point& corner : {a, b, c}) points.push_back(corner - centre);
+  }
+  return box_around(points, normal);
 }
 
 }  // namespace medial_vk

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "proximity/boxes/boxes.h"
 #include "proximity/node_tree.h"
 #include "proximity/triangle_pair.h"
 #include "solid/solid.h"
@@ -30,7 +31,9 @@ class SurfaceTree {
   const NodeTree& nodes() const { return nodes_; }
   std::size_t size() const { return mesh_->triangles.size(); }
   /// The triangles of a node of the lowest level; those of unused slots are the first one.
-  const EightTriangles& triangles(std::uint32_t node) const { return triangles_[node]; }
+  const EightTriangles& triangles(std::uint32_t node) const { return triangles_[place_[node]]; }
+  /// Of every other node: boxes that hold what its balls hold.
+  const EightBoxes& boxes(std::uint32_t node) const { return boxes_[place_[node]]; }
   Corners corners(std::uint32_t triangle) const {
     const Triangle& t = mesh_->triangles[triangle];
     return {mesh_->vertices[t[0]], mesh_->vertices[t[1]], mesh_->vertices[t[2]]};
@@ -38,11 +41,17 @@ class SurfaceTree {
 
  private:
   explicit SurfaceTree(const Mesh& mesh) : mesh_(&mesh) {}
+  void find_places();
   void collect_triangles(const Point& centre);
+  void collect_boxes(const Point& centre, unsigned threads, BuildWatch& watch);
+  void add_triangles_below(const BodyNode& node, std::uint32_t slot, std::vector<std::uint32_t>& triangles) const;
+  FloatBox box_of(std::span<const std::uint32_t> triangles, const Point& centre) const;
 
   const Mesh* mesh_;
   NodeTree nodes_;
-  std::vector<EightTriangles> triangles_;  // by node
+  std::vector<std::uint32_t> place_;  // by node, in one of these:
+  std::vector<EightTriangles> triangles_;
+  std::vector<EightBoxes> boxes_;
 };
 
 }  // namespace medial_vk

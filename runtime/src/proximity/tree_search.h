@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "medial_vk/pose.h"
@@ -62,13 +63,15 @@ struct BallsOfNodes {
 /// More than any separation of two balls, and less than that of an unused slot.
 constexpr float kFarther = 1e30f;
 
-/// Depth first, and of the pairs of a division the closest first. `Goal` has the members
+/// Depth first, and of the pairs of a division that of the least separation first, or with excess that of the least sum
+/// of the separation and both excesses. `Goal` has the members
+///   bool kHasExcess                     whether balls have an excess
 ///   float reach() const                 pairs of balls with a computed separation of this or more are passed over
 ///   void see(separation, BallsOfNodes)  two balls that are closer; may shorten the reach
-///   uint64 pairs_of(node_a, node_b)     of two nodes of the lowest level: bit 8 j + k, unless item k of a and item j
-///   of
-///                                       b are known to be too far apart
-///   void take(const CloseItems&)        two items whose balls are closer; may shorten the reach
+///   uint64 pairs_of(node_a, node_b)     of two nodes: bit 8 k + j, unless what ball k of a and ball j of b hold is
+///                                       known to be too far apart
+///   bool take(const CloseItems&)        two items whose balls are closer; may shorten the reach; true: pairs_of() may
+///                                       rule out more now
 ///   bool is_reached() const             true ends the search
 ///   void wait(float separation)         with a budget only: the pairs that are still to be compared have computed
 ///                                       separations of at least this
@@ -80,29 +83,25 @@ class TreeSearch {
   TreeSearch(const NodeTree& a, const NodeTree& b, const FloatPose& pose, Goal& goal)
       : a_(a), b_(b), pose_(pose), goal_(goal) {}
 
-  /// Straight down to two items, by way of the closest two of each division, for a first bound.
+  /// Straight down to two items, by way of the closest two balls of each division, for a first bound; of balls with
+  /// their excess, by way of those with the least sum of their separation and both excesses. What was computed on the
+  /// last way down is kept for run().
+  template <bool kWithExcess = false>
   MEDIAL_VK_INLINE void dive() {
-    std::uint32_t node_a = 0, node_b = 0;
+    steps_ = 0;
+    Task task = kAll;
     while (true) {
-      const BodyNode &a = a_.node(node_a), &b = b_.node(node_b);
-      const Centres centres = in_frame_of_a(b);
-      EightFloats least = kFarther - EightFloats{};
-      EightInts with{};
-      for (std::uint32_t j = 0; j < b.count; ++j) {
-        const EightFloats separations = square_root(squared_distances(a, centres, j)) - (load(a.radius) + b.radius[j]);
-        const EightInts is_less = separations < least;
-        least = select(is_less, separations, least);
-        with = (is_less & static_cast<std::int32_t>(j)) | (~is_less & with);
-      }
-      std::size_t k = 0;
-      for (std::size_t i = 1; i < kWidth; ++i) k = least[i] < least[k] ? i : k;
-      const std::uint32_t below_a = a.below[k], below_b = b.below[with[k]];
+      const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
+      Step& step = dive_[steps_++];
+      step.task = task;
+      const auto [k, j] = find_closest<kWithExcess>(a, b, step);
+      const float separation = step.separations[j][k];
+      step.closest = kWithExcess ? -kFarther : separation;
       if (a.is_lowest && b.is_lowest) {
-        goal_.take({least[k], below_a, below_b});
+        goal_.take({separation, a.below[k], b.below[j]});
         return;
       }
-      if (!a.is_lowest) node_a = below_a;
-      if (!b.is_lowest) node_b = below_b;
+      task = task_below(separation, task, a, k, b, j);
     }
   }
 
@@ -146,9 +145,59 @@ class TreeSearch {
   };
   static constexpr std::uint32_t kNoBall = ~std::uint32_t{0};
 
+  static constexpr Task kAll = {-kFarther, 0, 0, kNoBall};
+  static constexpr Task kNone = {kFarther, kNoBall, kNoBall, kNoBall};
+
+  /// Two nodes that dive() went through, and the separations of all their balls: of ball k of a in [j][k].
+  struct Step {
+    Task task;
+    float closest;  ///< No separation is less.
+    alignas(32) std::array<std::array<float, kWidth>, kWidth> separations;
+  };
+
+  /// Fills in the separations, and gives the indices k and j of the closest two balls.
+  template <bool kWithExcess>
+  MEDIAL_VK_INLINE std::array<std::uint32_t, 2> find_closest(const BodyNode& a, const BodyNode& b, Step& step) const {
+    const Centres centres = in_frame_of_a(b);
+    EightFloats least = kFarther - EightFloats{};
+    EightInts with{};
+    for (std::uint32_t j = 0; j < b.count; ++j) {
+      EightFloats separations = square_root(squared_distances(a, centres, j)) - (load(a.radius) + b.radius[j]);
+      step.separations[j] = stored(separations);
+      if constexpr (kWithExcess) separations += load(a.excess) + b.excess[j];
+      const EightInts is_less = separations < least;
+      least = select(is_less, separations, least);
+      with = (is_less & static_cast<std::int32_t>(j)) | (~is_less & with);
+    }
+    std::uint32_t k = 0;
+    for (std::uint32_t i = 1; i < kWidth; ++i) k = least[i] < least[k] ? i : k;
+    return {k, static_cast<std::uint32_t>(with[k])};
+  }
+
+  /// Tasks for all pairs, or, after a dive, for those beside its way; those of its last step are taken.
   MEDIAL_VK_INLINE void begin() {
-    tasks_[0] = {-kFarther, 0, 0, kNoBall};
-    count_ = 1;
+    if (steps_ == 0) tasks_[count_++] = kAll;
+    for (std::size_t i = 0; i < steps_ && !goal_.is_reached(); ++i) {
+      if (dive_[i].closest >= goal_.reach()) continue;
+      on_way_ = i + 1 < steps_ ? dive_[i + 1].task : kAll;
+      open(dive_[i]);
+    }
+    on_way_ = kAll;
+  }
+
+  MEDIAL_VK_INLINE void open(const Step& step) {
+    const Task& task = step.task;
+    const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
+    EightInts closer_to_a{};
+    for (std::uint32_t j = 0; j < b.count; ++j) {
+      closer_to_a |= (load(step.separations[j]) < goal_.reach()) & static_cast<std::int32_t>(1u << j);
+    }
+    std::uint64_t closer = bytes_of(closer_to_a);
+    if (closer != 0) closer &= goal_.pairs_of(task.node_a, task.node_b);
+    go_on(
+        task, a, b, closer, [&](std::uint32_t k, std::uint32_t j) __attribute__((always_inline)) {
+          return step.separations[j][k];
+        });
   }
 
   /// The centres of a node's balls in the frame of a.
@@ -189,58 +238,97 @@ class TreeSearch {
   MEDIAL_VK_INLINE void compare(const Task& task) {
     const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
     const bool are_lowest = a.is_lowest && b.is_lowest;
+    // What the goal knows of items rules out most pairs of nodes at once; of other nodes, balls rule out more.
     const std::uint64_t may_be_closer = are_lowest ? goal_.pairs_of(task.node_a, task.node_b) : ~std::uint64_t{0};
     if (may_be_closer == 0) return;
     const Centres centres = in_frame_of_a(b);
     const EightFloats reach_a = load(a.radius) + goal_.reach();
-    std::uint64_t closer = 0;  // bit 8 j + k: ball k of a and ball j of b
+    EightInts closer_to_a{};  // bit j of element k: ball k of a and ball j of b
     for (std::uint32_t near = near_balls(task, b, centres); near != 0; near &= near - 1) {
       const auto j = static_cast<std::uint32_t>(std::countr_zero(near));
       const EightFloats reach = reach_a + b.radius[j];
       const EightInts is_closer = (squared_distances(a, centres, j) < reach * reach) & (reach > 0);
-      closer |= std::uint64_t{bits_of(is_closer)} << (kWidth * j);
+      closer_to_a |= is_closer & static_cast<std::int32_t>(1u << j);
     }
-    closer &= may_be_closer;
-    first_ = count_;
+    std::uint64_t closer = bytes_of(closer_to_a) & may_be_closer;
+    if (closer != 0 && !are_lowest) closer &= goal_.pairs_of(task.node_a, task.node_b);
+    go_on(
+        task, a, b, closer, [&](std::uint32_t k, std::uint32_t j) __attribute__((always_inline)) {
+          const float x = a.centre[0][k] - centres.of[0][j], y = a.centre[1][k] - centres.of[1][j],
+                      z = a.centre[2][k] - centres.of[2][j];
+          return std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]);
+        });
+  }
+
+  /// With pairs that were closer than the reach when their nodes were compared: bit 8 k + j.
+  template <class Separation>
+  MEDIAL_VK_INLINE void go_on(const Task& task, const BodyNode& a, const BodyNode& b, std::uint64_t closer,
+                              const Separation& separation_of) {
+    if (a.is_lowest && b.is_lowest) {
+      take_items(task, a, b, closer, separation_of);
+      return;
+    }
+    const std::size_t first = count_;
+    // The best one of the division so far becomes the last one; sorting all would take longer than it saves.
+    Task next = kNone;
+    float least = std::numeric_limits<float>::max();
     for (; closer != 0; closer &= closer - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(closer));
-      const std::uint32_t k = bit % kWidth, j = bit / kWidth;
-      const float x = a.centre[0][k] - centres.of[0][j], y = a.centre[1][k] - centres.of[1][j],
-                  z = a.centre[2][k] - centres.of[2][j];
-      const float separation = std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]);
+      const std::uint32_t k = bit / kWidth, j = bit % kWidth;
+      const float separation = separation_of(k, j);
       goal_.see(separation, {&a, &b, k, j});
-      take(separation, task, a, k, b, j);
+      Task below = task_below(separation, task, a, k, b, j);
+      if (are_same(below, on_way_)) continue;
+      if (a.is_lowest != b.is_lowest && repeats(below, first, next)) continue;
+      float order = separation;
+      if constexpr (Goal::kHasExcess) order += a.excess[k] + b.excess[j];
+      if (order < least) {
+        least = order;
+        std::swap(below, next);
+      }
+      tasks_[count_] = below;
+      count_ += below.node_a != kNoBall ? 1 : 0;
+    }
+    if (next.node_a != kNoBall) tasks_[count_++] = next;
+  }
+
+  template <class Separation>
+  MEDIAL_VK_INLINE void take_items(const Task& task, const BodyNode& a, const BodyNode& b, std::uint64_t closer,
+                                   const Separation& separation_of) {
+    while (closer != 0) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(closer));
+      closer &= closer - 1;
+      const std::uint32_t k = bit / kWidth, j = bit % kWidth;
+      const float separation = separation_of(k, j);
+      if (!(separation < goal_.reach())) continue;
+      goal_.see(separation, {&a, &b, k, j});
+      const bool knows_more = goal_.take({separation, a.below[k], b.below[j]});
+      if (knows_more && closer != 0) closer &= goal_.pairs_of(task.node_a, task.node_b);
     }
   }
 
-  /// A pair that was closer than the reach when its nodes were compared.
-  MEDIAL_VK_INLINE void take(float separation, const Task& task, const BodyNode& a, std::uint32_t k, const BodyNode& b,
-                             std::uint32_t j) {
-    if (a.is_lowest && b.is_lowest) {
-      if (separation < goal_.reach()) goal_.take({separation, a.below[k], b.below[j]});
-      return;
-    }
-    const Task below = {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j],
-                        a.is_lowest ? task.above_a : static_cast<std::uint32_t>(task.node_a * kWidth + k)};
-    if (a.is_lowest == b.is_lowest || !repeats(below)) push(below);
+  MEDIAL_VK_INLINE static Task task_below(float separation, const Task& task, const BodyNode& a, std::uint32_t k,
+                                          const BodyNode& b, std::uint32_t j) {
+    return {separation, a.is_lowest ? task.node_a : a.below[k], b.is_lowest ? task.node_b : b.below[j],
+            a.is_lowest ? task.above_a : static_cast<std::uint32_t>(task.node_a * kWidth + k)};
+  }
+
+  MEDIAL_VK_INLINE static bool are_same(const Task& x, const Task& y) {
+    return x.node_a == y.node_a && x.node_b == y.node_b;
   }
 
   /// A node of the lowest level is not replaced, so several of its balls may give the same task: the closest one does.
-  MEDIAL_VK_INLINE bool repeats(const Task& task) {
-    std::size_t slot = first_;
-    while (slot < count_ && (tasks_[slot].node_a != task.node_a || tasks_[slot].node_b != task.node_b)) ++slot;
+  MEDIAL_VK_INLINE bool repeats(const Task& task, std::size_t first, Task& next) {
+    if (are_same(task, next)) {
+      next.separation = task.separation < next.separation ? task.separation : next.separation;
+      return true;
+    }
+    std::size_t slot = first;
+    while (slot < count_ && !are_same(task, tasks_[slot])) ++slot;
     if (slot == count_) return false;
     if (tasks_[slot].separation <= task.separation) return true;
     for (--count_; slot < count_; ++slot) tasks_[slot] = tasks_[slot + 1];
     return false;
-  }
-
-  /// Of the tasks of one division the closest is the last; sorting all would take longer than it saves.
-  MEDIAL_VK_INLINE void push(const Task& task) {
-    tasks_[count_] = task;
-    if (count_ > first_ && tasks_[count_ - 1].separation < task.separation)
-      std::swap(tasks_[count_ - 1], tasks_[count_]);
-    ++count_;
   }
 
   /// A comparison replaces a task by up to 64, at most once for each level of both trees.
@@ -250,8 +338,10 @@ class TreeSearch {
   const NodeTree& b_;
   const FloatPose& pose_;
   Goal& goal_;
-  std::size_t count_ = 0, first_ = 0;
+  std::size_t count_ = 0, steps_ = 0;
+  Task on_way_ = kAll;  // the next step of the way down, which is no task of its own
   std::array<Task, kMostTasks> tasks_;
+  std::array<Step, node_levels(kMostItems)> dive_;
 };
 
 /// Calls search() compiled for processors with AVX2 where there is one. `Search` is a function object whose call is

@@ -218,7 +218,7 @@ TEST(Distance, NarrowsWithItsBudget) {
   const Distance none = distance(a, b, apart, {.most_comparisons = 0}).value();
   const Distance some = distance(a, b, apart, {.most_comparisons = 20}).value();
   const Distance all = distance(a, b, apart).value();
-  EXPECT_EQ(none.lower, 0);
+  EXPECT_LE(none.lower, some.lower);  // what the first way down passes by is known without a comparison
   EXPECT_LT(none.upper, 2 * all.upper);
   EXPECT_GT(some.lower, 0.7 * all.lower);
   EXPECT_LT(some.lower, all.lower);
