@@ -40,10 +40,7 @@ class Planes {
   /// How far eight triangles of a, or what eight boxes hold, reach along the direction.
   MEDIAL_VK_INLINE EightFloats end_of(const SurfaceTree::EightTriangles& a) const {
     EightFloats end = along(a[0], float_of_a_);
-    for (std::size_t corner = 1; corner < 3; ++corner) {
-      const EightFloats next = along(a[corner], float_of_a_);
-      end = select(next > end, next, end);
-    }
+    for (std::size_t corner = 1; corner < 3; ++corner) end = greater(along(a[corner], float_of_a_), end);
     return end;
   }
   MEDIAL_VK_INLINE EightFloats end_of(const EightBoxes& a) const {
@@ -53,10 +50,7 @@ class Planes {
   /// Where those of b begin.
   MEDIAL_VK_INLINE EightFloats start_of(const SurfaceTree::EightTriangles& b) const {
     EightFloats start = along(b[0], float_of_b_);
-    for (std::size_t corner = 1; corner < 3; ++corner) {
-      const EightFloats next = along(b[corner], float_of_b_);
-      start = select(next < start, next, start);
-    }
+    for (std::size_t corner = 1; corner < 3; ++corner) start = lesser(along(b[corner], float_of_b_), start);
     return start;
   }
   MEDIAL_VK_INLINE EightFloats start_of(const EightBoxes& b) const {
