@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/eight_floats.h"
 #include "base/point_ops.h"
 #include "medial_vk/pose.h"
-#include "proximity/eight_floats.h"
 #include "swept_rectangle.h"
 
 namespace medial_vk::bench {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "base/eight_floats.h"
 #include "base/format_text.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "body_groups/group_parts.h"
-#include "proximity/eight_floats.h"
 #include "proximity/pair_query.h"
 
 namespace medial_vk {
@@ -58,7 +58,7 @@ class LeastSearch {
         sweep(links);
       }
     };
-    search_on_this_processor(sweep_all);
+    run_on_this_processor(sweep_all);
     drain();
     best_.lower = std::min(best_.lower, best_.upper);
     return best_;

@@ -41,7 +41,7 @@ ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose
     if (!has_start) search.dive();
     search.run();
   };
-  search_on_this_processor(run);
+  run_on_this_processor(run);
   return goal.best;
 }
 

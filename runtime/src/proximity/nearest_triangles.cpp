@@ -296,7 +296,7 @@ Distance nearest_triangles(const SurfaceTree& a, const SurfaceTree& b, const Pla
       search.run(options.most_comparisons);
     }
   };
-  search_on_this_processor(run);
+  run_on_this_processor(run);
   return goal.result();
 }
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/eight_floats.h"
 #include "medial_vk/pose.h"
-#include "proximity/eight_floats.h"
 #include "proximity/node_tree.h"
 
 namespace medial_vk {
@@ -343,25 +343,5 @@ class TreeSearch {
   std::array<Task, kMostTasks> tasks_;
   std::array<Step, node_levels(kMostItems)> dive_;
 };
-
-/// Calls search() compiled for processors with AVX2 where there is one. `Search` is a function object whose call is
-/// inlined.
-#if defined(__x86_64__) && defined(__GNUC__)
-template <class Search>
-__attribute__((target("avx2"))) void search_with_avx2(Search& search) {
-  search();
-}
-#endif
-
-template <class Search>
-void search_on_this_processor(Search& search) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx2")) {
-    search_with_avx2(search);
-    return;
-  }
-#endif
-  search();
-}
 
 }  // namespace medial_vk

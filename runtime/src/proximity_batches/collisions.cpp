@@ -1,5 +1,6 @@
 #include "medial_vk/collisions.h"
 
+#include "base/eight_floats.h"
 #include "base/parallel.h"
 #include "proximity/body.h"
 #include "proximity/large_balls.h"
@@ -62,7 +63,7 @@ void collide_by_balls(const Body& a, const Body& b, std::span<const Pose> poses,
     const auto decide_block = [&]() __attribute__((always_inline)) {
       for (std::size_t i = begin; i < end; ++i) verdicts[i] = decide(in_a, in_b, poses[i]);
     };
-    search_on_this_processor(decide_block);
+    run_on_this_processor(decide_block);
   });
 }
 
@@ -75,7 +76,7 @@ void collide_by_balls(std::span<const Body> bodies, std::span<const PosedPair> p
         verdicts[i] = decide(Internals::of(bodies[a]), Internals::of(bodies[b]), pose);
       }
     };
-    search_on_this_processor(decide_block);
+    run_on_this_processor(decide_block);
   });
 }
 

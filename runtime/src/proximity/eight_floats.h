@@ -1,3 +1,0 @@
-#pragma once
-
-#include "base/eight_floats.h"
