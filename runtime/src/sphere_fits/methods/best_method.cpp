@@ -178,7 +178,6 @@ class Placing {
     const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
     Result<std::vector<Ball>> balls = find_medial_balls(solid_, options, extractor_, part);
     if (!balls) return balls.error();
-    std::erase_if(balls.value(), [&](const Ball& ball) { return !stays_inside(solid_, ball); });
     candidates_.add(balls.value());
     return {};
   }
@@ -204,7 +203,7 @@ class Placing {
   std::optional<Ball> ball_in_widest_gap() {
     const GapFinder::Gap outer = gaps_.widest_on_boundary(), inner = gaps_.deepest_vertex();
     const std::optional<Point> inside = outer.size > inner.size ? point_inside(outer) : inner.at;
-    if (!inside) return std::nullopt;
+    if (!inside || !solid_.contains(*inside)) return std::nullopt;
     const Ball ball = maximal_ball(solid_, *inside);
     return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
   }
@@ -274,7 +273,7 @@ class Placing {
     std::vector<Ball> balls;
     for (const std::uint32_t slot : around) {
       const std::optional<Point> vertex = gaps_.deepest_vertex(slot);
-      if (!vertex) continue;
+      if (!vertex || !solid_.contains(*vertex)) continue;
       const Ball ball = maximal_ball(solid_, *vertex);
       if (ball.radius > 0 && stays_inside(solid_, ball)) balls.push_back(ball);
     }

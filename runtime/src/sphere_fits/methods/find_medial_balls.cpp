@@ -14,7 +14,11 @@ Result<std::vector<Ball>> find_medial_balls(const Solid& solid, const Extraction
   if (!found) return found.error();
   std::vector<Ball> balls;
   balls.reserve(found.value().extraction.spheres.size());
-  for (const MedialSphere& s : found.value().extraction.spheres) balls.push_back({s.centre, s.radius});
+  for (const MedialSphere& s : found.value().extraction.spheres) {
+    // A solid may be thinner than epsilon or than the rounding of an extraction in float. Points beside it can then
+    // pass the certificate, which is about the distance from the boundary on either side.
+    if (solid.contains(s.centre)) balls.push_back({s.centre, s.radius});
+  }
   return balls;
 }
 

@@ -23,7 +23,7 @@ struct SphereSet {
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };
 
-/// Certified balls of the medial points of the solid. Errors: those of extract_and_certify().
+/// Certified balls of the medial points inside the solid. Errors: those of extract_and_certify().
 Result<std::vector<Ball>> find_medial_balls(const Solid& solid, const ExtractionOptions& options,
                                             const Extractor& extractor, const SphereProgress& progress);
 

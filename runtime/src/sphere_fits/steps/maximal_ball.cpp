@@ -19,7 +19,10 @@ Ball maximal_ball(const Solid& solid, const Point& inside) {
     // Points that are nearer than the contact by rounding only are the contact.
     const BvhHit nearer = solid.bvh().closest(centre, radius - 4 * solid.rounding());
     if (nearer.triangle == BvhHit().triangle) {
-      return {centre, std::min(radius, solid.distance(centre)) - solid.rounding()};
+      const Ball ball = {centre, std::min(radius, solid.distance(centre)) - solid.rounding()};
+      // The boundary does not meet this ball, so it is in the solid if it holds the point. In a thin part, the
+      // direction away from the contact is so inexact that it may not; lengths have relative errors of a few 2^-53.
+      return length(centre - inside) * (1 + 0x1p-48) < ball.radius ? ball : around;
     }
     // The ball through the contact and that point: |w - R u| = R.
     const Point w = nearer.point - contact.point;

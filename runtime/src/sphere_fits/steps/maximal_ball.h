@@ -8,7 +8,7 @@ namespace medial_vk {
 
 /// Grows the largest empty ball around `inside`, a point of the solid, away from its contact until it touches the
 /// boundary a second time (the shrinking ball of J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation using
-/// nearest neighbors and the normal field", 2012). The result holds that ball, so its centre lies in the solid; its
+/// nearest neighbors and the normal field", 2012). The result holds `inside`, so its centre lies in the solid; its
 /// radius is at most the exact distance of its centre. Radius 0 or below: the distance of the point to the boundary is
 /// below rounding.
 Ball maximal_ball(const Solid& solid, const Point& inside);
