@@ -30,10 +30,10 @@ void expect_closest(const reference::Tree& tree, const std::vector<Point>& point
   ASSERT_EQ(found.size(), points.size());
   double squares = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d p = vector(points[i]);
+    const Eigen::Vector3d p = test::to_eigen(points[i]);
     const double truth = tree.closest(p).distance;
     ASSERT_NEAR(found[i].distance, truth, kPacketTolerance * longest) << "query " << i;
-    ASSERT_NEAR((vector(found[i].point) - p).norm(), found[i].distance, 1e-12 * longest);
+    ASSERT_NEAR((test::to_eigen(found[i].point) - p).norm(), found[i].distance, 1e-12 * longest);
     const reference::TrianglePoint on = tree.closest_on(static_cast<int>(found[i].triangle), p);
     ASSERT_NEAR(std::sqrt(on.squared_distance), truth, kPacketTolerance * longest) << "query " << i;
     squares += std::pow((found[i].distance - truth) / longest, 2);

@@ -19,12 +19,12 @@ TEST_F(TreeQueriesTest, ClosestPoints) {
     double squares = 0;
     int other_features = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d p = vector(points[i]);
+      const Eigen::Vector3d p = test::to_eigen(points[i]);
       const reference::Closest truth = tree.closest(p);
       const ClosestPoint& hit = found.value()[i];
       ASSERT_NEAR(hit.distance, truth.distance, tolerance);
-      ASSERT_NEAR((vector(hit.point) - p).norm(), hit.distance, 1e-12 * tree.longest_side());
-      ASSERT_LE(tree.closest(vector(hit.point)).distance, tolerance);
+      ASSERT_NEAR((test::to_eigen(hit.point) - p).norm(), hit.distance, 1e-12 * tree.longest_side());
+      ASSERT_LE(tree.closest(test::to_eigen(hit.point)).distance, tolerance);
       ASSERT_LT(hit.triangle, solid.mesh.triangles.size());
       const reference::TrianglePoint on = tree.closest_on(static_cast<int>(hit.triangle), p);
       ASSERT_NEAR(std::sqrt(on.squared_distance), truth.distance, tolerance);
@@ -68,7 +68,7 @@ TEST_F(TreeQueriesTest, EmptyBalls) {
     std::vector<std::uint8_t> expected;
     int k = 0;
     for (const Point& p : points_in_box(tree, 2000, 2)) {
-      const double distance = tree.closest(vector(p)).distance;
+      const double distance = tree.closest(test::to_eigen(p)).distance;
       const double change = ++k % 3 == 0 ? 0.2 * distance : 0.0;  // most just beside the boundary
       const bool inside = k % 2 == 0;
       balls.push_back({p, inside ? distance - change - tolerance : distance + change + tolerance});
@@ -104,8 +104,8 @@ TEST_F(TreeQueriesTest, WindingNumbers) {
       const std::vector<double> numbers = scene.winding_numbers(points, tolerance).value();
       double worst = 0;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        if (tree.closest(vector(points[i])).distance < 0.02 * tree.longest_side()) continue;
-        worst = std::max(worst, std::abs(numbers[i] - reference::winding_number(tree, vector(points[i]))));
+        if (tree.closest(test::to_eigen(points[i])).distance < 0.02 * tree.longest_side()) continue;
+        worst = std::max(worst, std::abs(numbers[i] - reference::winding_number(tree, test::to_eigen(points[i]))));
       }
       EXPECT_LE(worst, tolerance + kWindingRounding);
     }
@@ -124,7 +124,7 @@ TEST_F(TreeQueriesTest, Fluxes) {
     const double longest = tree.longest_side();
     std::vector<Ball> spheres;
     for (const Point& p : points_in_box(tree, 1000, 4)) {
-      const double room = tree.closest(vector(p)).distance - 0.02 * longest;
+      const double room = tree.closest(test::to_eigen(p)).distance - 0.02 * longest;
       if (room > 0.01 * longest) spheres.push_back({p, std::min(room, 0.1 * longest)});
     }
     const std::vector<Eigen::Vector3d> directions = reference::spiral_points(kSamples);
@@ -132,7 +132,7 @@ TEST_F(TreeQueriesTest, Fluxes) {
     int undecided = 0;
     for (std::size_t i = 0; i < spheres.size(); ++i) {
       const reference::Flux truth =
-          reference::outward_flux(tree, vector(spheres[i].centre), spheres[i].radius, directions);
+          reference::outward_flux(tree, test::to_eigen(spheres[i].centre), spheres[i].radius, directions);
       EXPECT_NEAR(found[i].greatest_distance, truth.greatest_distance, kDistanceTolerance * longest);
       const bool same = static_cast<int>(found[i].fans) == truth.fans;
       const double error = std::abs(found[i].flux - truth.average);
@@ -158,7 +158,7 @@ TEST_F(TreeQueriesTest, CentreOfASphere) {
   const double tolerance = kDistanceTolerance * tree.longest_side();
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double truth = tree.closest(vector(points[i])).distance;
+    const double truth = tree.closest(test::to_eigen(points[i])).distance;
     EXPECT_NEAR(found.value()[i].distance, truth, tolerance);
     balls.push_back({points[i], truth + (i % 2 == 0 ? -tolerance : tolerance)});
   }
@@ -180,10 +180,10 @@ TEST_F(TreeQueriesTest, SmallMeshes) {
     const auto found = scene.closest_points(points).value();
     const auto numbers = scene.winding_numbers(points, 0.02).value();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double truth = tree.closest(vector(points[i])).distance;
+      const double truth = tree.closest(test::to_eigen(points[i])).distance;
       EXPECT_NEAR(found[i].distance, truth, kDistanceTolerance * tree.longest_side());
       if (truth < 0.02 * tree.longest_side()) continue;
-      EXPECT_NEAR(numbers[i], reference::winding_number(tree, vector(points[i])), 0.02 + kWindingRounding);
+      EXPECT_NEAR(numbers[i], reference::winding_number(tree, test::to_eigen(points[i])), 0.02 + kWindingRounding);
     }
   }
 }

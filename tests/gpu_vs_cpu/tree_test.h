@@ -17,6 +17,7 @@
 #include "cpu_reference/queries.h"
 #include "medial_vk/scene.h"
 #include "support/device/device_test.h"
+#include "support/eigen_points.h"
 #include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/solids.h"
@@ -24,8 +25,6 @@
 namespace medial_vk {
 
 constexpr double kDistanceTolerance = 2.2e-6;
-
-inline Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 
 struct NamedSolid {
   std::string name;

@@ -15,6 +15,7 @@
 
 #include "cpu_reference/queries.h"
 #include "medial_vk/foam.h"
+#include "support/eigen_points.h"
 
 namespace medial_vk {
 namespace {
@@ -23,8 +24,8 @@ using Eigen::Vector3d;
 
 constexpr double kQueryError = 1e-12;  // of all distances here: a few units in the last place of 1
 
-Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
-Point to_point(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+using test::to_eigen;
+using test::to_point;
 
 class Random {
  public:

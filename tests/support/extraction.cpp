@@ -89,8 +89,6 @@ SphereByVoxel spheres_by_voxel(const Extraction& extraction) {
   return out;
 }
 
-Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
-
 Voxel voxel_of(const VoxelGrid& grid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d scaled = ((p - to_eigen(grid.origin)) / grid.voxel_size).array().floor();
   return {static_cast<int>(scaled.x()), static_cast<int>(scaled.y()), static_cast<int>(scaled.z())};

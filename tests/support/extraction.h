@@ -13,6 +13,7 @@
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/mesh.h"
+#include "support/eigen_points.h"
 
 namespace medial_vk::test {
 
@@ -42,7 +43,6 @@ using Voxel = std::array<int, 3>;
 using SphereByVoxel = std::map<Voxel, std::size_t>;
 SphereByVoxel spheres_by_voxel(const Extraction& extraction);
 
-Eigen::Vector3d to_eigen(const Point& p);
 /// The voxel of a point, as the medial PLY defines it.
 Voxel voxel_of(const VoxelGrid& grid, const Eigen::Vector3d& p);
 /// Distance from a point to the faces of its voxel, as a fraction of the voxel's side: 0 to 1/2.

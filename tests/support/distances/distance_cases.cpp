@@ -9,6 +9,7 @@
 #include "base/point_ops.h"
 #include "medial_vk/collisions.h"
 #include "medial_vk/resumable_bounds.h"
+#include "support/distances/reference_motion.h"
 #include "support/random_poses.h"
 
 namespace medial_vk::test {
@@ -140,23 +141,12 @@ Pose make_pose_of_kind(PoseKind kind, const DistanceSolid& a, const DistanceSoli
   return make_pose_of_kind(static_cast<PoseKind>(below(random, kPoseKinds - 1)), a, b, random);
 }
 
-reference::Motion motion_of(const Pose& pose) {
-  reference::Motion motion;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      motion.rotation(static_cast<int>(i), static_cast<int>(j)) = pose.rotation[i][j];
-    }
-    motion.shift[static_cast<int>(i)] = pose.shift[i];
-  }
-  return motion;
-}
-
 /// Compares with the reference's distances of the solids and of the surfaces, which are intervals where rounding may
 /// decide.
 class Comparison {
  public:
   Comparison(const DistanceCase& of, std::uint64_t seed) : case_(of), seed_(seed), random_(~seed) {
-    const reference::Motion motion = motion_of(of.pose);
+    const reference::Motion motion = to_reference(of.pose);
     rounding_ = 0x1p-53 * (of.a->reference.reach() + of.b->reference.reach() + motion.shift.norm());
     const double distance = reference::nearest_of_meshes(of.a->reference, of.b->reference, motion).distance;
     surfaces_ = solids_ = {distance, distance};

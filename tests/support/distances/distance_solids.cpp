@@ -1,12 +1,12 @@
 #include "support/distances/distance_solids.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "medial_vk/prepare.h"
+#include "support/eigen_points.h"
 #include "support/indexed.h"
 #include "support/reference_mesh.h"
 #include "support/solids/mutations.h"
@@ -15,11 +15,6 @@
 namespace medial_vk::test {
 namespace {
 
-Mesh moved(Mesh mesh, const Point& by) {
-  translate(mesh, by);
-  return mesh;
-}
-
 Mesh scaled(Mesh mesh, double by) {
   scale(mesh, by);
   return mesh;
@@ -27,26 +22,6 @@ Mesh scaled(Mesh mesh, double by) {
 
 Mesh turned(Mesh mesh) {
   rotate(mesh, {1, 2, 3}, 0.7);
-  return mesh;
-}
-
-Mesh shell() {
-  Mesh mesh = make_sphere(1, 180), cavity = make_sphere(0.7, 80);
-  turn_over(cavity);
-  append(mesh, cavity);
-  return mesh;
-}
-
-Mesh two_parts() {
-  Mesh mesh = make_sphere(0.3, 80);
-  append(mesh, moved(make_box({0.4, 0.5, 0.6}), {0.8, 0.1, 0}));
-  return mesh;
-}
-
-Mesh tetrahedron(const std::array<Point, 4>& corners) {
-  Mesh mesh;
-  mesh.vertices.assign(corners.begin(), corners.end());
-  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
   return mesh;
 }
 
@@ -71,20 +46,19 @@ std::vector<Named> regular_meshes() {
           {"two holes", make_plate_with_two_holes(0.2, 0.1)},
           {"capsule", make_capsule(0.2, 0.8, 12)},
           {"ellipsoid", turned(make_ellipsoid({0.6, 0.4, 0.2}, 14))},
-          {"shell", shell()},
-          {"parts", two_parts()},
-          {"tetrahedron", tetrahedron({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})},
+          {"shell", make_shell(180, 80)},
+          {"parts", make_two_parts(80)},
+          {"tetrahedron", make_tetrahedron({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})},
           {"large sphere", make_sphere(0.5, 600)}};
 }
 
 std::vector<Named> degenerate_meshes() {
-  std::vector<Named> all = {
-      {"needle", make_box({2, 0.01, 0.02}), true},
-      {"sliver", turned(tetrahedron({{{0, 0, 0}, {1, 1e-6, 0}, {2, 0, 1e-7}, {1, 1e-3, 1e-3}}})), true},
-      {"film", turned(make_box({1, 1, 1e-7})), true},
-      {"box without a lid", without_its_first_triangles(make_box({1, 1, 1}), 2), true},
-      {"open sphere", without_its_first_triangles(make_sphere(0.5, 180), 25), true},
-      {"triangle", without_its_first_triangles(make_box({1, 1, 1}), 11), true}};
+  std::vector<Named> all = {{"needle", make_box({2, 0.01, 0.02}), true},
+                            {"sliver", turned(make_sliver()), true},
+                            {"film", turned(make_box({1, 1, 1e-7})), true},
+                            {"box without a lid", without_its_first_triangles(make_box({1, 1, 1}), 2), true},
+                            {"open sphere", without_its_first_triangles(make_sphere(0.5, 180), 25), true},
+                            {"triangle", without_its_first_triangles(make_box({1, 1, 1}), 11), true}};
   for (std::uint64_t seed = 1; seed <= 2 * mutation_count(); ++seed) {
     Mutation mutation = make_mutation(seed);
     if (mutation.mesh.triangles.size() > 600) continue;
@@ -111,7 +85,7 @@ BallSets grid_balls(const IndexedMesh& mesh, int cells) {
     for (int j = 0; j < count_along(1); ++j) {
       for (int k = 0; k < count_along(2); ++k) {
         const Point c = {lower[0] + (i + 0.5) * side, lower[1] + (j + 0.5) * side, lower[2] + (k + 0.5) * side};
-        const Eigen::Vector3d centre(c[0], c[1], c[2]);
+        const Eigen::Vector3d centre = to_eigen(c);
         const double distance = tree.closest(centre).distance;
         const bool is_in = prepared.report.closed && reference::is_inside(tree, centre);
         if (is_in || distance <= half_diagonal + slack) sets.cover.push_back({c, half_diagonal + slack});

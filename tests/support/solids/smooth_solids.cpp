@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "support/eigen_points.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk::test {
@@ -18,9 +19,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-
-Vector3d as_vector(const Point& p) { return {p[0], p[1], p[2]}; }
-Point as_point(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Angle between unit vectors, accurate when small.
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -73,7 +71,7 @@ class Pear : public SmoothSolid {
     std::uint32_t segments = 8;
     while (make_capsule(middle, length_, segments).triangles.size() < triangles) segments += 2;
     Mesh mesh = make_capsule(middle, length_, segments);
-    for (Point& p : mesh.vertices) p = as_point(from_capsule(as_vector(p), middle));
+    for (Point& p : mesh.vertices) p = to_point(from_capsule(to_eigen(p), middle));
     return mesh;
   }
 
@@ -158,7 +156,7 @@ class Ellipsoid : public SmoothSolid {
     // 20 n^2 faces, so that n doubles where `triangles` grows fourfold.
     const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(triangles / 20.0)));
     Mesh mesh = make_sphere(1, 20 * n * n);
-    for (Point& p : mesh.vertices) p = as_point(as_vector(p).cwiseProduct(semi_));
+    for (Point& p : mesh.vertices) p = to_point(to_eigen(p).cwiseProduct(semi_));
     return mesh;
   }
 
@@ -208,7 +206,7 @@ std::vector<double> shortest_edges(const Mesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      const double length = (as_vector(mesh.vertices[a]) - as_vector(mesh.vertices[b])).norm();
+      const double length = (to_eigen(mesh.vertices[a]) - to_eigen(mesh.vertices[b])).norm();
       shortest[a] = std::min(shortest[a], length);
       shortest[b] = std::min(shortest[b], length);
     }
@@ -227,15 +225,15 @@ void jitter(const SmoothSolid& solid, Mesh& mesh, std::mt19937_64& random) {
   const std::vector<double> shortest = shortest_edges(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const double length = share(random) * shortest[i];
-    const Vector3d moved = as_vector(mesh.vertices[i]) + length * random_direction(random);
-    mesh.vertices[i] = as_point(solid.nearest(moved).point);
+    const Vector3d moved = to_eigen(mesh.vertices[i]) + length * random_direction(random);
+    mesh.vertices[i] = to_point(solid.nearest(moved).point);
   }
 }
 
 /// Largest angle between the normal of a face and the solid's at its corners.
 double turn_of(const SmoothSolid& solid, const Mesh& mesh, const Triangle& t) {
-  const std::array<Vector3d, 3> p = {as_vector(mesh.vertices[t[0]]), as_vector(mesh.vertices[t[1]]),
-                                     as_vector(mesh.vertices[t[2]])};
+  const std::array<Vector3d, 3> p = {to_eigen(mesh.vertices[t[0]]), to_eigen(mesh.vertices[t[1]]),
+                                     to_eigen(mesh.vertices[t[2]])};
   const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
   double turn = 0;
   for (const Vector3d& corner : p) turn = std::max(turn, angle_between(normal, solid.nearest(corner).normal));
@@ -305,14 +303,14 @@ void make_irregular(const SmoothSolid& solid, Mesh& mesh, std::uint64_t seed) {
 
 void add_noise(Mesh& mesh, double length, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  for (Point& p : mesh.vertices) p = as_point(as_vector(p) + length * random_direction(random));
+  for (Point& p : mesh.vertices) p = to_point(to_eigen(p) + length * random_direction(random));
 }
 
 double longest_side(const Mesh& mesh) {
-  Vector3d lower = as_vector(mesh.vertices[0]), upper = lower;
+  Vector3d lower = to_eigen(mesh.vertices[0]), upper = lower;
   for (const Point& p : mesh.vertices) {
-    lower = lower.cwiseMin(as_vector(p));
-    upper = upper.cwiseMax(as_vector(p));
+    lower = lower.cwiseMin(to_eigen(p));
+    upper = upper.cwiseMax(to_eigen(p));
   }
   return (upper - lower).maxCoeff();
 }
@@ -321,8 +319,8 @@ double deviation(const SmoothSolid& solid, const Mesh& mesh) {
   double largest = 0;
   const auto measure_at = [&](const Vector3d& p) { largest = std::max(largest, (p - solid.nearest(p).point).norm()); };
   for (const Triangle& t : mesh.triangles) {
-    const Vector3d a = as_vector(mesh.vertices[t[0]]), b = as_vector(mesh.vertices[t[1]]),
-                   c = as_vector(mesh.vertices[t[2]]);
+    const Vector3d a = to_eigen(mesh.vertices[t[0]]), b = to_eigen(mesh.vertices[t[1]]),
+                   c = to_eigen(mesh.vertices[t[2]]);
     for (const Vector3d& p : {a, b, c}) measure_at(p);
     for (const Vector3d& p : {Vector3d(a + b), Vector3d(b + c), Vector3d(c + a)}) measure_at(p / 2);
     measure_at((a + b + c) / 3);

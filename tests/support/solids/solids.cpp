@@ -1,6 +1,7 @@
 #include "support/solids/solids.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -286,6 +287,28 @@ void rotate(Mesh& mesh, Point axis, double angle) {
   }
 }
 
+Mesh make_tetrahedron(const std::array<Point, 4>& corners) {
+  Mesh mesh;
+  mesh.vertices.assign(corners.begin(), corners.end());
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  return mesh;
+}
+
+Mesh make_sliver() { return make_tetrahedron({{{0, 0, 0}, {2, 0, 1e-7}, {1, 1e-6, 0}, {1, 1e-3, 1e-3}}}); }
+
+Mesh make_shell(std::uint32_t triangles, std::uint32_t of_cavity) {
+  Mesh mesh = make_sphere(1, triangles), cavity = make_sphere(0.7, of_cavity);
+  turn_over(cavity);
+  append(mesh, cavity);
+  return mesh;
+}
+
+Mesh make_two_parts(std::uint32_t triangles) {
+  Mesh mesh = make_sphere(0.3, triangles);
+  append(mesh, moved(make_box({0.4, 0.5, 0.6}), {0.8, 0.1, 0}));
+  return mesh;
+}
+
 Mesh make_turned_torus(std::uint32_t around, std::uint32_t along) {
   Mesh mesh = make_torus(1.0, 0.4, around, along);
   rotate(mesh, {1, 2, 3}, 0.7);
@@ -306,6 +329,11 @@ void translate(Mesh& mesh, Point offset) {
   for (Point& p : mesh.vertices) {
     for (int k = 0; k < 3; ++k) p[k] += offset[k];
   }
+}
+
+Mesh moved(Mesh mesh, const Point& offset) {
+  translate(mesh, offset);
+  return mesh;
 }
 
 void scale(Mesh& mesh, double factor) {

@@ -2,6 +2,7 @@
 // outside, watertight, in a generic position only after rotate().
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "medial_vk/mesh.h"
@@ -29,6 +30,15 @@ Mesh make_plate_with_hole(double side, double thickness, double hole);
 /// to 4.
 Mesh make_plate_with_two_holes(double a, double thickness);
 
+/// Seen from the fourth corner, the first three run counter-clockwise.
+Mesh make_tetrahedron(const std::array<Point, 4>& corners);
+/// A tetrahedron that is 2 long and nowhere thicker than 1e-6.
+Mesh make_sliver();
+/// A sphere of radius 1, of `triangles` triangles, with a cavity of radius 0.7, of `of_cavity` triangles.
+Mesh make_shell(std::uint32_t triangles, std::uint32_t of_cavity);
+/// A sphere of `triangles` triangles and, apart from it, a box.
+Mesh make_two_parts(std::uint32_t triangles);
+
 /// A torus of radii 1 and 0.4 in a generic position.
 Mesh make_turned_torus(std::uint32_t around = 60, std::uint32_t along = 30);
 
@@ -40,6 +50,7 @@ Mesh bent(Mesh mesh);
 /// Rigid motions and scalings, in place.
 void rotate(Mesh& mesh, Point axis, double angle);
 void translate(Mesh& mesh, Point offset);
+Mesh moved(Mesh mesh, const Point& offset);
 void scale(Mesh& mesh, double factor);
 
 /// Both meshes in one, vertices of `other` after those of `mesh`.

@@ -24,11 +24,6 @@ inline std::string refusal(const Mesh& mesh) {
   return prepared.error().message;
 }
 
-inline Mesh moved(Mesh mesh, const Point& offset) {
-  translate(mesh, offset);
-  return mesh;
-}
-
 inline Mesh together(Mesh a, const Mesh& b) {
   append(a, b);
   return a;

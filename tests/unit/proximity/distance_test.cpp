@@ -12,6 +12,7 @@
 #include "cpu_reference/distance.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/proximity.h"
+#include "support/distances/reference_motion.h"
 #include "support/indexed.h"
 #include "support/random_poses.h"
 #include "support/reference_mesh.h"
@@ -27,24 +28,6 @@ struct Solids {
   Mesh mesh;
 };
 
-Mesh moved(Mesh mesh, const Point& by) {
-  translate(mesh, by);
-  return mesh;
-}
-
-Mesh shell() {
-  Mesh mesh = make_sphere(1, 300), cavity = make_sphere(0.7, 200);
-  turn_over(cavity);
-  append(mesh, cavity);
-  return mesh;
-}
-
-Mesh two_parts() {
-  Mesh mesh = make_sphere(0.3, 200);
-  append(mesh, moved(make_box({0.4, 0.5, 0.6}), {0.8, 0.1, 0}));
-  return mesh;
-}
-
 std::vector<Solids> all_solids() {
   return {{"box", make_box({1, 1, 1})},
           {"needle", make_box({2, 0.01, 0.02})},
@@ -53,27 +36,18 @@ std::vector<Solids> all_solids() {
           {"torus", make_torus(0.5, 0.2, 20, 30)},
           {"cup", make_cup(0.5, 0.1, 0.8, 24)},
           {"L", make_l_shape(1, 0.3, 0.4)},
-          {"shell", shell()},
-          {"parts", two_parts()}};
+          {"shell", make_shell(300, 200)},
+          {"parts", make_two_parts(200)}};
 }
 
 Body body_of(const Mesh& mesh) { return Body::create(indexed(prepare_mesh(mesh).value())).value(); }
 
-Eigen::Vector3d eigen(const Point& p) { return {p[0], p[1], p[2]}; }
-
-reference::Motion motion_of(const Pose& pose) {
-  reference::Motion motion;
-  for (int i = 0; i < 3; ++i) motion.rotation.row(i) = eigen(pose.rotation[static_cast<std::size_t>(i)]);
-  motion.shift = eigen(pose.shift);
-  return motion;
-}
-
 /// The distance of the solids, by the reference.
 double exact_distance(const Mesh& a, const Mesh& b, const Pose& pose, bool surfaces_only) {
   const reference::Mesh of_a = to_reference(a), of_b = to_reference(b);
-  const double distance = reference::nearest_of_meshes(of_a, of_b, motion_of(pose)).distance;
+  const double distance = reference::nearest_of_meshes(of_a, of_b, test::to_reference(pose)).distance;
   if (surfaces_only || distance == 0) return distance;
-  return reference::one_holds_the_other(of_a, of_b, motion_of(pose)) ? 0 : distance;
+  return reference::one_holds_the_other(of_a, of_b, test::to_reference(pose)) ? 0 : distance;
 }
 
 /// Six times the error of nearest_triangles.cpp, 32 * 2^-53 of the sum of both reaches and of the shift, to which
@@ -115,7 +89,7 @@ TEST(Distance, OfSolidsIsThatOfAllPairs) {
 
 TEST(Distance, OfSurfacesSeesWhatLiesInside) {
   Random random(2);
-  const Mesh large = shell(), small = make_box({0.2, 0.3, 0.1});
+  const Mesh large = make_shell(300, 200), small = make_box({0.2, 0.3, 0.1});
   const Body a = body_of(large), b = body_of(small);
   DistanceOptions surfaces;
   surfaces.surfaces_only = true;
