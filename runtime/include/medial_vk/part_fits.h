@@ -62,8 +62,10 @@ struct PartFit {
   std::optional<double> solid_volume;
   /// `solid_volume` and the volume errors are those of the shape: of the ball, or Part::volume.
   bool of_shape = false;
-  std::optional<double> spheres_volume;    ///< Of the union of the last level.
-  std::optional<SphereMeasures> measures;  ///< Of `proved`. Without a value for a part that is a ball.
+  std::optional<double> spheres_volume;  ///< Of the union of the last level.
+  /// Of `proved`. Without a value for a part that is a ball, and with SphereFitOptions::balls_only; then no volume has
+  /// one either.
+  std::optional<SphereMeasures> measures;
   /// The last level in the frame of the part, where its contract was proved. Empty for a part that is a ball.
   std::vector<Ball> proved;
   FitMeasurements measurements;

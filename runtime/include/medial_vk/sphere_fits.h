@@ -44,7 +44,11 @@ struct SphereFitOptions {
   std::uint32_t resolution = 0;
   double object_angle = 0.6;  ///< Of method source.
   bool levels = false;        ///< Also return sets of half, a quarter ... of the balls.
-  unsigned threads = 0;       ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Only balls and the proof of their contract, for a fraction of the time: SphereFit::measures has nothing but that
+  /// proof, and a cover by `count` is searched for that number alone, so that it may have more volume than one of a
+  /// smaller `count`. Without `levels`.
+  bool balls_only = false;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const SphereFitOptions&) const = default;
 };
@@ -58,14 +62,15 @@ struct SphereFit {
   /// With contract kInside, the last set is ordered such that every prefix is a good set of its size.
   std::vector<std::vector<Ball>> levels;
   std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances by which balls reach out.
-  SphereMeasures measures;             ///< Of the last level.
+  SphereMeasures measures;             ///< Of the last level; with SphereFitOptions::balls_only its proof alone.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
 
 /// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves the contract, and
 /// measures the balls. `progress` is called with "medial points", "spheres" and "cover", one call at a time but from
-/// any thread; a request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal,
-/// a goal out of range, a goal that the contract, the method or the mesh does not support, a goal that is not reached);
+/// any thread, and with the finished share of the stage; for a cover by `count` it is that of all stages, and never
+/// falls. A request to `stop` soon ends the call. Does not throw. Errors: those of the extractor; kUsage (no goal, a
+/// goal out of range, a goal that the contract, the method or the mesh does not support, a goal that is not reached);
 /// kInvalidMesh (no ball fits); kOutOfMemory; kInterrupted; kInternal if balls violate the contract (a defect).
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, const Extractor& extractor,
                               const StageProgress& progress = {}, const std::stop_token& stop = {});

@@ -299,6 +299,10 @@ class Fitting {
   }
 
   void take(const Part& part, SphereFit fitted, PartFit& fit) const {
+    fit.reach = std::move(fitted.reach);
+    place_levels(part, fitted.levels, fit);
+    fit.proved = std::move(fitted.levels.back());
+    if (options_.spheres.balls_only) return;
     fit.measures = std::move(fitted.measures);
     fit.solid_volume = fitted.solid_volume;
     // Balanced balls are measured by the facets, for which they were balanced.
@@ -306,9 +310,6 @@ class Fitting {
                    measure_against(*part.volume, *fit.measures);
     if (fit.of_shape) fit.solid_volume = part.volume;
     fit.spheres_volume = fit.measures->volume.balls;
-    fit.reach = std::move(fitted.reach);
-    place_levels(part, fitted.levels, fit);
-    fit.proved = std::move(fitted.levels.back());
   }
 
   void place_levels(const Part& part, const std::vector<std::vector<Ball>>& sets, PartFit& fit) const {

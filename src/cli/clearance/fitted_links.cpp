@@ -52,6 +52,7 @@ Result<FittedLinks> fit_links(const RobotAndScene& all, const ClearanceOptions& 
   PartFitOptions options;
   options.count_per_link = of_run.balls;
   options.spheres.resolution = of_run.resolution;
+  options.spheres.balls_only = true;
   options.threads = of_run.threads;
   const Result<std::vector<std::vector<Ball>>> inside = fit(closed, options, context, progress, stop);
   if (!inside) return inside.error();

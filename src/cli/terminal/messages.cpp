@@ -22,6 +22,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"amplitude", "--perturb", {}, {}},
     {"angle", "--sheet-angle", {}, {}},
     library_only("ball"),
+    library_only("balls_only"),
     library_only("bodies"),
     library_only("body"),
     {"border", "--sheet-border", {}, {}},

@@ -65,6 +65,81 @@ TEST(MaximalBall, HoldsTheBallAroundItsPointAndStaysInside) {
   }
 }
 
+TEST(BestMethod, BallsOnlyAreProvedButNotMeasured) {
+  const IndexedMesh mesh = test::indexed(prepare_mesh(turned_l_shape()).value());
+  SphereFitOptions options;
+  options.count = 13;
+  options.balls_only = true;
+  const SphereFit inside = fit_spheres(mesh, options, reference_extractor()).value();
+  EXPECT_TRUE(inside.measures.inside.proved());
+  EXPECT_EQ(inside.measures.inside.tested, inside.levels.back().size());
+  EXPECT_EQ(inside.measures.volume.balls, 0);
+  options.contract = SphereContract::kCover;
+  const SphereFit cover = fit_spheres(mesh, options, reference_extractor()).value();
+  EXPECT_TRUE(cover.measures.cover.proved());
+  EXPECT_GT(cover.measures.cover.triangles, 0u);
+  EXPECT_LE(cover.levels.back().size(), 13u);
+  options.balls_only = false;
+  const SphereFit measured_cover = fit_spheres(mesh, options, reference_extractor()).value();
+  EXPECT_LE(measured_cover.measures.volume.balls, measure_ball_union(cover.levels.back()).value().volume);
+  options.contract = SphereContract::kInside;
+  const SphereFit measured = fit_spheres(mesh, options, reference_extractor()).value();
+  const auto is_same = [](const Ball& a, const Ball& b) { return a.centre == b.centre && a.radius == b.radius; };
+  EXPECT_TRUE(std::ranges::equal(inside.levels.back(), measured.levels.back(), is_same));
+  EXPECT_GT(measured.measures.volume.balls, 0);
+  options.balls_only = options.levels = true;
+  EXPECT_THAT(fit_spheres(mesh, options, reference_extractor()).error().message, HasSubstr("`balls_only`"));
+}
+
+// A cover begins with balls inside: both stages move the same share on.
+TEST(BestMethod, ProgressOfACoverNeverFalls) {
+  const IndexedMesh mesh = test::indexed(prepare_mesh(turned_l_shape()).value());
+  SphereFitOptions options;
+  options.contract = SphereContract::kCover;
+  options.count = 16;
+  options.threads = 1;
+  double last = 0, before_cover = 0;
+  std::size_t steps = 0;  // of the cover
+  const auto on_progress = [&](const char* stage, double done) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1);
+    if (std::string(stage) != "cover") {
+      before_cover = steps == 0 ? done : before_cover;
+    } else if (done > last) {
+      ++steps;
+    }
+    last = done;
+  };
+  ASSERT_TRUE(fit_spheres(mesh, options, reference_extractor(), on_progress).ok());
+  EXPECT_GT(before_cover, 0.1);
+  EXPECT_LT(before_cover, 0.5);
+  EXPECT_GT(steps, 5u);
+  EXPECT_GT(last, 0.95);
+}
+
+// Distances from the walls are so small that directions away from them are inexact: balls that grow along them could
+// leave the solid.
+TEST(BestMethod, BallsAreInsideASliver) {
+  Mesh sliver = test::make_sliver();
+  test::rotate(sliver, {1, 2, 3}, 0.7);
+  const IndexedMesh mesh = test::indexed(prepare_mesh(sliver).value());
+  const reference::Tree tree(test::to_reference(mesh.prepared()));
+  for (const std::size_t count : {1, 4, 9}) {
+    SCOPED_TRACE(count);
+    SphereFitOptions options;
+    options.count = count;
+    const Result<SphereFit> fit = fit_spheres(mesh, options, reference_extractor());
+    ASSERT_TRUE(fit.ok()) << fit.error().message;
+    EXPECT_TRUE(fit.value().measures.inside.proved());
+    for (const Ball& ball : fit.value().levels.back()) {
+      EXPECT_GT(ball.radius, 0);
+      const Eigen::Vector3d centre(ball.centre.data());
+      EXPECT_TRUE(reference::is_inside(tree, centre));
+      EXPECT_LE(ball.radius, tree.closest(centre).distance);
+    }
+  }
+}
+
 TEST(Slider, MovesAlongASlabTowardsWhatIsUncovered) {
   const Shape slab(test::make_box({10, 10, 1}));
   DynamicUnion balls = std::move(DynamicUnion::build(2, 20)).value();

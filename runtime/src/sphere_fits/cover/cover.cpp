@@ -155,6 +155,7 @@ std::vector<Ball> Cover::certified() const {
   constexpr int kFillings = 12;
   Cover filled = *this;  // The filling is no part of the search, which may continue.
   double by = kRoom * solid_.diagonal();
+  std::uint64_t least_inside = std::numeric_limits<std::uint64_t>::max();
   for (int attempt = 0;; ++attempt) {
     report_(0.95 + 0.05 * std::min(1.0, attempt / 60.0));
     std::vector<Ball> balls = filled.enlarged(by);
@@ -163,8 +164,16 @@ std::vector<Ball> Cover::certified() const {
     const Result<CoverProof> proof = prove_cover(solid_, envelope.value(), threads_);
     if (!proof && proof.error().code == ErrorCode::kInterrupted) throw Stopped();
     if (!proof) throw std::bad_alloc();
-    if (proof.value().surface_proved() && proof.value().inside == 0) return balls;
-    if (proof.value().surface_proved() && attempt < kFillings && filled.fill(envelope.value())) continue;
+    const CoverProof& found = proof.value();
+    if (found.surface_proved()) {
+      if (found.inside == 0) return balls;
+      const bool is_fewer = found.inside < least_inside;
+      least_inside = std::min(least_inside, found.inside);
+      if (attempt < kFillings && (found.closed || is_fewer) && filled.fill(envelope.value())) continue;
+      // Near a hole the winding number passes 1/2 without a surface: balls would have to grow far beyond the mesh
+      // before no vertex counts as inside, and nothing more would be proved.
+      if (!found.closed) return balls;
+    }
     by *= 2;  // Once this is the diagonal every ball holds everything.
   }
 }

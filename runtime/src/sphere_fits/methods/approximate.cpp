@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -52,6 +53,7 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
     return usage("`error` is a share of the volume, which this mesh does not enclose cleanly; use `count` instead");
   }
   // Balls inside keep a distance of the rounding from the boundary.
+  if (options.balls_only && options.levels) return usage("`balls_only` gives one set of balls, and no levels");
   if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
     return usage("`max_gap` is below the rounding of distances");
   }
@@ -124,8 +126,12 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereFitOp
     return levels_below(solid, options, all_levels, std::move(cover).value(), extractor, progress);
   }
   if (count == 0) return usage("a cover requires `count` or `error`");
-  const Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
+  Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
   if (!inside) return inside.error();
+  if (options.balls_only) {  // of the numbers for which covers are searched, only the greatest
+    auto& starts = inside.value().stages;
+    starts.erase(starts.begin(), std::prev(starts.end()));
+  }
   const std::vector<std::size_t> counts = all_levels ? level_counts(count) : std::vector<std::size_t>{count};
   return cover_by_counts(solid, inside.value().stages, counts, options.threads, progress);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 #include "base/format_text.h"
@@ -10,15 +11,30 @@
 #include "medial_vk/sphere_fits.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/prefixes.h"
+#include "sphere_fits/quality/branch_and_bound.h"
 #include "sphere_fits/quality/measures.h"
+#include "sphere_fits/quality/sphere_certificate.h"
 
 namespace medial_vk {
 namespace {
 
-/// Progress and stop of the methods, which run on several threads.
-SphereProgress guarded(const StageProgress& progress, const std::stop_token& stop) {
-  return [&progress, &stop, mutex = std::make_shared<std::mutex>()](const char* stage, double done) {
-    const std::lock_guard lock(*mutex);
+/// Progress and stop of the methods, which run on several threads. A cover by `count` begins with balls inside: both
+/// stages are then parts of one share, which never falls.
+SphereProgress guarded(const SphereFitOptions& options, const StageProgress& progress, const std::stop_token& stop) {
+  struct State {
+    std::mutex mutex;
+    double greatest = 0;
+  };
+  const bool has_two_stages =
+      options.contract == SphereContract::kCover && options.method == SphereMethod::kBest && !(options.error > 0);
+  return [&progress, &stop, has_two_stages, state = std::make_shared<State>()](const char* stage, double done) {
+    constexpr double kOfFirst = 0.2;  // of the time
+    const std::lock_guard lock(state->mutex);
+    if (has_two_stages) {
+      const bool is_second = std::string_view(stage) == "cover";
+      state->greatest = std::max(state->greatest, is_second ? kOfFirst + (1 - kOfFirst) * done : kOfFirst * done);
+      done = state->greatest;
+    }
     if (progress) progress(stage, done);
     return !stop.stop_requested();
   };
@@ -67,14 +83,33 @@ ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector
   return reach;
 }
 
+/// With `balls_only` nothing but the proof of the contract.
+Result<SphereMeasures> measures_of(const Solid& solid, const std::vector<Ball>& balls, const SphereFitOptions& options,
+                                   const SphereProgress& progress) {
+  const Threads threads = {options.threads, [&progress] { return progress("spheres", 1); }};
+  if (!options.balls_only) return measure_spheres(solid, balls, {.threads = threads});
+  SphereMeasures proofs;
+  if (options.contract == SphereContract::kInside) {
+    try {
+      proofs.inside = prove_inside(solid, balls, threads);
+    } catch (const Stopped&) {
+      return Error{ErrorCode::kInterrupted, "interrupted"};
+    }
+  }
+  if (options.contract == SphereContract::kCover) {
+    Result<CoverProof> cover = prove_cover(solid, balls, threads);
+    if (!cover) return cover.error();
+    proofs.cover = std::move(cover).value();
+  }
+  return proofs;
+}
+
 Result<SphereFit> fit(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                       const SphereProgress& progress) {
   Result<std::vector<SphereSet>> sets = options.levels ? approximate_in_levels(solid, options, extractor, progress)
                                                        : approximate_once(solid, options, extractor, progress);
   if (!sets) return sets.error();
-  const auto goes_on = [&progress] { return progress("spheres", 1); };
-  Result<SphereMeasures> measured =
-      measure_spheres(solid, sets.value().back().balls, {.threads = {options.threads, goes_on}});
+  Result<SphereMeasures> measured = measures_of(solid, sets.value().back().balls, options, progress);
   if (!measured) return measured.error();
   if (Status status = check_contract(options.contract, measured.value()); !status) return status.error();
   SphereFit out;
@@ -117,12 +152,13 @@ Result<CoverageCurve> curve_of(const Solid& solid, const SphereFitOptions& optio
 
 /// Converts exceptions to errors.
 template <class Work>
-auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const std::stop_token& stop, const Work& work)
+auto with_solid(const IndexedMesh& mesh, const SphereFitOptions& options, const StageProgress& progress,
+                const std::stop_token& stop, const Work& work)
     -> decltype(work(std::declval<const Solid&>(), SphereProgress())) {
   try {
     const Result<Solid> solid = Solid::build(mesh);
     if (!solid) return solid.error();
-    return work(solid.value(), guarded(progress, stop));
+    return work(solid.value(), guarded(options, progress, stop));
   } catch (const std::bad_alloc&) {
     return out_of_memory("fitting spheres", "try a lower `count`");
   } catch (const std::exception& error) {
@@ -134,7 +170,7 @@ auto with_solid(const IndexedMesh& mesh, const StageProgress& progress, const st
 
 Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& options, const Extractor& extractor,
                               const StageProgress& progress, const std::stop_token& stop) {
-  return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
+  return with_solid(mesh, options, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
     return fit(solid, options, stopped_by(extractor, stop), on_progress);
   });
 }
@@ -147,8 +183,10 @@ Result<SphereFit> fit_spheres(const IndexedMesh& mesh, const SphereFitOptions& o
 Result<CoverageCurve> measure_coverage_curve(const IndexedMesh& mesh, const SphereFitOptions& options,
                                              const Extractor& extractor, const StageProgress& progress,
                                              const std::stop_token& stop) {
-  return with_solid(mesh, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
-    return curve_of(solid, options, stopped_by(extractor, stop), on_progress);
+  SphereFitOptions of_balls_inside = options;
+  of_balls_inside.contract = SphereContract::kInside;
+  return with_solid(mesh, of_balls_inside, progress, stop, [&](const Solid& solid, const SphereProgress& on_progress) {
+    return curve_of(solid, of_balls_inside, stopped_by(extractor, stop), on_progress);
   });
 }
 
