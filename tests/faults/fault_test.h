@@ -13,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -129,13 +130,23 @@ inline Answer make_scene_and_query(Context& context, const PreparedMesh& mesh) {
   return query_everything(scene.value());
 }
 
+inline std::vector<Body> two_bodies() {
+  const std::vector<Ball> few = {{{0, 0, 0}, 1}}, more(9, {{0.5, 0, 0}, 0.5});
+  return {Body::create(few, few).value(), Body::create(more, more).value()};
+}
+
+/// Some poses of two_bodies(), from `first` half units apart to 7 more.
+inline std::vector<PosedPair> poses_of_two(std::uint32_t first = 0) {
+  std::vector<PosedPair> pairs;
+  for (std::uint32_t i = 0; i < 8; ++i) pairs.push_back({make_pose({0.5 * (first + i), 0, 0}, {0, 0, 0}), i % 2, 1});
+  return pairs;
+}
+
 /// Verdicts and bounds for some pairs of two bodies, on the device. `copies`: in small batches, as on a device with
 /// memory of its own.
 inline Answer query_bodies(Context& context, bool copies = false) {
-  const std::vector<Ball> few = {{{0, 0, 0}, 1}}, more(9, {{0.5, 0, 0}, 0.5});
-  const std::vector<Body> bodies = {Body::create(few, few).value(), Body::create(more, more).value()};
-  std::vector<PosedPair> pairs;
-  for (std::uint32_t i = 0; i < 8; ++i) pairs.push_back({make_pose({0.5 * i, 0, 0}, {0, 0, 0}), i % 2, 1});
+  const std::vector<Body> bodies = two_bodies();
+  const std::vector<PosedPair> pairs = poses_of_two();
   std::vector<Collision> verdicts(pairs.size());
   std::vector<DistanceBounds> bounds(pairs.size());
   const Status done = in_runtime([&]() -> Status {
@@ -190,6 +201,76 @@ class FaultTest : public testing::Test {
   static Result<Context> open() {
     const ContextOptions options = {.device = "", .validation = false, .cache_folder = "/dev/null"};
     return in_runtime([&] { return Context::create(options); });
+  }
+};
+
+inline constexpr Fault kMemoryFaults[] = {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory, Fault::kDeviceFull};
+
+inline ErrorCode expected_code(Fault fault) {
+  return fault == Fault::kDeviceLost ? ErrorCode::kInternal : ErrorCode::kOutOfMemory;
+}
+
+/// Every call of Vulkan that can fail does so once.
+class VulkanFaults : public FaultTest {
+ protected:
+  /// Fails the first call, then the next one (fault_stride()), until the job needs fewer calls. `fresh`: the initial
+  /// state of a job; it may leave programs behind, but the first run has created them.
+  void fail_every_call(Fault fault, const std::string& name, const std::function<Answer()>& job,
+                       const std::function<void(std::uint64_t)>& afterwards) {
+    const Answer expected = job();
+    ASSERT_TRUE(expected.ok()) << expected.error().message;
+    const auto handles = vulkan().handles();
+    std::uint64_t failures = 0, survived = 0, k = 1;
+    std::set<std::string> calls;
+    for (bool failed = true; failed && !HasFailure(); k += fault_stride()) {
+      vulkan().fail_call(k, fault);
+      const Answer answer = job();
+      const std::string call = vulkan().stop_failing();
+      SCOPED_TRACE(::testing::Message() << name << ", " << fault_name(fault) << ", call " << k << " (" << call << ")");
+      failed = !call.empty();
+      calls.insert(call);
+      if (answer.ok()) {
+        EXPECT_TRUE(answer.value() == expected.value());
+        survived += failed ? 1 : 0;
+      } else {
+        EXPECT_TRUE(failed);
+        EXPECT_EQ(answer.error().code, expected_code(fault)) << answer.error().message;
+        EXPECT_NE(answer.error().message, "");
+        ++failures;
+      }
+      EXPECT_EQ(vulkan().handles(), handles);
+      EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
+      if (failed) afterwards(k);
+    }
+    EXPECT_GT(failures, 0u);
+    calls.erase("");
+    std::cout << name << ", " << fault_name(fault) << ": " << failures << " errors, " << survived << " survived, of "
+              << calls.size() << " functions\n";
+  }
+
+  /// Fails the calls of a job on a persistent context, by all faults. After faults of memory, another scene must still
+  /// give the same results.
+  void fail_every_call_of(const std::string& name, const Job& job) {
+    Result<Context> context = open();
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    const PreparedMesh mesh = small_box();
+    Scene beside = test::make_scene(context.value(), mesh.view()).value();
+    const std::vector<Point> points = points_around(5);
+    const auto query = [&] {
+      std::string out;
+      const auto closest = beside.closest_points(points);
+      EXPECT_TRUE(closest.ok()) << closest.error().message;
+      if (closest.ok())
+        for (const ClosestPoint& c : closest.value()) append_bytes(out, c.distance);
+      return out;
+    };
+    const std::string expected = query();
+    const auto afterwards = [&](std::uint64_t) { EXPECT_TRUE(query() == expected); };
+    for (const Fault fault : kMemoryFaults)
+      fail_every_call(
+          fault, name, [&] { return job(context.value()); }, afterwards);
+    fail_every_call(
+        Fault::kDeviceLost, name, [&] { return job(context.value()); }, [](std::uint64_t) {});
   }
 };
 

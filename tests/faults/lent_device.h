@@ -4,8 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "device_commands/memory.h"
+#include "device_commands/recorder.h"
 #include "fault_test.h"
 #include "medial_vk/extraction_job.h"
+#include "medial_vk/proximity_job.h"
 #include "support/device/lend_device.h"
 #include "support/recorded_job.h"
 
@@ -49,6 +52,25 @@ class LentDevice {
     std::string out;
     append_bytes(out, counts);
     return out;
+  }
+
+  /// The verdicts of the job for its first `count` poses, likewise.
+  Answer record_and_run(ProximityJob& job, std::uint32_t count) {
+    const Status recorded = in_runtime([&] { return job.record(commands_, count); });
+    VulkanInterposer::get().stop_failing();
+    const VkDeviceSize bytes = count * sizeof(std::uint32_t);
+    Arena arena(impl());
+    const Buffer verdicts = arena.create_buffer(bytes, MemoryKind::kReadback, "a test").value();
+    if (recorded.ok()) {
+      Recorder reading(impl(), commands_);
+      reading.copy({job.buffers().answers, bytes, nullptr}, 0, verdicts, 0, bytes);
+      reading.barrier_to_host();
+      EXPECT_TRUE(reading.status().ok());
+      submit();
+    }
+    begin();
+    if (!recorded.ok()) return recorded.error();
+    return std::string(static_cast<const char*>(verdicts.mapped), bytes);
   }
 
  private:

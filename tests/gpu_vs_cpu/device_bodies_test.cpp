@@ -11,6 +11,7 @@
 
 #include "base/point_ops.h"
 #include "medial_vk/collisions.h"
+#include "support/device/bodies_on_device.h"
 #include "support/device/device_test.h"
 #include "support/random_poses.h"
 
@@ -21,78 +22,15 @@ using namespace test;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Beyond this share of M every verdict is proved: twice the error of the kernel, 22.1 * 2^-23 M, in which the growth
-/// of balls that are rounded is included. The same and 2^-20 M, by which the kernel widens bounds, hold for these.
-constexpr double kDecided = 2 * 22.1 * 0x1p-23, kWidth = kDecided + 0x1p-20;
-
-double separation_of_all(std::span<const Ball> a, std::span<const Ball> b, const Pose& pose) {
-  double least = kInfinity;
-  for (const Ball& of_b : b) {
-    const Point centre = pose * of_b.centre;
-    for (const Ball& of_a : a) least = std::min(least, length(of_a.centre - centre) - of_a.radius - of_b.radius);
-  }
-  return least;
-}
-
-/// Balls inside, and balls of the same centres that cover them.
-Body body_of(const std::vector<Ball>& inside) {
-  std::vector<Ball> cover = inside;
-  for (Ball& ball : cover) ball.radius *= 1.5;
-  return Body::create(inside, cover).value();
-}
-
-std::vector<Ball> balls_at_random(Random& random, std::size_t count, const Point& middle, double size) {
-  std::vector<Ball> balls;
-  for (std::size_t i = 0; i < count; ++i) {
-    balls.push_back({middle + point_in_cube(random, size), uniform(random, 0, 0.2 * size)});
-  }
-  return balls;
-}
-
 class BodiesOnDevice : public DeviceTest {
  protected:
-  /// `size` is at least M, the sum of the distance of the bodies' middles and of their reaches, for every pair.
-  void expect_answers(std::span<const Body> bodies, std::span<const PosedPair> pairs, double size) {
-    Result<DeviceBodies> there = DeviceBodies::create(*context_, bodies);
-    ASSERT_TRUE(there.ok()) << there.error().message;
-    std::vector<Collision> verdicts(pairs.size());
-    std::vector<DistanceBounds> bounds(pairs.size());
-    ASSERT_TRUE(there.value().collide_by_balls(pairs, verdicts).ok());
-    ASSERT_TRUE(there.value().distance_bounds(pairs, bounds).ok());
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      SCOPED_TRACE(testing::Message() << "pair " << i);
-      const Body &a = bodies[pairs[i].a], &b = bodies[pairs[i].b];
-      const double cover = separation_of_all(a.cover(), b.cover(), pairs[i].pose),
-                   inside = separation_of_all(a.inside(), b.inside(), pairs[i].pose);
-      ++seen_[static_cast<std::size_t>(verdicts[i])];
-      expect_verdict(verdicts[i], cover, inside, kDecided * size);
-      EXPECT_LE(bounds[i].lower, std::max(0.0, cover));
-      EXPECT_GE(bounds[i].upper, std::max(0.0, inside));
-      EXPECT_GE(bounds[i].lower, cover - kWidth * size);
-      EXPECT_LE(bounds[i].upper, std::max(0.0, inside) + kWidth * size);
-      expect_pair(bounds[i].cover_pair, a.cover(), b.cover(), pairs[i].pose, cover + kWidth * size);
-      if (bounds[i].upper > 0)
-        expect_pair(bounds[i].inside_pair, a.inside(), b.inside(), pairs[i].pose, inside + kWidth * size);
-    }
+  void expect_proved_answers(const PosedBodies& of) {
+    const std::array<int, 3> seen = count_verdicts(expect_answers(*context_, of).verdicts);
+    for (std::size_t i = 0; i < 3; ++i) seen_[i] += seen[i];
   }
-
-  static void expect_verdict(Collision verdict, double cover, double inside, double decided) {
-    if (verdict == Collision::kFree) {
-      EXPECT_GT(cover, 0);
-    } else if (verdict == Collision::kHit) {
-      EXPECT_LE(inside, 0);
-    } else {
-      EXPECT_LE(cover, decided);
-      EXPECT_GE(inside, -decided);
-    }
-  }
-
-  /// Searches end at balls that overlap, so the named pair is only among those that are as close as `most`, or overlap.
-  static void expect_pair(const BallPair& pair, std::span<const Ball> a, std::span<const Ball> b, const Pose& pose,
-                          double most) {
-    ASSERT_LT(pair.a, a.size());
-    ASSERT_LT(pair.b, b.size());
-    EXPECT_LE(separation_of_all(a.subspan(pair.a, 1), b.subspan(pair.b, 1), pose), std::max(0.0, most));
+  /// `size` as in PosedBodies.
+  void expect_proved_answers(std::span<const Body> bodies, std::span<const PosedPair> pairs, double size) {
+    expect_proved_answers({{bodies.begin(), bodies.end()}, {pairs.begin(), pairs.end()}, size});
   }
 
   std::array<int, 3> seen_ = {0, 0, 0};
@@ -102,15 +40,7 @@ TEST_F(BodiesOnDevice, AnswerAsAllPairsDo) {
   Random random(21);
   for (const double size : {1e-6, 1.0, 1e6}) {
     SCOPED_TRACE(testing::Message() << "size " << size);
-    std::vector<Body> bodies;
-    for (const std::size_t count : {1, 8, 9, 65, 300}) {
-      bodies.push_back(body_of(balls_at_random(random, count, point_in_cube(random, 2 * size), size)));
-    }
-    std::vector<PosedPair> pairs;
-    for (std::uint32_t i = 0; i < 500; ++i) {
-      pairs.push_back({any_pose(random, point_in_cube(random, 3 * size)), i % 5, i / 5 % 5});
-    }
-    expect_answers(bodies, pairs, 40 * size);
+    expect_proved_answers(bodies_at_random(random, size));
   }
   for (const int times : seen_) EXPECT_GT(times, 20);
 }
@@ -121,38 +51,20 @@ TEST_F(BodiesOnDevice, OfFewBallsAndMany) {
   const Body bodies[] = {body_of(balls_at_random(random, 20000, {0, 0, 0}, 1)),
                          body_of(balls_at_random(random, 3, {0, 0, 0}, 0.1))};
   std::vector<PosedPair> pairs = {{any_pose(random, {1e6, -2e6, 0}), 0, 1}};
-  expect_answers(bodies, pairs, 4e6);
+  expect_proved_answers(bodies, pairs, 4e6);
   pairs.clear();
   for (std::uint32_t i = 0; i < 24; ++i)
     pairs.push_back({any_pose(random, point_in_cube(random, 2)), i % 2, 1 - i % 2});
-  expect_answers(bodies, pairs, 40);
+  expect_proved_answers(bodies, pairs, 40);
   EXPECT_GT(seen_[0], 0);
   EXPECT_GT(seen_[1], 0);
 }
 
-// Balls at gaps about zero, far smaller and greater than the errors, at any place and in any direction: a kernel
-// without its errors would give proofs that are false.
 TEST_F(BodiesOnDevice, OfBallsThatAlmostTouch) {
   Random random(25);
   for (const double size : {1e-6, 1.0, 1e6}) {
     SCOPED_TRACE(testing::Message() << "size " << size);
-    std::vector<Body> bodies;
-    std::vector<Ball> balls;
-    for (int i = 0; i < 20; ++i) {
-      balls.push_back({point_in_cube(random, size), uniform(random, 0.1, 1) * size});
-      bodies.push_back(Body::create({&balls.back(), 1}, {&balls.back(), 1}).value());
-    }
-    std::vector<PosedPair> pairs;
-    for (std::uint32_t i = 0; i < 4000; ++i) {
-      const Ball &a = balls[i % 20], &b = balls[i / 20 % 20];
-      PosedPair pair = {any_pose(random, {0, 0, 0}), i % 20, i / 20 % 20};
-      const Point away = point_in_cube(random, 1);
-      const double gap = uniform(random, -1, 1) * std::pow(10, uniform(random, -9, -4)) * size;
-      const Point to = a.centre + (a.radius + b.radius + gap) / length(away) * away;
-      pair.pose.shift = to - pair.pose * b.centre;
-      pairs.push_back(pair);
-    }
-    expect_answers(bodies, pairs, 8 * size);
+    expect_proved_answers(balls_that_almost_touch(random, size));
   }
   for (const int times : seen_) EXPECT_GT(times, 20);
 }
@@ -171,7 +83,7 @@ TEST_F(BodiesOnDevice, TheHostCompletesSearchesThatAreTooLong) {
   for (int i = 0; i < 9; ++i) middle.push_back({{1e-3 * i, 0, 0}, 0.98});
   const Body bodies[] = {Body::create(shell, shell).value(), Body::create(middle, middle).value()};
   const PosedPair pairs[] = {{Pose(), 0, 1}, {make_pose({0, 1e-3, 0}, {1, 2, 3}), 1, 0}};
-  expect_answers(bodies, pairs, 10);
+  expect_proved_answers(bodies, pairs, 10);
   EXPECT_EQ(seen_[static_cast<std::size_t>(Collision::kFree)], 2);
 }
 

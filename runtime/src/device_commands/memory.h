@@ -25,6 +25,8 @@ struct BufferRange {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
   VkDeviceSize size = VK_WHOLE_SIZE;
+
+  bool operator==(const BufferRange&) const = default;
 };
 
 /// A buffer for storage, indirect dispatch, transfer and (if small enough for the device) uniform texels.

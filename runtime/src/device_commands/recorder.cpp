@@ -141,6 +141,40 @@ void Recorder::write_set(VkDescriptorSet set, std::span<const BufferRange> buffe
                                       nullptr);
 }
 
+VkDescriptorSet Recorder::set_for(VkDescriptorSetLayout layout, std::span<const BufferRange> buffers,
+                                  std::span<const VkBufferView> texels) {
+  if (next_set_ < kept_sets_.size()) {
+    const KeptSet& kept = kept_sets_[next_set_];
+    if (kept.layout == layout && std::ranges::equal(kept.buffers, buffers) && std::ranges::equal(kept.texels, texels)) {
+      return kept_sets_[next_set_++].set;
+    }
+    kept_sets_.resize(next_set_);  // the dispatches are others from here on
+  }
+  KeptSet made;
+  if (keeps_sets_) {
+    made.buffers.assign(buffers.begin(), buffers.end());
+    made.texels.assign(texels.begin(), texels.end());
+    kept_sets_.reserve(next_set_ + 1);  // so that no set is lost
+  }
+  made.layout = layout;
+  made.set =
+      allocate_set(layout, static_cast<std::uint32_t>(buffers.size()), static_cast<std::uint32_t>(texels.size()));
+  if (!status_.ok()) return VK_NULL_HANDLE;
+  write_set(made.set, buffers, texels);
+  const VkDescriptorSet set = made.set;
+  if (keeps_sets_) {
+    kept_sets_.push_back(std::move(made));
+    ++next_set_;
+  }
+  return set;
+}
+
+void Recorder::restart(VkCommandBuffer commands) {
+  commands_ = commands;
+  status_ = Status();
+  next_set_ = 0;
+}
+
 void Recorder::bind(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
                     std::span<const std::byte> push_constants) {
   check_bindings(key, buffers, texels, push_constants);
@@ -152,9 +186,8 @@ void Recorder::bind(const ProgramKey& key, std::span<const BufferRange> buffers,
   const Result<const Program*> program = context_->program(key);
   if (!program.ok()) return fail(program.error());
   const Program& bound = *program.value();
-  const VkDescriptorSet set = allocate_set(bound.set_layout, key.storage_buffers, key.texel_buffers);
+  const VkDescriptorSet set = set_for(bound.set_layout, buffers, texels);
   if (!status_.ok()) return;
-  write_set(set, buffers, texels);
   const VolkDeviceTable& vk = context_->vk;
   vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, bound.pipeline);
   vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, bound.layout, 0, 1, &set, 0, nullptr);

@@ -50,6 +50,12 @@ class Recorder {
   void only_transfer();
   /// No timestamps: stages have no times.
   void measure_nothing() { measures_ = false; }
+  /// From here on, descriptor sets are kept for restart().
+  void keep_sets() { keeps_sets_ = true; }
+  /// Begins anew with other commands, as in the constructor, without the errors so far. Dispatches of the same programs
+  /// with the same buffers, in the same order, then have the kept sets, and nothing is created for them. Preconditions:
+  /// the commands before have finished, or are never submitted; nothing is measured.
+  void restart(VkCommandBuffer commands);
   /// From here on, time counts for `stage`; times of the same stage add up. No-op without timestamps.
   void begin_stage(const std::string& stage);
   /// Ends the last stage. run_commands() does so; code that records into a buffer of its own calls this last.
@@ -63,6 +69,16 @@ class Recorder {
   Result<std::vector<StageTime>> stage_times() const;
 
  private:
+  /// A descriptor set, and what is bound in it.
+  struct KeptSet {
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    std::vector<BufferRange> buffers;
+    std::vector<VkBufferView> texels;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+  };
+  /// The set of the next dispatch: a kept one, or a new one. Null after an error.
+  VkDescriptorSet set_for(VkDescriptorSetLayout layout, std::span<const BufferRange> buffers,
+                          std::span<const VkBufferView> texels);
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout, std::uint32_t storage, std::uint32_t texels);
   bool rehearses() const { return commands_ == VK_NULL_HANDLE; }
   void bind(const ProgramKey& key, std::span<const BufferRange> buffers, std::span<const VkBufferView> texels,
@@ -91,6 +107,9 @@ class Recorder {
   std::set<ProgramKey> programs_;
   Room room_;
   std::uint32_t next_pool_sets_ = 0;
+  bool keeps_sets_ = false;
+  std::vector<KeptSet> kept_sets_;  // in the order of the dispatches
+  std::size_t next_set_ = 0;        // of them
   std::vector<VkQueryPool> timestamps_;
   std::size_t timestamp_count_ = 0;
   std::vector<std::string> stages_;

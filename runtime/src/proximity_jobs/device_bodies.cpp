@@ -27,6 +27,19 @@ static_assert(static_cast<std::uint32_t>(Collision::kFree) == gpu::kProximityFre
 static_assert(static_cast<std::uint32_t>(Collision::kHit) == gpu::kProximityHit);
 static_assert(static_cast<std::uint32_t>(Collision::kUndecided) == gpu::kProximityUndecided);
 
+Error other_number() { return {ErrorCode::kUsage, "there is another number of answers than of `pairs`"}; }
+
+/// Calls take(i, what the kernel has written for pair i) for all pairs, from several threads.
+template <class Answer, class Take>
+Status answer(DeviceBodiesImpl& impl, std::span<const PosedPair> pairs, const AnswersOfKernel& kind, unsigned threads,
+              const Take& take) {
+  if (Status status = impl.check(pairs); !status.ok()) return status;
+  return impl.pose_batches().run(pairs, kind, threads, [&](std::size_t first, std::size_t count, const void* written) {
+    const std::span answers(static_cast<const Answer*>(written), count);
+    parallel_for(count, kAnswersAtATime, threads, [&](std::size_t i) { take(first + i, answers[i]); });
+  });
+}
+
 }  // namespace
 
 DeviceBodies::Impl::Impl(ContextImpl& of, std::span<const Body> on_host)
@@ -89,44 +102,33 @@ DeviceBodies::~DeviceBodies() = default;
 
 Status DeviceBodies::collide_by_balls(std::span<const PosedPair> pairs, std::span<Collision> verdicts,
                                       const BatchOptions& options) {
-  if (verdicts.size() != pairs.size())
-    return Error{ErrorCode::kUsage, "there is another number of answers than of `pairs`"};
-  const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
-    const std::span words(static_cast<const std::uint32_t*>(answers), count);
-    parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
-      if (words[i] != gpu::kProximityGivenUp) {
-        verdicts[first + i] = static_cast<Collision>(words[i]);
-      } else {
-        medial_vk::collide_by_balls(impl_->bodies, pairs.subspan(first + i, 1), verdicts.subspan(first + i, 1), {1});
-      }
-    });
+  if (verdicts.size() != pairs.size()) return other_number();
+  const auto take = [&](std::size_t i, std::uint32_t found) {
+    if (found != gpu::kProximityGivenUp) {
+      verdicts[i] = static_cast<Collision>(found);
+    } else {
+      medial_vk::collide_by_balls(impl_->bodies, pairs.subspan(i, 1), verdicts.subspan(i, 1), {1});
+    }
   };
-  return catch_out_of_memory("testing collisions", [&]() -> Status {
-    if (Status status = impl_->check(pairs); !status.ok()) return status;
-    return impl_->pose_batches().run(pairs, {.are_verdicts = true, .leave_rest = true}, options.threads, read);
+  return catch_out_of_memory("testing collisions", [&] {
+    return answer<std::uint32_t>(*impl_, pairs, {.are_verdicts = true, .leave_rest = true}, options.threads, take);
   });
 }
 
 Status DeviceBodies::distance_bounds(std::span<const PosedPair> pairs, std::span<DistanceBounds> bounds,
                                      const BatchOptions& options) {
-  if (bounds.size() != pairs.size())
-    return Error{ErrorCode::kUsage, "there is another number of answers than of `pairs`"};
-  const auto read = [&](std::size_t first, std::size_t count, const void* answers) {
-    const std::span items(static_cast<const gpu::ProximityBounds*>(answers), count);
-    parallel_for(count, kAnswersAtATime, options.threads, [&](std::size_t i) {
-      const gpu::ProximityBounds& found = items[i];
-      const PosedPair& pair = pairs[first + i];
-      DistanceBounds& out = bounds[first + i];
-      if (found.lower >= 0) {
-        out = {found.lower, found.upper, {found.cover_a, found.cover_b}, {found.inside_a, found.inside_b}};
-      } else {
-        out = medial_vk::distance_bounds(impl_->bodies[pair.a], impl_->bodies[pair.b], pair.pose);
-      }
-    });
+  if (bounds.size() != pairs.size()) return other_number();
+  const auto take = [&](std::size_t i, const gpu::ProximityBounds& found) {
+    const PosedPair& pair = pairs[i];
+    if (found.lower >= 0) {
+      bounds[i] = {found.lower, found.upper, {found.cover_a, found.cover_b}, {found.inside_a, found.inside_b}};
+    } else {
+      bounds[i] = medial_vk::distance_bounds(impl_->bodies[pair.a], impl_->bodies[pair.b], pair.pose);
+    }
   };
-  return catch_out_of_memory("bounding distances", [&]() -> Status {
-    if (Status status = impl_->check(pairs); !status.ok()) return status;
-    return impl_->pose_batches().run(pairs, {.are_verdicts = false, .leave_rest = true}, options.threads, read);
+  return catch_out_of_memory("bounding distances", [&] {
+    return answer<gpu::ProximityBounds>(*impl_, pairs, {.are_verdicts = false, .leave_rest = true}, options.threads,
+                                        take);
   });
 }
 

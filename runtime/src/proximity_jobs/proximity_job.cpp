@@ -27,9 +27,9 @@ static_assert(offsetof(RecordedBounds, inside_pair) == offsetof(gpu::ProximityBo
 struct ProximityJob::Impl {
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
-    Buffer staged;            // poses from the host
-    std::uint32_t count = 0;  // of them, for the next sequence
-    std::unique_ptr<Recorder> recorder;
+    Buffer staged;                       // poses from the host
+    std::uint32_t count = 0;             // of them, for the next sequence
+    std::unique_ptr<Recorder> recorder;  // keeps its descriptor set: the buffers are always the same
   };
 
   Impl(DeviceBodiesImpl& of, const ProximityJobOptions& o) : bodies(of), options(o), arena(of.context) {}
@@ -109,8 +109,13 @@ Status ProximityJob::record(VkCommandBuffer commands, std::uint32_t count) {
   if (count > job.options.poses) return Error{ErrorCode::kUsage, "`count` is greater than `poses`"};
   Impl::Frame& frame = job.frames[job.next];
   return catch_out_of_memory("recording a job", [&]() -> Status {
-    frame.recorder = std::make_unique<Recorder>(job.bodies.context, commands);
-    frame.recorder->measure_nothing();
+    if (frame.recorder == nullptr) {
+      frame.recorder = std::make_unique<Recorder>(job.bodies.context, commands);
+      frame.recorder->measure_nothing();
+      frame.recorder->keep_sets();
+    } else {
+      frame.recorder->restart(commands);
+    }
     if (Status status = job.append(*frame.recorder, frame, count); !status.ok()) return status;
     frame.count = 0;
     job.next = (job.next + 1) % job.frames.size();

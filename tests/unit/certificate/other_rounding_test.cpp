@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <set>
 
 #include "device/context_impl.h"
@@ -18,6 +17,7 @@
 #include "make_specials_spirv.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"
+#include "support/device/other_kernels.h"
 #include "support/extraction.h"
 #include "support/other_specials.h"
 #include "support/solids/solids.h"
@@ -25,21 +25,8 @@
 namespace medial_vk {
 namespace {
 
-using Rewrite = std::function<std::vector<std::uint32_t>(std::span<const std::uint32_t>)>;
-
-// All kernels of the library, rewritten.
-class OtherKernels {
- public:
-  explicit OtherKernels(const Rewrite& rewrite) {
-    for (const EmbeddedShader& shader : embedded_shaders()) words_.push_back(rewrite(shader.words));
-    for (std::size_t i = 0; i < words_.size(); ++i) shaders_.push_back({embedded_shaders()[i].name, words_[i]});
-  }
-  std::span<const EmbeddedShader> shaders() const { return shaders_; }
-
- private:
-  std::vector<std::vector<std::uint32_t>> words_;
-  std::vector<EmbeddedShader> shaders_;
-};
+using test::OtherKernels;
+using test::Rewrite;
 
 // Clearly salient points of `here` in voxels that `there` has dismissed. (A point nearer to a face, or to the
 // threshold, may represent a medial point in the next voxel, or one below the threshold.)

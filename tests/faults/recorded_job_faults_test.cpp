@@ -1,0 +1,151 @@
+// Every call of Vulkan that can fail does so once, in the jobs that a host records.
+#include <gmock/gmock.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fault_test.h"
+#include "lent_device.h"
+#include "medial_vk/extraction_job.h"
+#include "medial_vk/proximity_job.h"
+#include "support/indexed.h"
+#include "support/recorded_job.h"
+
+namespace medial_vk::test {
+namespace {
+
+class RecordedJobFaults : public VulkanFaults {
+ protected:
+  void SetUp() override {
+    VulkanFaults::SetUp();
+    if (!IsSkipped()) host_.emplace(open().value());
+  }
+  void TearDown() override {
+    host_.reset();
+    VulkanFaults::TearDown();
+  }
+  std::optional<LentDevice> host_;
+};
+
+TEST_F(RecordedJobFaults, OfTakingOverADevice) {
+  const std::set<ProgramKey> keys = {{"prepare_resolve", 1, 0, 0, 1, {}}};
+  const auto job = [&]() -> Answer {
+    Result<Context> context = in_runtime([&] { return Context::adopt(host_->lend()); });
+    if (!context.ok()) return context.error();
+    if (Status made = Internals::of(context.value()).make_programs(keys); !made.ok()) return made.error();
+    return std::string("made");
+  };
+  for (const Fault fault : {Fault::kOutOfHostMemory, Fault::kOutOfDeviceMemory})
+    fail_every_call(fault, "taking over a device", job, [](std::uint64_t) {});
+}
+
+TEST_F(RecordedJobFaults, OfAJob) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  const auto run = [&] { return make_job_and_record(*host_, context, mesh, moved); };
+  for (const Fault fault : kMemoryFaults) fail_every_call(fault, "a recorded job", run, [](std::uint64_t) {});
+}
+
+// A sequence that could not be recorded is recorded again, with the mesh that was to be moved.
+TEST_F(RecordedJobFaults, OfASequenceThatIsRecordedAgain) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  IndexedMesh indexed = test::indexed(mesh);
+  ExtractionJob job = ExtractionJob::create(context, indexed, small_job(Mode::kCertified)).value();
+  const auto move_and_run = [&](const PreparedMesh& to) {
+    EXPECT_TRUE(move(job, indexed, to.view()).ok());
+    return host_->record_and_run(job);
+  };
+  const std::string before = move_and_run(mesh).value(), after = move_and_run(moved).value();
+  ASSERT_TRUE(before != after);
+  std::uint64_t failures = 0;
+  for (const Fault fault : kMemoryFaults) {
+    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
+      EXPECT_TRUE(move_and_run(mesh).value() == before);
+      EXPECT_TRUE(move(job, indexed, moved.view()).ok());
+      vulkan().fail_call(k, fault);
+      const Answer answer = host_->record_and_run(job);
+      const std::string call = vulkan().stop_failing();
+      SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
+      EXPECT_TRUE(answer.ok() ? answer.value() == after : answer.error().code == ErrorCode::kOutOfMemory);
+      if (call.empty()) break;
+      if (answer.ok()) continue;
+      ++failures;
+      EXPECT_TRUE(host_->record_and_run(job).value() == after);
+    }
+  }
+  EXPECT_GT(failures, 0u);
+  std::cout << "a sequence that is recorded again: " << failures << " errors\n";
+}
+
+TEST_F(RecordedJobFaults, OfAJobOfPoses) {
+  const std::vector<Body> bodies = two_bodies();
+  const std::vector<PosedPair> pairs = poses_of_two();
+  Context context = Context::adopt(host_->lend()).value();
+  const auto run = [&]() -> Answer {
+    Result<DeviceBodies> on_device = in_runtime([&] { return DeviceBodies::create(context, bodies); });
+    if (!on_device.ok()) return on_device.error();
+    Result<ProximityJob> job = in_runtime([&] { return ProximityJob::create(on_device.value(), {.poses = 8}); });
+    if (!job.ok()) return job.error();
+    if (Status set = in_runtime([&] { return job.value().set_poses(pairs, {1}); }); !set.ok()) return set.error();
+    return host_->record_and_run(job.value(), 8);
+  };
+  for (const Fault fault : kMemoryFaults) fail_every_call(fault, "a job of poses", run, [](std::uint64_t) {});
+}
+
+// Poses that were set stay set until a sequence has been recorded.
+TEST_F(RecordedJobFaults, OfASequenceOfPosesThatIsRecordedAgain) {
+  Context context = Context::adopt(host_->lend()).value();
+  DeviceBodies on_device = DeviceBodies::create(context, two_bodies()).value();
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 8}).value();
+  const auto set = [&](std::uint32_t first) { EXPECT_TRUE(job.set_poses(poses_of_two(first), {1}).ok()); };
+  set(0);
+  const std::string near = host_->record_and_run(job, 8).value();
+  set(6);
+  const std::string far = host_->record_and_run(job, 8).value();
+  ASSERT_TRUE(near != far);
+  std::uint64_t failures = 0;
+  for (const Fault fault : kMemoryFaults) {
+    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
+      job = ProximityJob::create(on_device, {.poses = 8}).value();  // whose first sequence is not recorded yet
+      set(6);
+      vulkan().fail_call(k, fault);
+      const Answer answer = host_->record_and_run(job, 8);
+      const std::string call = vulkan().stop_failing();
+      SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
+      EXPECT_TRUE(answer.ok() ? answer.value() == far : answer.error().code == ErrorCode::kOutOfMemory);
+      if (call.empty()) break;
+      if (answer.ok()) continue;
+      ++failures;
+      EXPECT_TRUE(host_->record_and_run(job, 8).value() == far);
+    }
+  }
+  EXPECT_GT(failures, 0u);
+}
+
+// Later sequences have the descriptor sets of the first, so that nothing is left that can fail.
+TEST_F(RecordedJobFaults, LaterSequencesOfPosesCreateNothing) {
+  Context context = Context::adopt(host_->lend()).value();
+  DeviceBodies on_device = DeviceBodies::create(context, two_bodies()).value();
+  ProximityJob job = ProximityJob::create(on_device, {.poses = 8, .frames = 2}).value();
+  std::string first;
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    SCOPED_TRACE(sequence);
+    ASSERT_TRUE(job.set_poses(poses_of_two(), {1}).ok());
+    vulkan().fail_call(~std::uint64_t{0}, Fault::kOutOfHostMemory);  // none fails, all are counted
+    const Answer answer = host_->record_and_run(job, 8);
+    ASSERT_TRUE(answer.ok());
+    if (sequence == 0) first = answer.value();
+    EXPECT_EQ(answer.value(), first);
+    if (sequence < 2) {
+      EXPECT_GT(vulkan().calls(), 0u);
+    } else {
+      EXPECT_EQ(vulkan().calls(), 0u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk::test
