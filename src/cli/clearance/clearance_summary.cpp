@@ -67,10 +67,7 @@ std::string clearance_summary(const ClearanceOptions& options, std::span<const C
   const double each = time->seconds / static_cast<double>(clearances.size());
   text += labelled("each", microseconds(each) + " microseconds a configuration");
   text += labelled("time", times_text(times, options.verbose));
-  for (const OutputFile& file : files) {
-    if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
-  }
-  return text;
+  return text + written_text(files, false);
 }
 
 }  // namespace medial_vk::cli

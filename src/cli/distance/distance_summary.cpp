@@ -48,10 +48,7 @@ std::string summary_of(const DistanceCommandOptions& options, std::span<const In
   const double each = time->seconds / static_cast<double>(distances.size());
   if (distances.size() > 1) text += labelled("each", microseconds(each) + " microseconds a pose");
   text += labelled("time", times_text(times, options.verbose));
-  for (const OutputFile& file : files) {
-    if (file.path != "-") text += labelled("written", fmt::format("{} ({})", file.path, byte_size(file.bytes.size())));
-  }
-  return text;
+  return text + written_text(files, false);
 }
 
 }  // namespace

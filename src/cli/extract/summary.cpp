@@ -140,11 +140,7 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));
   text += labelled("radius", range_text(record.radii));
   text += labelled("time", describe_times(record.host_times));
-  for (const OutputFile& file : files) {
-    const std::string where = file.path == "-" ? "standard output" : file.path;
-    text += labelled("written", fmt::format("{} ({})", where, byte_size(file.bytes.size())));
-  }
-  return text;
+  return text + written_text(files);
 }
 
 std::string details(const RunRecord& record) {

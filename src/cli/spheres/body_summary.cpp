@@ -34,11 +34,7 @@ std::string body_summary(const SpheresOptions& options, const SphereFit& inside,
                    set_text(cover, cover.measures.distances.balls_to_solid.upper, "from the spheres to the solid"));
   text += labelled("proved", "no sphere inside reaches out, and the cover leaves no point of the solid out");
   text += labelled("time", times_text(times, options.verbose));
-  for (const OutputFile& file : files) {
-    const std::string name = file.path == "-" ? "standard output" : file.path;
-    text += labelled("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
-  }
-  return text;
+  return text + written_text(files);
 }
 
 }  // namespace medial_vk::cli

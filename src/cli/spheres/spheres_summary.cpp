@@ -187,11 +187,7 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
   }
   text += labelled("gap", gap_text(record));
   text += labelled("time", duration(seconds(record)));
-  for (const OutputFile& file : files) {
-    const std::string name = file.path == "-" ? "standard output" : file.path;
-    text += labelled("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
-  }
-  return text;
+  return text + written_text(files);
 }
 
 std::string spheres_details(const SpheresOptions& options, const FitsRecord& record) {

@@ -82,6 +82,16 @@ Status print_check(const CheckReport& check, bool standard_output_has_results) {
 
 std::string labelled(const char* label, const std::string& text) { return fmt::format("  {:<9} {}\n", label, text); }
 
+std::string written_text(std::span<const OutputFile> files, bool names_stream) {
+  std::string text;
+  for (const OutputFile& file : files) {
+    if (file.path == "-" && !names_stream) continue;
+    const std::string name = file.path == "-" ? "standard output" : file.path;
+    text += labelled("written", fmt::format("{} ({})", name, byte_size(file.bytes.size())));
+  }
+  return text;
+}
+
 std::string times_text(const std::vector<StageTime>& times, bool verbose) {
   double all = 0;
   std::vector<StageTime> sums;

@@ -1,12 +1,14 @@
 // Tables for readers: columns as wide as their longest cell.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "check_reports/check_report.h"
 #include "medial_vk/context.h"
 #include "medial_vk/result.h"
+#include "output/atomic_files/atomic_file.h"
 #include "output/extraction_report/run_record.h"
 
 namespace medial_vk::cli {
@@ -30,6 +32,8 @@ Status print_check(const CheckReport& check, bool standard_output_has_results);
 std::string labelled(const char* label, const std::string& text);
 /// The sum; verbose: also the sum of each stage, since several meshes have the same stages.
 std::string times_text(const std::vector<StageTime>& times, bool verbose);
+/// A line for each file; without `names_stream` none for standard output.
+std::string written_text(std::span<const OutputFile> files, bool names_stream = true);
 std::string level_table(const ExtractionCounters& counters);
 
 }  // namespace medial_vk::cli
