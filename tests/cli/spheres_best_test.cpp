@@ -202,10 +202,13 @@ TEST_F(SpheresCommand, RobotsKeepEveryContract) {
 }
 
 TEST_F(SpheresCommand, ABodyFileHasAReportOfBothSets) {
-  const ToolResult result = best({"part.obj", "--contract", "both", "--count", "5", "--check"});
+  const ToolResult result =
+      best({"part.obj", "--contract", "both", "--count", "5", "--check", "--picture", "p.png", "--view", "1,2,3"});
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_THAT(result.err, HasSubstr("part.body.npz ("));
   EXPECT_THAT(result.err, HasSubstr("r.json ("));
+  EXPECT_THAT(result.err, HasSubstr("p.png ("));
+  EXPECT_THAT(read_file(path("p.png")), StartsWith("\x89PNG"));
   const json of_run = report();
   EXPECT_EQ(of_run["contract"], "both");
   EXPECT_EQ(of_run["output"], "part.body.npz");

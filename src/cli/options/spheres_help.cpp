@@ -68,7 +68,8 @@ Output:
                         the mesh's name before its extension
       --format NAME     csv, json, foam, curobo, xrdf or urdf, whatever the file
                         is called
-      --picture FILE    a .png of the spheres; of a robot, all joints at zero
+      --picture FILE    a .png of the spheres; of a robot, all joints at zero;
+                        with --contract both the two sets side by side
       --view FROM       of the picture: front, back, left, right, top, bottom,
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of the picture: x, y, z, -x, -y or -z (default y; robots

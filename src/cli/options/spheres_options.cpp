@@ -166,11 +166,6 @@ Status complete_files(SpheresOptions& options, const Given& given) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
   }
   const bool looks = given.view != ViewChoice() || options.view.up != PictureView().up;
-  if (looks && options.both) {
-    return usage_error(
-        "--view and --up are about the picture of one set of spheres: use them with --picture FILE.png and --contract "
-        "inside, cover or balanced");
-  }
   if (looks && options.picture.empty()) {
     return usage_error("--view and --up are about the picture: use them with --picture FILE.png");
   }
@@ -194,7 +189,6 @@ Status check_both(const SpheresOptions& options, const Given& given) {
                                                      {"--levels", options.spheres.levels},
                                                      {"--max-gap", options.spheres.max_gap > 0},
                                                      {"--format", given.format.has_value()},
-                                                     {"--picture", !options.picture.empty()},
                                                      {"--histogram", !options.histogram.empty()}};
   for (const auto& [name, is_given] : of_one_set) {
     if (is_given) {

@@ -23,6 +23,8 @@
 #include "output/atomic_files/atomic_file.h"
 #include "output/fit_reports/fits_record.h"
 #include "output/fit_reports/fits_report.h"
+#include "output/picture/body_picture.h"
+#include "output/picture/panels/image.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -48,6 +50,7 @@ class BodyRun {
     if (Status status = fit(SphereContract::kCover, cover_); !status) return status;
     if (Status status = check(); !status) return status;
     if (Status status = make_file(); !status) return status;
+    if (Status status = draw(); !status) return status;
     if (!options_.report.empty()) files_.push_back({options_.report, encode_fits_report(record())});
     if (interrupted()) return stopped();
     if (Status status = write_files(files_); !status) return status;
@@ -152,6 +155,22 @@ class BodyRun {
       if (time.stage == "prove") shared_.times.push_back(time);
     }
     files_.push_back({options_.output, std::move(bytes).value()});
+    return {};
+  }
+
+  /// Files are made in memory: until they are written a signal may end the program.
+  Status draw() {
+    if (options_.picture.empty()) return {};
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    shared_.progress.update("picture", 0);
+    Stopwatch stopwatch;
+    Result<std::string> png = encode_png(
+        draw_body(mesh_->prepared().mesh, inside_.fit.levels.back(), cover_.fit.levels.back(), options_.view));
+    shared_.progress.clear();
+    if (!png) return png.error();
+    files_.push_back({options_.picture, std::move(png).value()});
+    shared_.times.push_back({"picture", stopwatch.lap()});
     return {};
   }
 

@@ -100,12 +100,13 @@ TEST(SpheresOptions, ABodyFileHasTwoSets) {
     options.insert(options.begin(), {"a.obj", "--contract", "both", "--count", "9"});
     return spheres_message(options);
   };
-  EXPECT_THAT(message({"--picture", "p.png"}), HasSubstr("--picture is about one set of spheres"));
-  EXPECT_THAT(message({"--picture", "p.png", "--up", "z"}), HasSubstr("--picture is about one set of spheres"));
-  // The way out is no option that is refused, too.
+  EXPECT_EQ(parsed_spheres({"a.obj", "--contract", "both", "--count", "9", "--picture", "p.png", "--up", "z"}).view.up,
+            UpAxis::kZ);
   for (const auto& [option, value] : {std::pair("--view", "top"), {"--up", "z"}}) {
-    EXPECT_THAT(message({option, value}), HasSubstr("--picture FILE.png and --contract inside, cover or balanced"));
+    EXPECT_THAT(message({option, value}), HasSubstr("use them with --picture FILE.png"));
   }
+  EXPECT_THAT(message({"--picture", "p.jpg"}), HasSubstr("does not end in .png"));
+  EXPECT_THAT(message({"--picture", "a.body.npz"}), HasSubstr("does not end in .png"));
   EXPECT_THAT(message({"--histogram", "h.svg"}), HasSubstr("--contract inside, cover or balanced"));
   EXPECT_THAT(message({"-o", "a.csv"}), HasSubstr("does not end in .npz"));
   EXPECT_THAT(message({"-o", "a.npz", "--report", "a.npz"}), HasSubstr("same file"));
