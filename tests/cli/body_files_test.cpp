@@ -83,5 +83,25 @@ TEST_F(BodyFiles, APictureAndAPage) {
   EXPECT_THAT(page, HasSubstr("</svg>"));
 }
 
+TEST_F(BodyFiles, APictureOfARowThatIsChosen) {
+  const auto drawn = [this](std::vector<std::string> options) {
+    options.insert(options.begin(), {"box.npz", "box.npz", "--picture", "d.png", "--html", "d.html", "-q"});
+    return distance(std::move(options));
+  };
+  ASSERT_EQ(drawn({"--poses", "poses.csv"}).exit_code, 0);
+  const std::string least = test::read_file(path("d.png"));
+  ASSERT_EQ(drawn({"--poses", "poses.csv", "--row", "3"}).exit_code, 0);
+  EXPECT_EQ(test::read_file(path("d.png")), least);
+  const test::ToolResult first = drawn({"--poses", "poses.csv", "--row", "1"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(test::read_file(path("d.png")), least);
+  EXPECT_THAT(test::read_file(path("d.html")), HasSubstr("<p>Pose 1 of 3: the distance is between "));
+  const test::ToolResult none = drawn({"--poses", "poses.csv", "--row", "4"}), second = drawn({"--row", "2"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("medial-vk: --row 4: there are only 3 poses\n"));
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr("medial-vk: --row 2: there is only 1 pose\n"));
+}
+
 }  // namespace
 }  // namespace medial_vk

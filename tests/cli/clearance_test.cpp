@@ -277,6 +277,27 @@ TEST_F(ClearanceCommand, APictureAndAPage) {
   EXPECT_THAT(read_file(path("p.html")), HasSubstr("The configuration: the distance is at least 1, in metres."));
 }
 
+TEST_F(ClearanceCommand, APictureOfARowThatIsChosen) {
+  const auto drawn = [this](std::vector<std::string> options) {
+    options.insert(options.begin(), {"rail.urdf", "--joints", "q.csv", "--scene", "wall.obj", "--picture", "p.png",
+                                     "--html", "p.html", "-q"});
+    return clearance(std::move(options));
+  };
+  ASSERT_EQ(drawn({}).exit_code, 0);
+  const std::string least = read_file(path("p.png"));
+  const ToolResult same = drawn({"--row", "2"});
+  ASSERT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_EQ(read_file(path("p.png")), least);
+  const ToolResult last = drawn({"--row", "4"});
+  ASSERT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_NE(read_file(path("p.png")), least);
+  EXPECT_THAT(read_file(path("p.html")), HasSubstr("<p>Configuration 4 of 4: the solids have a common point.</p>"));
+  const ToolResult none = drawn({"--row", "5"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.out, IsEmpty());
+  EXPECT_THAT(none.err, HasSubstr("medial-vk: --row 5: there are only 4 configurations\n"));
+}
+
 TEST_F(ClearanceCommand, WrongUsageIs2) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"rail.urdf"},

@@ -15,6 +15,7 @@ void require_usable(const cli::DistanceCommandOptions& options) {
   require(options.tolerance >= 0 && options.tolerance <= 1e30, "--tolerance keeps its range");
   require(options.limit >= 0 && options.limit < 1e30, "--limit keeps its range");
   require(options.threads <= 1024, "--threads keeps its range");
+  require(options.row == 0 || !options.picture.empty() || !options.html.empty(), "a row is shown");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(!options.balls || (options.tolerance == 0 && options.limit == 0 && !options.surfaces),
           "balls alone have no options of triangles");

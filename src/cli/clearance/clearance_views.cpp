@@ -85,13 +85,14 @@ Status append_clearance_views(const ClearanceOptions& options, const ClearanceVi
   if (options.picture.empty() && options.html.empty()) return {};
   std::vector<PoseInterval> intervals;
   for (const Clearance& c : view.clearances) intervals.push_back({c.lower, c.upper, c.collision()});
-  const std::size_t shown = shown_of(intervals);
+  const std::size_t shown = shown_of(intervals, options.row);
   const Result<PairPicture> picture = picture_of(options, view, shown, intervals[shown]);
   if (!picture) return picture.error();
   DistancePage page;
   page.title = fmt::format("Clearances of {}", name_of_file(options.robot));
   page.intervals = intervals;
   page.shown = shown;
+  page.is_chosen = options.row > 0;
   page.pose = "configuration";
   page.unit = "metres";
   page.picture = "The robot and the scene as glass, with the two closest links in colours";

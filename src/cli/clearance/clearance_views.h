@@ -24,8 +24,9 @@ struct ClearanceView {
   std::function<Status(std::size_t, std::span<Pose>)> place;
 };
 
-/// Appends the files that the options name: robot and scene in the configuration whose upper end is least, the first of
-/// several, with the two links that have it. Errors: those of `place`, kOutOfMemory.
+/// Appends the files that the options name: robot and scene in the configuration of the options' row, without one in
+/// that whose upper end is least, the first of several, with the two links that have the least distance there. Errors:
+/// those of `place`, kOutOfMemory.
 Status append_clearance_views(const ClearanceOptions& options, const ClearanceView& view,
                               std::vector<OutputFile>& files);
 

@@ -14,6 +14,7 @@
 #include "cli/clearance/robot_and_scene.h"
 #include "cli/options/clearance_options.h"
 #include "cli/shared/device_opening.h"
+#include "cli/shared/pair_views.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "cli/terminal/numbers.h"
@@ -74,6 +75,7 @@ class ClearanceRun {
     Result<std::vector<std::vector<double>>> values = read_joint_values(options_.joints, names);
     if (!values) return values.error();
     values_ = std::move(values).value();
+    if (Status status = check_row_exists(options_.row, values_.size(), "configuration"); !status) return status;
     beyond_ = static_cast<std::size_t>(std::ranges::count_if(values_, [this](const auto& of_joints) {
       for (std::size_t i = 0; i < of_joints.size(); ++i) {
         const FreeJoint& joint = kinematics_->joints()[i];

@@ -41,6 +41,7 @@ PairPicture picture_of(const DistanceCommandOptions& options, const DistanceView
   const Pose at_a;
   add_balls({view.body_a, at_a}, {view.body_b, pose}, pose, view.distances.empty(), picture);
   picture.title = title_of(interval);
+  if (view.poses.size() > 1) picture.title = fmt::format("pose {}: {}", shown + 1, picture.title);
   if (coincide(picture.mesh, picture.triangles_of_a)) picture.title += " (A and B are the same, in the same place)";
   picture.has_points = std::isfinite(interval.upper);
   picture.is_hit = interval.collision == Collision::kHit;
@@ -57,11 +58,12 @@ Status append_distance_views(const DistanceCommandOptions& options, const Distan
                              std::vector<OutputFile>& files) {
   if (options.picture.empty() && options.html.empty()) return {};
   const std::vector<PoseInterval> intervals = intervals_of(view);
-  const std::size_t shown = shown_of(intervals);
+  const std::size_t shown = shown_of(intervals, options.row);
   DistancePage page;
   page.title = fmt::format("Distances of {} and {}", name_of_file(options.a), name_of_file(options.b));
   page.intervals = intervals;
   page.shown = shown;
+  page.is_chosen = options.row > 0;
   page.by_balls = options.balls;
   return append_views(picture_of(options, view, shown, intervals[shown]), options.view, options.picture, options.html,
                       std::move(page), files);

@@ -24,8 +24,8 @@ struct DistanceView {
   std::span<const DistanceBounds> bounds;
 };
 
-/// Appends the files that the options name: both solids in the pose whose upper end is least, the first of several.
-/// Error: kOutOfMemory.
+/// Appends the files that the options name: both solids in the pose of the options' row, without one in that whose
+/// upper end is least, the first of several. Error: kOutOfMemory.
 Status append_distance_views(const DistanceCommandOptions& options, const DistanceView& view,
                              std::vector<OutputFile>& files);
 

@@ -14,6 +14,7 @@
 #include "cli/options/distance_options.h"
 #include "cli/shared/load.h"
 #include "cli/shared/load_body.h"
+#include "cli/shared/pair_views.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "cli/terminal/progress.h"
@@ -38,6 +39,7 @@ class DistanceRun {
       if (Status status = check_writable(*output.file); !status) return status;
     }
     if (Status status = load_poses(); !status) return status;
+    if (Status status = check_row_exists(options_.row, poses_.size(), "pose"); !status) return status;
     if (Status status = load(options_.a, side_a_); !status) return status;
     if (options_.b == options_.a) {
       side_b_ = side_a_;

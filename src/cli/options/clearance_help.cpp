@@ -45,7 +45,9 @@ What is computed:
       --balls N         bounds by balls alone, without triangles: N that are
                         proved to lie inside the solids of each link, and N that
                         cover them, fitted in this run; a file of the scene
-                        counts as a link. Wider intervals, for many configurations
+                        counts as a link. Wider intervals, for many configurations.
+                        The fits take seconds for each link (64 balls: 2 to 12
+                        on one core), and longer in proportion to N
       --keep-inner-faces
                         take faces inside a solid, such as those of a part that
                         reaches into another one, for its boundary, too
@@ -64,6 +66,9 @@ Output:
                         with --balls the balls that decided
       --html FILE       a page with that picture, the states of all configurations
                         and a histogram of their distances
+      --row N           show configuration N, as numbered in the output, in
+                        picture and page (default: that of the least distance:
+                        the least upper end, the first of several)
       --view FROM       of the picture: front, back, left, right, top, bottom,
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of the picture: x, y, z, -x, -y or -z (default y; robots

@@ -27,6 +27,7 @@ void declare_clearance(CLI::App& app, ClearanceOptions& options, ViewChoice& vie
   add.text("-o,--output", "file", options.output);
   add.text("--picture", "file", options.picture);
   add.text("--html", "file", options.html);
+  add.row("--row", options.row);
   add.view("--view", view);
   add.up("--up", options.view.up);
   add.whole("--balls", 1, kMostBalls, " balls for each link", options.balls);
@@ -138,6 +139,7 @@ Result<ClearanceOptions> ClearanceOptionParser::parse(const std::vector<std::str
       !status) {
     return status.error();
   }
+  if (Status status = check_row(options.row, options.picture, options.html); !status) return status.error();
   if (options.output.empty()) options.output = "-";
   if (Status status = check_clearance_outputs(options); !status) return status.error();
   return options;

@@ -27,6 +27,7 @@ struct ClearanceOptions {
   std::string write_srdf;             ///< For the pairs that were not compared; empty: none; "-": standard output.
   std::string output;                 ///< "-": standard output.
   std::string picture, html;          ///< Empty: none; "-": standard output.
+  std::size_t row = 0;                ///< The configuration that they show, from 1; 0: that of the least distance.
   PictureView view;
 
   std::size_t balls = 0;         ///< Answers by balls alone, of so many for each link; 0: by triangles.

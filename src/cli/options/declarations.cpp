@@ -85,4 +85,9 @@ Status take_view(const ViewChoice& choice, bool is_drawn, PictureView& view) {
   return {};
 }
 
+Status check_row(std::size_t row, const std::string& picture, const std::string& html) {
+  if (row == 0 || !picture.empty() || !html.empty()) return {};
+  return usage_error("--row chooses what the picture shows: use it with --picture FILE.png or --html FILE.html");
+}
+
 }  // namespace medial_vk::cli

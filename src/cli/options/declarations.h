@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -47,6 +48,8 @@ class Declarations {
         name, [=](const std::string& text) { return parse_whole(text, least, greatest, unit); }, target);
   }
 
+  /// A row of a table, from 1.
+  void row(const char* name, std::size_t& target) { whole(name, 1, 1'000'000'000, "", target); }
   void memory(const char* name, std::uint64_t& target) { parsed(name, parse_memory, target); }
   void view(const char* name, ViewChoice& target) { parsed(name, parse_view, target); }
   void up(const char* name, UpAxis& target) { parsed(name, parse_up, target); }
@@ -95,6 +98,9 @@ Status check_view_files(const std::string& picture, const std::string& html);
 
 /// Combines --view with the --up in `view`. Error: kUsage, if one is given and nothing is drawn.
 Status take_view(const ViewChoice& choice, bool is_drawn, PictureView& view);
+
+/// Only pictures and pages show a row. Error: kUsage.
+Status check_row(std::size_t row, const std::string& picture, const std::string& html);
 
 /// Parses `arguments` into the options declared on `app`, which must allow extras: they are reported here, with a
 /// suggestion. `one_only` follows the name of a second input ("one mesh at a time"). Errors: kUsage.

@@ -53,6 +53,9 @@ Output:
                         with their nearest points and the balls that decided
       --html FILE       a page with that picture, the states of all poses and a
                         histogram of their distances
+      --row N           show the pose of the N-th line of the poses, from 1, in
+                        picture and page (default: that of the least distance:
+                        the least upper end, the first of several)
       --view FROM       of the picture: front, back, left, right, top, bottom,
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of the picture: x, y, z, -x, -y or -z (default y)

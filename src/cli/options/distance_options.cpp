@@ -22,6 +22,7 @@ void declare_distance(CLI::App& app, DistanceCommandOptions& options, ViewChoice
   add.text("-o,--output", "file", options.output);
   add.text("--picture", "file", options.picture);
   add.text("--html", "file", options.html);
+  add.row("--row", options.row);
   add.view("--view", view);
   add.up("--up", options.view.up);
   add.real("--tolerance", {0, kGreatestLength, true}, " (units of the mesh)", options.tolerance);
@@ -116,6 +117,7 @@ Result<DistanceCommandOptions> DistanceOptionParser::parse(const std::vector<std
       !status) {
     return status.error();
   }
+  if (Status status = check_row(options.row, options.picture, options.html); !status) return status.error();
   if (options.output.empty()) options.output = "-";
   if (Status status = check_distance_outputs(options); !status) return status.error();
   return options;

@@ -2,6 +2,7 @@
 // (docs/command-line.md).
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct DistanceCommandOptions {
   std::string poses;          ///< A table of poses; "-": standard input; empty: b stays where it is.
   std::string output;         ///< "-": standard output.
   std::string picture, html;  ///< Empty: none; "-": standard output.
+  std::size_t row = 0;        ///< The pose that they show, from 1; 0: that of the least distance.
   PictureView view;
 
   double tolerance = 0;

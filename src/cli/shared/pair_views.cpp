@@ -34,7 +34,14 @@ void append_mesh(const Mesh& mesh, const Pose& pose, Mesh& all) {
   for (const Triangle& t : mesh.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
-std::size_t shown_of(std::span<const PoseInterval> intervals) {
+Status check_row_exists(std::size_t row, std::size_t rows, const char* what) {
+  if (row <= rows) return {};
+  return Error{ErrorCode::kUsage, fmt::format("--row {}: there {} only {} {}{}", row, rows == 1 ? "is" : "are", rows,
+                                              what, rows == 1 ? "" : "s")};
+}
+
+std::size_t shown_of(std::span<const PoseInterval> intervals, std::size_t row) {
+  if (row > 0) return row - 1;
   const auto least = std::ranges::min_element(intervals, {}, &PoseInterval::upper);
   return static_cast<std::size_t>(least - intervals.begin());
 }

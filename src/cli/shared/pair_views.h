@@ -19,8 +19,12 @@ namespace medial_vk::cli {
 /// Appends the triangles in the frame to which `pose` leads.
 void append_mesh(const Mesh& mesh, const Pose& pose, Mesh& all);
 
-/// The pose whose upper end is least, the first of several. Precondition: there is one.
-std::size_t shown_of(std::span<const PoseInterval> intervals);
+/// That there is a row `row`, from 1, among `rows` of them; 0 chooses none. `what` has one each: "pose". Error: kUsage.
+Status check_row_exists(std::size_t row, std::size_t rows, const char* what);
+
+/// The pose of row `row`, from 1; of 0, the pose whose upper end is least, the first of several. Precondition: there is
+/// one, and that row.
+std::size_t shown_of(std::span<const PoseInterval> intervals, std::size_t row);
 
 /// A body, and the pose from its frame to that of the picture.
 struct PlacedBody {

@@ -78,7 +78,8 @@ std::string shown_text(const DistancePage& page) {
   std::string pose = "The " + page.pose;
   if (page.intervals.size() > 1) {
     const std::string word = static_cast<char>(std::toupper(page.pose.front())) + page.pose.substr(1);
-    pose = fmt::format("{} {} of {}, that of the least distance", word, page.shown + 1, page.intervals.size());
+    pose = fmt::format("{} {} of {}{}", word, page.shown + 1, page.intervals.size(),
+                       page.is_chosen ? "" : ", that of the least distance");
   }
   if (shown.collision == Collision::kHit) return pose + ": the solids have a common point.";
   if (!std::isfinite(shown.upper)) {

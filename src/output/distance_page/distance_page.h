@@ -21,8 +21,9 @@ struct DistancePage {
   std::string picture = "Both solids as glass, with their nearest points";  ///< In words.
   std::span<const PoseInterval> intervals;                                  ///< At least one.
   std::size_t shown = 0;                                                    ///< The pose of the picture.
-  std::string png;                                                          ///< The picture.
-  bool by_balls = false;                                                    ///< Intervals are those of balls alone.
+  bool is_chosen = false;  ///< That pose is one of the user's choice, not that of the least distance.
+  std::string png;         ///< The picture.
+  bool by_balls = false;   ///< Intervals are those of balls alone.
 };
 
 /// One HTML file that works from disk, loads nothing and runs no script.

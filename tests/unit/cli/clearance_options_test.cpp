@@ -118,6 +118,18 @@ TEST(ClearanceOptions, Views) {
               HasSubstr(".html"));
 }
 
+TEST(ClearanceOptions, RowsAreThoseOfAPictureOrAPage) {
+  const auto with = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"r.urdf", "--joints", "q.csv", "--row"});
+    return options;
+  };
+  EXPECT_EQ(parsed_clearance(with({"3", "--picture", "p.png"})).row, 3u);
+  EXPECT_EQ(parsed_clearance(with({"3", "--html", "p.html"})).row, 3u);
+  EXPECT_THAT(clearance_message(with({"0", "--picture", "p.png"})), HasSubstr("--row: 0 is not between 1 and"));
+  EXPECT_THAT(clearance_message(with({"1.5", "--picture", "p.png"})), HasSubstr("--row"));
+  EXPECT_THAT(clearance_message(with({"1"})), HasSubstr("use it with --picture FILE.png or --html"));
+}
+
 TEST(ClearanceOptions, Messages) {
   EXPECT_THAT(clearance_message({}), HasSubstr("ROBOT.urdf"));
   EXPECT_THAT(clearance_message({"r.obj", "--joints", "q.csv"}), HasSubstr("'r.obj' does not end in .urdf"));

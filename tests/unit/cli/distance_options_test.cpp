@@ -105,8 +105,9 @@ TEST(DistanceOptions, NoLineAffectsTheNext) {
 
 TEST(DistanceOptions, HelpNamesEveryOption) {
   const std::string help = distance_help_text();
-  for (const char* option : {"--poses", "--tolerance", "--limit", "--surfaces", "--keep-inner-faces", "--check",
-                             "--output", "--threads", "--quiet", "--verbose", "--help", " -o", " -q", " -v", " -h"}) {
+  for (const char* option :
+       {"--poses", "--tolerance", "--limit", "--surfaces", "--keep-inner-faces", "--check", "--output", "--row",
+        "--threads", "--quiet", "--verbose", "--help", " -o", " -q", " -v", " -h"}) {
     EXPECT_THAT(help, HasSubstr(option));
   }
 }
@@ -128,6 +129,12 @@ TEST(DistanceOptions, PicturesAndPages) {
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--html", "p.htm"}), HasSubstr("does not end in .html"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--up", "z"}), HasSubstr("--view and --up"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--html", "-"}), HasSubstr("are the same file"));
+  EXPECT_EQ(options.row, 0u);
+  EXPECT_EQ(parsed_distance({"a.obj", "b.obj", "--picture", "p.png", "--row", "12"}).row, 12u);
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--html", "p.html", "--row", "0"}),
+              HasSubstr("--row: 0 is not between 1 and"));
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--row", "1"}),
+              HasSubstr("use it with --picture FILE.png or --html FILE.html"));
 }
 
 }  // namespace
