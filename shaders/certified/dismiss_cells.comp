@@ -21,13 +21,13 @@ layout(set = 0, binding = 9) writeonly buffer Requests { uint requests[]; };  //
 layout(set = 0, binding = 10) readonly buffer Counts { uvec4 counts[]; };  // y: contacts that touch
 
 const uint kNormalSweeps = 6;     // with normals alone: no distances, and enough for most cells
-const uint kDirectionSweeps = 3;  // with directions too; two more per level below the finest voxel
+const uint kDirectionSweeps = 3;  // with directions too; pairs dismiss what is left below the finest voxel
 // lavapipe ends the loops of an invocation after 65,535 iterations in all, counted for up to 16 neighbours together. A
 // sweep takes at most one iteration per entry of the list (a word without contacts takes one for all its entries). So a
 // cell that may make s sweeps takes at most kLoopBudget / s for each. Of the up to 6 sweeps by normals, the k-th is
 // made only by cells with s >= k; then all invocations meet. The same holds for the sweeps by directions, of which
-// there are up to 23 (10 levels below the finest voxel). The sum is less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 +
-// 1/2 + ... + 1/23), or 64,400, with the sweeps themselves. Cells with lists too long for a sweep are kept unproved.
+// there are 3. The sum is less than kLoopBudget (1 + 1/2 + ... + 1/6 + 1 + 1/2 + 1/3), or 44,600, with the sweeps
+// themselves. Cells with lists too long for a sweep are kept unproved.
 const uint kLoopBudget = 10400;
 
 float theta, cos_theta;
@@ -102,7 +102,7 @@ bool provably_empty(Cell parent, uint item, uint word_base, uint word_count, ino
   }
   // Directions gather around that of the nearest contact: at a reflex edge or vertex they agree, and normals do not.
   if (dot(to_nearest, to_nearest) > step.circumradius * step.circumradius) axis = unit_or_zero(to_nearest);
-  for (uint extra = 0; extra < min(kDirectionSweeps + 2u * step.depth, sweeps - min(sweep, sweeps)); ++extra) {
+  for (uint extra = 0; extra < min(kDirectionSweeps, sweeps - min(sweep, sweeps)); ++extra) {
     float worst = worst_violation(parent, word_base, word_count, axis, true, towards, offender);
     tests += touching;
     if (worst < 0.0) return true;

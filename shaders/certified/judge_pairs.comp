@@ -32,6 +32,7 @@ layout(set = 0, binding = 7) readonly buffer Winners { uint winners[]; };
 layout(set = 0, binding = 8) buffer Reasons { uvec2 reasons[]; };  // kind + 1, bits of the width
 layout(set = 0, binding = 9) readonly buffer GivenUp { uint given_up[]; };  // kGivenUpBit
 #include "certified/pair_queue.glsl"
+#include "certified/joint_conditions.glsl"
 #include "certified/foot_sides.glsl"
 
 const float kFaceMargin = 1.0 / 64.0;  // of the voxel side
@@ -43,8 +44,11 @@ const float kBoundaryRadius = 1.0 / 8.0;  // of the voxel side
 // Limit of the rounds over queued pairs of an invocation: some 70 iterations each where directions at corners are
 // tested, 16 elsewhere, of the 65,535 after which lavapipe ends all loops (tree.glsl); filling the queue and gathering
 // carriers take up to 24,000. Cells with more pairs are kept.
-const uint kMostRounds = kHasUntrusted ? 512u : 2560u;
+const uint kMostRounds = kHasUntrusted ? 448u : 1984u;
 uint rounds = 0u;
+// Of the pairs whose conditions are tested together (joint_conditions.glsl): some 70 iterations each.
+const uint kMostJoint = 128u;
+uint joint_tests = 0u;
 
 const float kParallel = 0.98;  // cosine above which aims at the same point count as one
 
@@ -83,15 +87,38 @@ struct Remains {
   float width;
 };
 
+// For all lanes: the lanes among `lanes` whose pairs, queued from `head` on, satisfy all conditions together; all that
+// have not been tested when the first is found. Its point becomes an aim.
+uint joint_lanes(uint lanes, uint head, Carrier mine_a, Carrier mine_b, float theta, Box box) {
+  uint left = lanes, slot;
+  Carrier rival = load_row(0u, slot);
+  while (left != 0u) {
+    uint lane = uint(findLSB(left));
+    Carrier a = QUEUED_CARRIER(mine_a, head, lane, 16u), b = QUEUED_CARRIER(mine_b, head, lane, 0u);
+    vec4 point;
+    vec3 across;
+    bool can = can_be_joint(a, b, rival, theta, box, point, across);
+    float size = length(across);
+    if (gl_LocalInvocationID.x == lane && can && point.w > 0.0 && size > 0.1)
+      best_aim = Aim(vec4(point.xyz, -1.0), vec4(across / size, 1.0));
+    left &= can ? left : left - 1u;
+    if (can || left == 0u || ++joint_tests > kMostJoint) break;
+  }
+  return left;
+}
+
 // For all lanes: evaluates the queued pairs, or, if the width is not needed, stops at the first feasible one.
 void rate_pairs(inout Remains r, Cell cell, float theta, float sine, float nearest_distance, bool wants_width, Box box) {
   while (r.decided) {
     Carrier a, b;
+    uint head = queue_head, lane = gl_LocalInvocationID.x;
     bool feasible = take_pair(a, b);
     feasible = feasible && is_feasible_survivor(a, b, theta, sine, box);
     if (kHasUntrusted) feasible = feasible && !is_outside_pair(a.name, b.name, cell, nearest_distance);
+    uint lanes = or_of_lanes(feasible ? 1u << lane : 0u);
+    if (!wants_width && lanes != 0u && joint_tests <= kMostJoint) lanes = joint_lanes(lanes, head, a, b, theta, box);
     r.width = max(r.width, feasible ? pair_width(a, b, nearest_distance, box) : 0.0);
-    r.feasible = or_of_lanes(r.feasible || feasible ? 1u : 0u) != 0u;
+    r.feasible = r.feasible || lanes != 0u;
     r.decided = r.decided && ++rounds <= kMostRounds;
     if (!has_enough_queued() || !r.decided || (r.feasible && !wants_width)) break;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dismissal/common_corner.h"
+#include "dismissal/joint_conditions.h"
 
 namespace medial_vk::reference {
 namespace {
@@ -38,7 +39,8 @@ class PairTest {
 
   bool can_be_salient(const Carrier& a, const Carrier& b) const {
     return spokes_can_part(a.spokes, b.spokes) && !are_of_one_triangle(a, b) && can_face(a, b) && can_face(b, a) &&
-           can_be_at_corner(a, b) && !is_beaten_by_a_third(a, b);
+           can_be_at_corner(a, b) && !is_beaten_by_a_third(a, b) &&
+           can_hold_jointly(a, b, rivals_, box_, angle_, slack_ / 8);
   }
 
  private:

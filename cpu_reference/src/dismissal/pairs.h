@@ -1,5 +1,5 @@
 // Dismissal by pairs: a box holds no salient medial point if no two of its carriers can hold two feet of one
-// (docs/theory.md, Lemmas C to F and the theorem on pairs).
+// (docs/theory.md, Lemmas C to F, M and the theorem on pairs).
 #pragma once
 
 #include <cstddef>

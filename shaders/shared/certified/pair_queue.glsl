@@ -106,6 +106,14 @@ bool take_pair(out Carrier a, out Carrier b) {
   return exists;
 }
 
+// The carrier of lane k in the pairs that were taken from `head` on: of the half-word `shift` of the queue.
+#ifdef LOCKSTEP
+#define QUEUED_CARRIER(mine, head, k, shift) \
+  Carrier(from_lane(mine.name, k), from_lane(mine.nearest, k), from_lane(mine.spokes, k))
+#else
+#define QUEUED_CARRIER(mine, head, k, shift) load_carrier(queue[((head) + (k)) % kQueueSize] >> (shift) & 0xffffu)
+#endif
+
 // True if pairs should be taken now rather than more of them queued.
 bool has_enough_queued() {
   uint queued = queue_tail - queue_head;

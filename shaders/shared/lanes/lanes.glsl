@@ -14,6 +14,7 @@ const uint kMostLanes = 256u;
 
 // Among the eight lanes of a cell, in workgroups of at most kMostLanes; all eight lanes call these functions.
 //   from_lane (LOCKSTEP only)   the value that lane k holds
+//   opposite_lane               the value of the lane four before or after
 //   sum_of_lanes, least_of_lanes, or_of_lanes, first_lane_with
 //   count_lanes                 the sum over the lanes before this one, and over all
 //
@@ -37,6 +38,8 @@ float from_lane(float mine, uint k) { return subgroupShuffle(mine, lane_of_eight
 vec2 from_lane(vec2 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 vec4 from_lane(vec4 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 uint from_lane(uint mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+
+vec4 opposite_lane(vec4 mine) { return subgroupShuffleXor(mine, 4u); }
 
 vec4 sum_of_lanes(vec4 mine) {
   [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine += subgroupShuffleXor(mine, k);
@@ -66,6 +69,13 @@ void synchronize() { barrier(); }
 shared vec4 exchanged[kMostLanes];
 shared uint exchanged_bits[kMostLanes];
 
+vec4 opposite_lane(vec4 mine) {
+  uint slot = gl_LocalInvocationID.x;
+  barrier();
+  exchanged[slot] = mine;
+  barrier();
+  return exchanged[slot ^ 4u];
+}
 vec4 sum_of_lanes(vec4 mine) {
   uint slot = gl_LocalInvocationID.x;
   barrier();

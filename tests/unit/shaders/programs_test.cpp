@@ -164,8 +164,8 @@ struct Budget {
 // long programs, and SwiftShader's for long blocks: minutes for mark_contacts with all loops unrolled.
 Budget budget_of(std::string_view name) {
   static const std::pair<std::string_view, Budget> kBudgets[] = {
-      {"judge_pairs_lockstep_with", {70'000, 3'900, 120}},
-      {"judge_pairs", {117'000, 6'600, 120}},
+      {"judge_pairs_lockstep_with", {84'000, 4'700, 120}},
+      {"judge_pairs", {134'000, 7'600, 120}},
       {"mark_contacts_lockstep", {88'000, 4'500, 310}},  // unrolled for lavapipe
       {"measure_balls", {88'000, 5'000, 150}},
       {"mark_samples", {30'000, 1'500, 610}},
