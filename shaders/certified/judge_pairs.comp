@@ -87,8 +87,9 @@ struct Remains {
   float width;
 };
 
-// For all lanes: the lanes among `lanes` whose pairs, queued from `head` on, satisfy all conditions together; all that
-// have not been tested when the first is found. Its point becomes an aim.
+// For all lanes: tests the pairs that `lanes` have taken, queued from `head` on, one after the other, until the conditions
+// of one can hold together. Returns the lanes whose pairs are not excluded or not tested. The point of that pair, if
+// there is one, becomes an aim.
 uint joint_lanes(uint lanes, uint head, Carrier mine_a, Carrier mine_b, float theta, Box box) {
   uint left = lanes, slot;
   Carrier rival = load_row(0u, slot);
