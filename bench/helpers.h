@@ -20,6 +20,12 @@ T or_exit(Result<T> result) {
   std::exit(1);
 }
 
+inline void exit_unless(const Status& status) {
+  if (status.ok()) return;
+  std::fprintf(stderr, "%s\n", status.error().message.c_str());
+  std::exit(1);
+}
+
 /// The mean of the two middle ones if their number is even; 0 of none.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -1,14 +1,18 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
-//   bench_following [--frames N] [--repeats N] [--fresh] MESH BALLS.csv
+//   bench_following [--frames N] [--repeats N] [--threads N] [--fresh] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, and after the way back; the
 // time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
 // of as many balls to the last frame.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,12 +55,6 @@ struct Uncovered {
 Uncovered uncovered(const Follower& follower) {
   const FollowMeasures measures = or_exit(follower.measure());
   return {100 * measures.uncovered() / measures.solid_volume, 100 * measures.outside_bound / measures.solid_volume};
-}
-
-void exit_unless(const Status& status) {
-  if (status.ok()) return;
-  std::fprintf(stderr, "%s\n", status.error().message.c_str());
-  std::exit(1);
 }
 
 /// Milliseconds of each frame.

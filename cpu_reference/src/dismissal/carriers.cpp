@@ -185,13 +185,15 @@ std::vector<Carrier> carriers_of(const Tree& tree, const SpokeCones& cones, cons
 
 // Let m = centre + x have feet on a and b. Their distances from m are both D(m), and at least D - g . x (convexity),
 // and so is the mean of these bounds. D(m) is at most the distance to the nearest point of c, at most
-// D_c - g_c . x + |x|^2 / (2 D_c) (as in Lemma A). Three computed distances: 3 rounding().
+// D_c - g_c . x + |x|^2 / (2 D_c) (as in Lemma A). Three computed distances: 3 rounding(). A direction has an error of
+// 2 rounding() / D, which moves g . x by that much times the reach of the box.
 bool is_beaten(const Carrier& a, const Carrier& b, double share, const Carrier& c, const Box& box, double slack) {
   if (c.distance <= 0) return false;
   const double distance = a.distance + share * (b.distance - a.distance) - c.distance;
   if (distance <= slack) return false;
   const Vector3d direction = a.direction + share * (b.direction - a.direction) - c.direction;
-  return distance - slack > box.support(direction) * (1 + 1e-12) + box.half.squaredNorm() / (2 * c.distance);
+  const double turns = slack * box.reach() * (1 / a.distance + 1 / b.distance + 1 / c.distance);
+  return distance - slack - turns > box.support(direction) * (1 + 1e-12) + box.half.squaredNorm() / (2 * c.distance);
 }
 
 }  // namespace medial_vk::reference

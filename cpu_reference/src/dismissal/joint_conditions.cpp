@@ -98,7 +98,9 @@ class Conditions {
   /// By the axis of its cap, if that is perpendicular to the carrier, or by the tangent at the nearest point.
   Bounds bounds_of(const Carrier& k) const {
     const bool has_axis = k.spokes.angle < kWidestAxis && (k.spokes.axis - k.direction).norm() > 1e-9;
-    if (!has_axis) return {tangent(k, 0), tangent(k, bend(k)), 8 * rounding_};
+    // The direction has an error of 2 rounding / distance.
+    const double turn = k.distance > 0 ? box_.reach() / k.distance : 0;
+    if (!has_axis) return {tangent(k, 0), tangent(k, bend(k)), 8 * rounding_ * (1 + turn)};
     const Linear lower = half_space(-k.spokes.axis, corner(k, 0));
     return {lower, lower * (1 / k.spokes.cosine), 2 * error_at(k)};
   }

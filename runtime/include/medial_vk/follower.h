@@ -13,9 +13,10 @@
 namespace medial_vk {
 
 enum class FollowRule : std::uint8_t {
-  /// Balls keep two contacts, and are inside in every frame.
+  /// Balls keep two contacts, and are inside in every frame, or lost.
   kTangent,
   /// As in Section 7.4.1: one contact, interpolated normals, and balls that reach out a little (Algorithm 5).
+  /// Each frame is computed from the rest pose.
   kPublished,
 };
 
@@ -35,52 +36,58 @@ struct FollowerOptions {
 };
 
 enum class FollowState : std::uint8_t {
-  kMedial,   ///< Tangent on two sides of the medial surface.
-  kFlat,     ///< Its object angle is small.
-  kShrunk,   ///< Its radius is a small share of that in the rest pose.
-  kOutside,  ///< Lost in this frame, with radius 0: no ball at its contacts lies inside. It may return in a later
-             ///< frame.
+  kMedial,  ///< None of the others.
+  kFlat,    ///< It has two contacts with a small object angle. kTangent only.
+  kShrunk,  ///< Its radius is a small share of that in the rest pose.
+  /// Lost in this frame, with radius 0: no ball of 2^-30 of the longest side or more is known to be inside at its
+  /// contacts. It may return in a later frame.
+  kLost,
 };
 
 /// Numbers of a frame, in mesh units.
 struct FollowMeasures {
-  /// Of the mesh, by its triangles: that of the solid if they do not cross. In a mirrored frame, too, it is positive.
+  /// Of the mesh, by its triangles: that of the solid if it is closed and no triangles cross. In a mirrored frame, too,
+  /// it is positive.
   double solid_volume = 0;
   double ball_volume = 0;  ///< Of the union of the balls; exact.
   /// An upper bound of the volume of the balls outside the solid: vol(U) - vol(U^xi) of Lemma 7.3; kTangent: 0.
   double outside_bound = 0;
 
-  /// kTangent: the volume of the solid in no ball. kPublished: an estimate, by which Lemma 7.3 bounds the error:
-  /// uncovered() + 2 outside_bound.
+  /// Where solid_volume is that of the solid. kTangent: the volume of the solid in no ball. kPublished: less than that,
+  /// by the volume of the balls outside; Lemma 7.3 bounds the volume error by uncovered() + 2 outside_bound.
   double uncovered() const { return solid_volume - ball_volume; }
 };
 
 /// A set of balls that is updated for every frame of a motion. Objects are independent of each other.
 class Follower {
  public:
-  /// The balls lie inside the solid in the rest pose, as medial spheres and fits with contract `inside` do. kTangent:
-  /// each of them grows along its spoke until it touches the boundary a second time, so that the result holds the given
-  /// balls. Errors: kUsage (no ball; an option out of range; names a ball that is not inside), kInvalidMesh (no
-  /// extent), kOutOfMemory.
+  /// The balls lie inside the solid in the rest pose, up to a millionth of the longest side, as medial spheres and fits
+  /// with contract `inside` do. kTangent: each of them grows along its spoke until it touches the boundary a second
+  /// time; the result holds the given ball up to 1e-10 of the longest side, if that was inside. Errors: kUsage (no
+  /// ball; an option out of range; names a ball that is not inside), kInvalidMesh (a longest side below 1e-60, a
+  /// coordinate above 1e60), kOutOfMemory.
   static Result<Follower> create(const IndexedMesh& rest, std::span<const Ball> balls,
                                  const FollowerOptions& options = {});
   Follower(Follower&&) noexcept;
   Follower& operator=(Follower&&) noexcept;
   ~Follower();
 
-  /// The next frame: the positions of the vertices of IndexedMesh::view(), in any number and order of frames; the
-  /// result depends on the frames before. kTangent: the interior of every ball lies inside the boundary of the frame,
-  /// in exact arithmetic. A frame whose signed volume is negative counts as mirrored, with the inside on the other side
-  /// of every triangle; triangles without an area and triangles that cross are permitted, where the inside of a closed
-  /// mesh is the set of points with a positive winding number. A mesh that is not closed takes several times as long.
-  /// Errors: kInvalidMesh (another number of vertices, a coordinate that is not finite, no extent: nothing has
-  /// changed), kOutOfMemory.
+  /// The next frame: the positions of the vertices of IndexedMesh::view(), in any number and order of frames. kTangent:
+  /// the result depends on the frames before, and the interior of every ball lies inside the boundary of the frame, in
+  /// exact arithmetic. Triangles without an area and triangles that cross are permitted; the inside of a closed mesh is
+  /// the set of points with a positive winding number. A frame of a closed mesh whose signed volume is negative counts
+  /// as mirrored: its inside has negative winding numbers. The inside of a mesh that is not closed has winding numbers
+  /// of 1/2 and more; it takes several times as long, and its balls are lost in mirrored frames. Errors: kInvalidMesh
+  /// (another number of vertices, a coordinate of a triangle that is not finite, a size beyond the limits of create():
+  /// nothing has changed), kOutOfMemory (balls() are those of the frame before; the next update() or reset()
+  /// continues).
   Status update(std::span<const Point> vertices);
   /// Returns to the rest pose, as if no frame had been seen: update() then does not depend on earlier frames. Error:
   /// kOutOfMemory.
   Status reset();
 
-  /// The balls of the present frame, in the order in which they were given.
+  /// The balls of the present frame, in the order in which they were given. The spans stay valid, and update() and
+  /// reset() change their elements.
   std::span<const Ball> balls() const;
   std::span<const FollowState> states() const;
   /// Of the present frame; takes the time of measure_ball_union(), or of two. Errors: those of that call.

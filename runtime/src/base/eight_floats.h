@@ -9,9 +9,7 @@
 #include <cstring>
 
 // Functions that return such vectors are inlined, so the calls on which compilers differ do not exist.
-#if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
-#endif
 
 // Inlined into a function for processors with AVX2, a function is compiled for these.
 #define MEDIAL_VK_INLINE inline __attribute__((always_inline))

@@ -46,7 +46,6 @@ struct WideTree::Ranges {
 };
 
 WideTree::WideTree(const Bvh& bvh) {
-  if (bvh.nodes().empty()) return;
   add_node(bvh, Ranges(bvh), 0);
   refit(bvh);
 }
@@ -227,7 +226,7 @@ class WideTree::Walk {
 
 BvhHit WideTree::closest(const Bvh& bvh, const Point& p, double bound) const {
   const double far = reach_ + length(scaled(p));
-  if (!(far < 0x1p40)) return bvh.closest(p, bound);  // squares of such lengths are not for floats
+  if (!(far < 0x1p40)) return bvh.closest(p, bound);  // products of squares of such lengths overflow
   BvhHit best;
   best.squared_distance = bound > 0 ? bound * bound : 0.0;
   Walk walk(*this, bvh, p, best, far);

@@ -16,8 +16,7 @@ namespace medial_vk {
 /// another one. Belongs to one Bvh, which is passed to each call. Queries may come from several threads at once.
 class WideTree {
  public:
-  WideTree() = default;
-  /// Throws std::bad_alloc.
+  /// Of a tree with a node. Throws std::bad_alloc.
   explicit WideTree(const Bvh& bvh);
 
   /// Follows Bvh::refit(). Allocates nothing.

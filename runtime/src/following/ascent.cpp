@@ -16,7 +16,8 @@ constexpr double kLeastStep = 1e-4, kGreatestStep = 0.3;
 /// centre to either contact, if d is perpendicular to the difference m of both: the change of the volume is
 /// area (vector / area - u) . d, to first order.
 Point ascent_direction(const TrackedBall& tracked, const Exposure& exposure) {
-  const Point gradient = (1 / exposure.area) * exposure.vector + tracked.a.towards_centre;
+  const double share = length(exposure.vector) <= exposure.area ? 1 / exposure.area : 0;  // false by rounding only
+  const Point gradient = share * exposure.vector + tracked.a.towards_centre;
   const Point across = tracked.a.towards_centre - tracked.b.towards_centre;
   const double squared = dot(across, across);
   return squared > 0 ? gradient - (dot(gradient, across) / squared) * across : gradient;

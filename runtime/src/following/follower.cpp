@@ -38,17 +38,18 @@ Status check_options(std::span<const Ball> balls, const FollowerOptions& options
 }
 
 /// The ball in the rest pose with its first contact, or an error that names it.
-Result<TrackedBall> track(const MovingSurface& surface, const Ball& ball, std::size_t index) {
+Result<TrackedBall> track(const MovingSurface& surface, const Ball& ball, std::size_t index, double error) {
   const auto refuse = [&](const std::string& why) {
     return Error{ErrorCode::kUsage, "ball " + std::to_string(index) + " " + why};
   };
-  if (!std::isfinite(dot(ball.centre, ball.centre)) || !(ball.radius > 0) || !std::isfinite(ball.radius)) {
-    return refuse("has a number that is not finite, or no positive radius");
+  constexpr double kMost = MovingSurface::kGreatestCoordinate;
+  const bool is_in_range = std::ranges::all_of(ball.centre, [](double x) { return std::fabs(x) <= 2 * kMost; });
+  if (!is_in_range || !(ball.radius > 0 && ball.radius <= kMost)) {
+    return refuse("has a number that is out of range, or no positive radius");
   }
   const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
   const double distance = std::sqrt(nearest.squared_distance);
-  if (ball.radius > distance + kGivenError * surface.longest_side() || !(distance > 2 * surface.rounding()) ||
-      !surface.contains(ball.centre)) {
+  if (ball.radius > distance + error || !(distance > 2 * surface.rounding()) || !surface.contains(ball.centre)) {
     return refuse("is not inside the mesh");
   }
   TrackedBall tracked;
@@ -72,15 +73,10 @@ class Follower::Impl {
 
   Status update(std::span<const Point> vertices) {
     if (Status status = surface_.move(vertices, options_.threads); !status) return status;
-    if (options_.rule == FollowRule::kPublished) {
-      find_vertex_normals(surface_, vertex_normals_);
+    if (Status status = options_.rule == FollowRule::kTangent ? follow_by_both_contacts() : follow_as_published();
+        !status) {
+      return status;
     }
-    for_each_ball([&](TrackedBall& tracked) { follow(tracked); });
-    drop_outside();
-    for (std::uint32_t step = 0; step < options_.steps && options_.rule == FollowRule::kTangent; ++step) {
-      if (Status status = ascend_all(); !status) return status;
-    }
-    if (options_.rule == FollowRule::kTangent) draw_to_rest();
     report();
     return {};
   }
@@ -116,25 +112,29 @@ class Follower::Impl {
   double protrusion() const { return options_.protrusion * surface_.rest_side(); }
 
   Status take(std::span<const Ball> balls) {
+    double error = kGivenError * surface_.rest_side();
+    if (options_.rule == FollowRule::kPublished) error = std::min(error, protrusion());
     for (std::size_t i = 0; i < balls.size(); ++i) {
-      Result<TrackedBall> tracked = track(surface_, balls[i], i);
+      Result<TrackedBall> tracked = track(surface_, balls[i], i, error);
       if (!tracked) return tracked.error();
       tracked_.push_back(tracked.value());
     }
     balls_.resize(balls.size());
+    present_.resize(balls.size());
     states_.resize(balls.size());
     is_inside_.resize(balls.size());
     vertex_normals_.resize(surface_.vertices().size());
     if (options_.rule == FollowRule::kTangent) {
-      for_each_ball([&](TrackedBall& tracked) { tracked = greatest_ball(surface_, tracked.a, {}); });
+      for_each_ball([&](std::size_t i) { tracked_[i] = greatest_ball(surface_, tracked_[i].a, {}); });
     }
     for (TrackedBall& tracked : tracked_) tracked.rest_radius = tracked.ball.radius;
-    copy_balls();
-    Result<BallSides> sides = BallSides::build(balls_, options_.threads);
+    copy_balls(present_);
+    Result<BallSides> sides = BallSides::build(present_, options_.threads);
     if (!sides) return sides.error();
     sides_ = std::move(sides).value();
     before_ = tracked_;
-    drop_outside();  // of an open mesh: balls whose centres are inside may reach through a hole
+    // Of an open mesh: balls whose centres are inside may reach through a hole.
+    if (options_.rule == FollowRule::kTangent) drop_outside();
     rest_ = tracked_;
     report();
     return {};
@@ -142,13 +142,29 @@ class Follower::Impl {
 
   template <class Work>
   void for_each_ball(const Work& work) {
-    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) { work(tracked_[i]); });
+    parallel_for(tracked_.size(), kBlock, options_.threads, work);
+  }
+
+  Status follow_as_published() {
+    find_vertex_normals(surface_, vertex_normals_);
+    for_each_ball(
+        [&](std::size_t i) { tracked_[i] = follow_published(surface_, vertex_normals_, rest_[i], protrusion()); });
+    return {};
+  }
+
+  Status follow_by_both_contacts() {
+    for_each_ball([&](std::size_t i) { follow(tracked_[i]); });
+    drop_outside();
+    for (std::uint32_t step = 0; step < options_.steps; ++step) {
+      if (Status status = ascend_all(); !status) return status;
+    }
+    draw_to_rest();
+    return {};
   }
 
   void follow(TrackedBall& tracked) {
-    if (options_.rule == FollowRule::kPublished) {
-      tracked = follow_published(surface_, vertex_normals_, tracked, protrusion());
-      return;
+    if (length(tracked.last_direction) > 0) {
+      tracked.last_direction = surface_.carried(tracked.last_direction, tracked.a.on.triangle);
     }
     replace(tracked, follow_tangent(surface_, tracked));
   }
@@ -161,20 +177,17 @@ class Follower::Impl {
 
   void draw_to_rest() {
     std::ranges::copy(tracked_, before_.begin());
-    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) {
+    for_each_ball([&](std::size_t i) {
       const double share = share_of_rest(surface_, rest_[i]);
       if (share > 0) replace(tracked_[i], drawn_to_rest(surface_, rest_[i], share, tracked_[i]));
     });
     take_back_outside();
   }
 
-  void copy_balls() {
-    for (std::size_t i = 0; i < tracked_.size(); ++i) balls_[i] = tracked_[i].ball;
-  }
+  void copy_balls(std::span<Ball> balls) const { std::ranges::transform(tracked_, balls.begin(), &TrackedBall::ball); }
 
   /// Balls by the tangent rule do not meet the surface, but may lie on its other side.
   void drop_outside() {
-    if (options_.rule == FollowRule::kPublished) return;
     find_sides();
     for (std::size_t i = 0; i < tracked_.size(); ++i) {
       if (is_inside_[i] != 0) continue;
@@ -192,33 +205,31 @@ class Follower::Impl {
   }
 
   void find_sides() {
-    copy_balls();
-    sides_.find(surface_, balls_, is_inside_);
+    copy_balls(present_);
+    sides_.find(surface_, present_, is_inside_);
   }
 
   /// All balls move at once, by what the union of the present ones exposes.
   Status ascend_all() {
-    copy_balls();
-    Result<BallUnion> measured = measure_ball_union(balls_, BallUnionOptions{options_.threads});
+    copy_balls(present_);
+    Result<BallUnion> measured = measure_ball_union(present_, BallUnionOptions{options_.threads});
     if (!measured) return measured.error();
     const BallUnion& exposed = measured.value();
     std::ranges::copy(tracked_, before_.begin());
-    parallel_for(tracked_.size(), kBlock, options_.threads, [&](std::size_t i) {
-      ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]);
-    });
+    for_each_ball([&](std::size_t i) { ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]); });
     take_back_outside();
     return {};
   }
 
   FollowState state_of(const TrackedBall& tracked) const {
-    if (!(tracked.ball.radius > 0)) return FollowState::kOutside;
+    if (!(tracked.ball.radius > 0)) return FollowState::kLost;
     if (tracked.ball.radius < options_.shrunk * tracked.rest_radius) return FollowState::kShrunk;
     const bool is_flat = tracked.has_two_contacts() && tracked.object_angle() < options_.object_angle;
     return is_flat ? FollowState::kFlat : FollowState::kMedial;
   }
 
   void report() {
-    copy_balls();
+    copy_balls(balls_);
     std::ranges::transform(tracked_, states_.begin(), [&](const TrackedBall& tracked) { return state_of(tracked); });
   }
 
@@ -226,9 +237,10 @@ class Follower::Impl {
   FollowerOptions options_;
   std::vector<TrackedBall> tracked_, rest_;
   std::vector<TrackedBall> before_;  // the last step of the same frame: inside, or of radius 0
+  std::vector<Ball> present_;        // of tracked_, within an update
   BallSides sides_;
   std::vector<Point> vertex_normals_;  // by vertex; of the published rule
-  // By ball, in the order in which they were given.
+  // By ball, in the order in which they were given; of the last frame that was completed.
   std::vector<Ball> balls_;
   std::vector<FollowState> states_;
   std::vector<std::uint8_t> is_inside_;

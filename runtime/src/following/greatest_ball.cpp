@@ -42,7 +42,8 @@ TrackedBall shrunk_ball(const MovingSurface& surface, const BallContact& contact
     if (!(next < radius)) break;
     radius = next;
   }
-  tracked.ball = {centre, std::max(0.0, empty - surface.rounding())};
+  const double safe = empty - surface.rounding();
+  tracked.ball = {centre, safe >= kLeastRadius * surface.longest_side() ? safe : 0};
   if (tracked.ball.radius > 0 && tracked.b.on.is_known()) {
     const Point away = centre - surface.at(tracked.b.on);
     const double size = length(away);

@@ -17,6 +17,16 @@ double longest_side_of(const BvhBox& box) {
   return std::max({sides[0], sides[1], sides[2]});
 }
 
+Status check_size(const BvhBox& box) {
+  double greatest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    greatest = std::max({greatest, std::fabs(box.lower[k]), std::fabs(box.upper[k])});
+  }
+  if (longest_side_of(box) >= MovingSurface::kLeastSide && greatest <= MovingSurface::kGreatestCoordinate) return {};
+  return Error{ErrorCode::kInvalidMesh,
+               "the longest side of a mesh that moves must be at least 1e-60, and its coordinates at most 1e60"};
+}
+
 /// Of the cones from a point near the middle of the box to all triangles, which keeps rounding small.
 double signed_volume(std::span<const Point> vertices, std::span<const Triangle> triangles, const BvhBox& box) {
   const Point middle = 0.5 * (box.lower + box.upper);
@@ -41,6 +51,7 @@ Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest) {
   Result<Bvh> bvh = refined_tree(rest.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
   MovingSurface surface(rest, std::move(bvh).value());
+  if (Status status = check_size(surface.bvh_.nodes().front().box); !status) return status.error();
   if (Status status = surface.measure(1); !status) return status.error();
   surface.last_front_ = surface.rest_front_ = surface.front_;
   return surface;
@@ -53,10 +64,10 @@ Status MovingSurface::move(std::span<const Point> vertices, unsigned threads) {
   }
   const MeshView moved = {vertices, triangles(), {}, is_closed()};
   if (Status status = bvh_.refit(moved, {threads}); !status) return status;
-  if (!(longest_side_of(bvh_.nodes().front().box) > 0)) {
+  if (Status size = check_size(bvh_.nodes().front().box); !size) {
     const MeshView present = {vertices_, triangles(), {}, is_closed()};
     if (Status status = bvh_.refit(present, {threads}); !status) return status;
-    return Error{ErrorCode::kInvalidMesh, "the frame has no extent: all vertices are equal"};
+    return size;
   }
   std::swap(vertices_, last_vertices_);
   std::ranges::copy(vertices, vertices_.begin());
@@ -77,7 +88,7 @@ Status MovingSurface::measure(unsigned threads) {
   rounding_ = distance_rounding(bvh_);
   longest_side_ = longest_side_of(box);
   const double volume = signed_volume(vertices_, triangles(), box);
-  front_ = volume < 0 ? -1 : 1;
+  front_ = is_closed() && volume < 0 ? -1 : 1;
   volume_ = std::fabs(volume);
   if (is_closed()) return {};
   IndexedMesh moved = rest_;
@@ -88,25 +99,17 @@ Status MovingSurface::measure(unsigned threads) {
   return {};
 }
 
-Point MovingSurface::inward_normal(std::uint32_t triangle) const {
-  const Corners3 c = corners(triangle);
-  double shorter = 0;
-  const Point area = double_area(c[0], c[1], c[2], shorter);
-  const double size = length(area);
-  return size > kAreaRounding * shorter ? (-front_ / size) * area : Point{0, 0, 0};
-}
-
 bool MovingSurface::contains(const Point& p) const {
   if (!is_closed()) return open_solid_->contains(p);
   if (const auto number = number_by_rays({&bvh_}, p)) return front_ * static_cast<double>(*number) > 0;
-  double number = 0;
-  for (const Corners3& triangle : bvh_.corners()) number += triangle_winding(triangle, p);
-  return front_ * number >= 0.5;
+  CompensatedSum number;
+  for (const Corners3& triangle : bvh_.corners()) number.add(triangle_winding(triangle, p));
+  return front_ * number.value() >= 0.5;
 }
 
 bool MovingSurface::holds(const Ball& ball) const {
   if (is_closed()) return contains(ball.centre);
-  return open_solid_->side_of_ball(ball.centre, ball.radius) == SolidSide::kInside;
+  return open_solid_->side_around(ball.centre, ball.radius) == SolidSide::kInside;
 }
 
 }  // namespace medial_vk

@@ -17,11 +17,15 @@ namespace medial_vk {
 /// Queries may come from several threads at once.
 class MovingSurface {
  public:
-  /// Throws std::bad_alloc. Errors: kOutOfMemory.
+  /// The least longest side, and the greatest coordinate. Products of three lengths neither overflow nor lose digits,
+  /// so that the bounds of rounding hold.
+  static constexpr double kLeastSide = 1e-60, kGreatestCoordinate = 1e60;
+
+  /// Throws std::bad_alloc. Errors: kInvalidMesh (as move()), kOutOfMemory.
   static Result<MovingSurface> build(const IndexedMesh& rest);
 
-  /// The next frame. Errors: kInvalidMesh (another number of vertices, a coordinate that is not finite, no extent; the
-  /// surface is unchanged), kOutOfMemory.
+  /// The next frame. Errors: kInvalidMesh (another number of vertices, a coordinate that is not finite, a size beyond
+  /// kLeastSide and kGreatestCoordinate; the surface is unchanged), kOutOfMemory.
   Status move(std::span<const Point> vertices, unsigned threads);
   /// Makes the rest pose the present frame, and the last one, too.
   Status return_to_rest(unsigned threads);
@@ -45,10 +49,9 @@ class MovingSurface {
     return carried_direction(direction, corners_of(rest_.view().vertices, triangle), rest_front_, corners(triangle),
                              front_);
   }
-  /// Towards the inside, of length 1, or 0 where the triangle has no area.
-  Point inward_normal(std::uint32_t triangle) const;
-  /// 1 if triangles are counter-clockwise seen from outside, -1 if the frame is mirrored: its signed volume is
-  /// negative.
+  Point inward_normal(std::uint32_t triangle) const { return inward_normal_of(corners(triangle), front_); }
+  /// 1 if triangles are counter-clockwise seen from outside, -1 if the frame of a closed mesh is mirrored: its signed
+  /// volume is negative.
   double front() const { return front_; }
 
   /// The nearest point of the boundary, if it is closer than `bound`.

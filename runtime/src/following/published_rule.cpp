@@ -37,19 +37,23 @@ double shrink(const MovingSurface& surface, const Point& at, const Point& toward
               double protrusion) {
   double nearest = distance(surface, at + radius * towards_centre);
   while (radius - nearest >= protrusion) {
-    radius = (radius + nearest) / 2;
+    const double next = (radius + nearest) / 2;
+    if (!(next < radius)) break;  // no number is between them
+    radius = next;
     nearest = distance(surface, at + radius * towards_centre);
   }
   return nearest;
 }
 
 TrackedBall follow_published(const MovingSurface& surface, std::span<const Point> vertex_normals,
-                             const TrackedBall& last, double protrusion) {
-  TrackedBall now = last;
-  const Point at = surface.at(last.a.on);
-  now.a.towards_centre = interpolated_normal(surface, vertex_normals, last.a.on);
-  const double radius = shrink(surface, at, now.a.towards_centre, last.ball.radius, protrusion);
+                             const TrackedBall& rest, double protrusion) {
+  TrackedBall now = rest;
+  const Point at = surface.at(rest.a.on);
+  now.a.towards_centre = interpolated_normal(surface, vertex_normals, rest.a.on);
+  const double radius = shrink(surface, at, now.a.towards_centre, rest.ball.radius, protrusion);
   now.ball = {at + radius * now.a.towards_centre, radius};
+  // Lemma 7.3 is about balls whose centres are inside.
+  if (!(radius > 0) || !surface.contains(now.ball.centre)) now.ball.radius = 0;
   return now;
 }
 

@@ -13,12 +13,18 @@ struct Frame {
   Point dual_ab, dual_ac;
 };
 
-Frame frame_of(const Corners3& corners, double front) {
-  Frame frame = {false, corners[1] - corners[0], corners[2] - corners[0], {}, {}, {}};
+/// Twice the area, along the normal; 0 where rounding leaves no direction.
+Point meaningful_area(const Corners3& corners) {
   double shorter = 0;
   const Point area = double_area(corners[0], corners[1], corners[2], shorter);
+  return length(area) > kAreaRounding * shorter ? area : Point{0, 0, 0};
+}
+
+Frame frame_of(const Corners3& corners, double front) {
+  Frame frame = {false, corners[1] - corners[0], corners[2] - corners[0], {}, {}, {}};
+  const Point area = meaningful_area(corners);
   const double size = length(area);
-  if (!(size > kAreaRounding * shorter)) return frame;
+  if (!(size > 0)) return frame;
   frame.has_area = true;
   const Point normal = (1 / size) * area;
   frame.inward = -front * normal;
@@ -27,21 +33,36 @@ Frame frame_of(const Corners3& corners, double front) {
   return frame;
 }
 
+/// The share of the way from `from` along `side` at which `point` lies.
+double share_along(const Point& point, const Point& from, const Point& side) {
+  return std::clamp(dot(point - from, side) / dot(side, side), 0.0, 1.0);
+}
+
+/// On the longest side, which a triangle without an area does not leave.
+SurfacePoint point_on_side(const Point& point, std::uint32_t triangle, const Corners3& corners) {
+  const Point ab = corners[1] - corners[0], ac = corners[2] - corners[0], bc = corners[2] - corners[1];
+  const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  if (!(longest > 0)) return {triangle, 0, 0};
+  if (dot(ab, ab) == longest) return {triangle, share_along(point, corners[0], ab), 0};
+  if (dot(ac, ac) == longest) return {triangle, 0, share_along(point, corners[0], ac)};
+  const double w = share_along(point, corners[1], bc);
+  return {triangle, 1 - w, w};
+}
+
 }  // namespace
 
 SurfacePoint surface_point_at(const Point& point, std::uint32_t triangle, const Corners3& corners) {
   const Frame frame = frame_of(corners, 1);
+  if (!frame.has_area) return point_on_side(point, triangle, corners);
   const Point offset = point - corners[0];
-  if (!frame.has_area) {
-    // On the longest of the sides, which the triangle hardly leaves.
-    const double ab = dot(frame.ab, frame.ab), ac = dot(frame.ac, frame.ac);
-    if (!(ab > 0 || ac > 0)) return {triangle, 0, 0};
-    const bool along_ab = ab >= ac;
-    const double share = std::clamp(dot(offset, along_ab ? frame.ab : frame.ac) / (along_ab ? ab : ac), 0.0, 1.0);
-    return {triangle, along_ab ? share : 0, along_ab ? 0 : share};
-  }
   const double v = std::clamp(dot(offset, frame.dual_ab), 0.0, 1.0);
   return {triangle, v, std::clamp(dot(offset, frame.dual_ac), 0.0, 1 - v)};
+}
+
+Point inward_normal_of(const Corners3& corners, double front) {
+  const Point area = meaningful_area(corners);
+  const double size = length(area);
+  return size > 0 ? (-front / size) * area : area;
 }
 
 Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,

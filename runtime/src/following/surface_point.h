@@ -29,10 +29,13 @@ inline Point point_at(const SurfacePoint& point, const Corners3& corners) {
 /// The coordinates of `point`, a point of the triangle up to rounding.
 SurfacePoint surface_point_at(const Point& point, std::uint32_t triangle, const Corners3& corners);
 
+/// Towards the inside, of length 1; 0 where the triangle has no area. `front`: 1 if it is counter-clockwise seen from
+/// outside, else -1.
+Point inward_normal_of(const Corners3& corners, double front);
+
 /// The inward normal of the surface, by its component along that of a triangle: the image of a unit vector under F^-T,
-/// with F the map of the triangle and its inward unit normal from one frame to the next, of length 1. `front` and
-/// `new_front`: 1 if the triangle is counter-clockwise seen from outside in that frame, else -1. A triangle without an
-/// area in one of the frames leaves the direction as it is.
+/// with F the map of the triangle and its inward unit normal from one frame to the next, of length 1. `front` as above,
+/// in either frame. A triangle without an area in one of the frames leaves the direction as it is.
 Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,
                         double new_front);
 

@@ -39,6 +39,7 @@ TrackedBall ball_between(const MovingSurface& surface, const BallContact& a, con
 
 TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, const SurfacePoint& other) {
   const BvhHit nearest = surface.closest(guess, std::numeric_limits<double>::infinity());
+  if (nearest.triangle == BvhHit().triangle) return {};  // the guess is no number
   const double distance = std::sqrt(nearest.squared_distance);
   if (!(distance > 2 * surface.rounding())) return {};
   const BallContact contact = {surface.surface_point(nearest), (1 / distance) * (guess - nearest.point)};
@@ -64,13 +65,13 @@ TrackedBall drawn_to_rest(const MovingSurface& surface, const TrackedBall& rest,
                           const TrackedBall& followed) {
   if (share <= 0) return followed;
   const BallContact contact = {rest.a.on, surface.carried_from_rest(rest.a.towards_centre, rest.a.on.triangle)};
-  if (share > kAtRest) {
-    // Where contacts are next to each other, the second one bounds the radius with a large rounding error.
-    const TrackedBall same = greatest_ball_up_to(surface, contact, rest.b.on, rest.ball.radius);
-    return same.ball.radius > 0 ? same : followed;
-  }
-  const TrackedBall image = greatest_ball(surface, contact, rest.b.on);
-  if (!(followed.ball.radius > 0)) return image.ball.radius > 0 ? image : followed;
+  const bool is_at_rest = share > kAtRest;
+  // Where contacts are next to each other, the second one bounds the radius with a large rounding error.
+  const TrackedBall image = is_at_rest ? greatest_ball_up_to(surface, contact, rest.b.on, rest.ball.radius)
+                                       : greatest_ball(surface, contact, rest.b.on);
+  const bool is_whole = image.ball.radius >= (1 - kNoLongerRest) * rest.ball.radius;  // nothing else has come near
+  if (!is_whole) return followed;
+  if (is_at_rest || !(followed.ball.radius > 0)) return image;
   const Point guess = followed.ball.centre + share * (image.ball.centre - followed.ball.centre);
   const TrackedBall mixed = greatest_ball_at(surface, guess, followed.b.on);
   return mixed.ball.radius > 0 ? mixed : followed;

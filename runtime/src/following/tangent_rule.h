@@ -12,8 +12,8 @@ namespace medial_vk {
 /// is the result.
 TrackedBall follow_tangent(const MovingSurface& surface, const TrackedBall& last);
 
-/// Of a ball with two contacts in the rest pose, by the images of these contacts: 1 where the surface around them has
-/// moved as a rigid body, 0 where it has been deformed by kNoLongerRest or more.
+/// Of a ball with two contacts in the rest pose, by the images of these contacts: 1 where they have moved as a rigid
+/// body, 0 where the radius through both, or the cosine between their directions, has changed by kNoLongerRest or more.
 double share_of_rest(const MovingSurface& surface, const TrackedBall& rest);
 
 /// The ball in the present frame that is the image of that in the rest pose, moved towards `followed` as

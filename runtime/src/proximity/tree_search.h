@@ -130,7 +130,7 @@ class TreeSearch {
       compare(task);
       --most_comparisons;
     }
-    goal_.wait(kFarther);
+    if (count_ == 0) goal_.wait(kFarther);
   }
 
  private:

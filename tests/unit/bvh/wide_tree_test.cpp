@@ -97,6 +97,18 @@ TEST(WideTree, ManyTrianglesAtOnePlace) {
   expect_same_trees(mesh, "21 boxes at one place");
 }
 
+TEST(WideTree, OfOnePointAndForNoNumbers) {
+  Mesh mesh = test::make_box({1, 1, 1});
+  std::ranges::fill(mesh.vertices, Point{1, 2, 3});
+  const Bvh bvh = Bvh::build(test::view_of(mesh), {4, 1}).value();
+  const WideTree wide(bvh);
+  EXPECT_EQ(wide.closest(bvh, {1, 2, 5}).squared_distance, 4);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(wide.closest(bvh, {kNan, 0, 0}).triangle, BvhHit().triangle);
+  EXPECT_EQ(wide.closest(bvh, {1, 2, 5}, 0).triangle, BvhHit().triangle);
+  EXPECT_EQ(wide.closest(bvh, {1, 2, 5}, -1).triangle, BvhHit().triangle);
+}
+
 TEST(WideTree, FollowsARefit) {
   Mesh mesh = test::make_turned_torus(40, 20);
   Bvh bvh = Bvh::build(test::view_of(mesh), {4, 1}).value();

@@ -65,12 +65,37 @@ TEST(PublishedRule, AlgorithmFiveLeavesAtMostTheProtrusion) {
   }
 }
 
+TEST(PublishedRule, EndsWhereNoNumberIsBetween) {
+  const MovingSurface surface = MovingSurface::build(indexed_l_shape()).value();
+  for_contacts(surface, [&](const Point& at, const Point& towards, double radius) {
+    const double shrunk = shrink(surface, at, towards, radius, 1e-300);
+    EXPECT_GT(distance_to(surface, at + shrunk * towards), shrunk - 1e-12);
+  });
+}
+
+TEST(PublishedRule, FramesDoNotDependOnEachOther) {
+  const IndexedMesh mesh = indexed_l_shape();
+  FollowerOptions options;
+  options.rule = FollowRule::kPublished;
+  const std::vector<Ball> balls = {{{0.3, 0.3, 0.4}, 0.29}, {{1.2, 0.3, 0.4}, 0.29}};
+  Follower seen = Follower::create(mesh, balls, options).value(),
+           fresh = Follower::create(mesh, balls, options).value();
+  ASSERT_TRUE(seen.update(test::moved_vertices(mesh.view().vertices, test::Motion::kSquash, 1)).ok());
+  const std::vector<Point> frame = test::moved_vertices(mesh.view().vertices, test::Motion::kTwist, 1);
+  ASSERT_TRUE(seen.update(frame).ok());
+  ASSERT_TRUE(fresh.update(frame).ok());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    EXPECT_EQ(seen.balls()[i].centre, fresh.balls()[i].centre);
+    EXPECT_EQ(seen.balls()[i].radius, fresh.balls()[i].radius);
+  }
+}
+
 TEST(PublishedRule, LemmaSevenThreeBoundsTheVolumeOutside) {
   const IndexedMesh mesh = test::indexed(prepare_mesh(test::make_turned_torus(40, 20)).value());
   const Solid rest = Solid::build(mesh).value();
+  const MovingSurface surface = MovingSurface::build(mesh).value();
   std::vector<Ball> balls;
   for (std::size_t t = 0; t < mesh.view().triangles.size(); t += 7) {
-    const MovingSurface surface = MovingSurface::build(mesh).value();
     const Point p = surface.at({static_cast<std::uint32_t>(t), 1.0 / 3, 1.0 / 3}) +
                     0.35 * surface.inward_normal(static_cast<std::uint32_t>(t));
     if (rest.contains(p)) balls.push_back({p, rest.distance(p) * (1 - 1e-12)});
@@ -85,6 +110,8 @@ TEST(PublishedRule, LemmaSevenThreeBoundsTheVolumeOutside) {
   ASSERT_TRUE(moved.move_vertices(frame).ok());
   const Solid solid = Solid::build(moved).value();
   for (const Ball& ball : follower.balls()) {
+    if (!(ball.radius > 0)) continue;  // lost
+    EXPECT_TRUE(solid.contains(ball.centre));
     EXPECT_GT(solid.distance(ball.centre), ball.radius - 0.01 * mesh.longest_side());
   }
   // Samples of the box: the error is the share of those in the solid or in a ball, but not in both.

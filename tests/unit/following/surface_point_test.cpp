@@ -73,8 +73,14 @@ TEST_F(CarriedDirection, PointsKeepTheirCoordinates) {
     const Point p = point_at({0, v, w}, corners);
     EXPECT_LE(length(point_at(surface_point_at(p, 0, corners), corners) - p), 1e-9);
   }
-  const Corners3 line = {Point{0, 0, 0}, Point{1, 0, 0}, Point{3, 0, 0}}, point = {};
-  EXPECT_LE(length(point_at(surface_point_at({2, 0, 0}, 0, line), line) - Point{2, 0, 0}), 1e-12);
+  const std::array<Point, 3> along = {Point{0, 0, 0}, Point{1, 0, 0}, Point{3, 0, 0}};
+  for (std::size_t first = 0; first < 3; ++first) {
+    const Corners3 line = {along[first], along[(first + 1) % 3], along[(first + 2) % 3]};
+    for (const double x : {0.5, 2.0}) {
+      EXPECT_LE(length(point_at(surface_point_at({x, 0, 0}, 0, line), line) - Point{x, 0, 0}), 1e-12);
+    }
+  }
+  const Corners3 point = {};
   EXPECT_EQ(point_at(surface_point_at({0, 0, 0}, 0, point), point), (Point{0, 0, 0}));
 }
 

@@ -30,7 +30,8 @@ using Axes = std::array<Point, 3>;
 Axes axes_across(std::span<const Point> points, const Point& normal) {
   constexpr std::size_t kSteps = 16;
   const double size = length(normal);
-  const Point n = size > 0 ? (1 / size) * normal : Point{0, 0, 1};
+  constexpr double kMeaningful = 1e-150;  // squares of shorter vectors lose digits
+  const Point n = size > kMeaningful ? (1 / size) * normal : Point{0, 0, 1};
   const Point x = perpendicular_to(n), y = cross(n, x);
   Axes best = {n, x, y};
   double least = std::numeric_limits<double>::infinity();
