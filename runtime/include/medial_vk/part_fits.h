@@ -63,8 +63,8 @@ struct PartFit {
   /// `solid_volume` and the volume errors are those of the shape: of the ball, or Part::volume.
   bool of_shape = false;
   std::optional<double> spheres_volume;  ///< Of the union of the last level.
-  /// Of `proved`. Without a value for a part that is a ball, and with SphereFitOptions::balls_only; with that option, no
-  /// volume of a part that is no ball has one either.
+  /// Of `proved`. Without a value for a part that is a ball, and with SphereFitOptions::balls_only; with that option,
+  /// no volume of a part that is no ball has one either.
   std::optional<SphereMeasures> measures;
   /// The last level in the frame of the part, where its contract was proved. Empty for a part that is a ball.
   std::vector<Ball> proved;
