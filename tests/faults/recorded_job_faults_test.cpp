@@ -26,6 +26,29 @@ class RecordedJobFaults : public VulkanFaults {
     host_.reset();
     VulkanFaults::TearDown();
   }
+  /// After `prepare()`, the calls of `run()` fail one by one. It then gives `expected`, or an error, and `expected`
+  /// when it runs again.
+  template <class Prepare, class Run>
+  void fail_every_recording(const char* what, const Prepare& prepare, const Run& run, const std::string& expected) {
+    std::uint64_t failures = 0;
+    for (const Fault fault : kMemoryFaults) {
+      for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
+        prepare();
+        vulkan().fail_call(k, fault);
+        const Answer answer = run();
+        const std::string call = vulkan().stop_failing();
+        SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
+        EXPECT_TRUE(answer.ok() ? answer.value() == expected : answer.error().code == ErrorCode::kOutOfMemory);
+        if (call.empty()) break;
+        if (answer.ok()) continue;
+        ++failures;
+        EXPECT_TRUE(run().value() == expected);
+      }
+    }
+    EXPECT_GT(failures, 0u);
+    std::cout << what << ": " << failures << " errors\n";
+  }
+
   std::optional<LentDevice> host_;
 };
 
@@ -60,24 +83,12 @@ TEST_F(RecordedJobFaults, OfASequenceThatIsRecordedAgain) {
   };
   const std::string before = move_and_run(mesh).value(), after = move_and_run(moved).value();
   ASSERT_TRUE(before != after);
-  std::uint64_t failures = 0;
-  for (const Fault fault : kMemoryFaults) {
-    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
-      EXPECT_TRUE(move_and_run(mesh).value() == before);
-      EXPECT_TRUE(move(job, indexed, moved.view()).ok());
-      vulkan().fail_call(k, fault);
-      const Answer answer = host_->record_and_run(job);
-      const std::string call = vulkan().stop_failing();
-      SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
-      EXPECT_TRUE(answer.ok() ? answer.value() == after : answer.error().code == ErrorCode::kOutOfMemory);
-      if (call.empty()) break;
-      if (answer.ok()) continue;
-      ++failures;
-      EXPECT_TRUE(host_->record_and_run(job).value() == after);
-    }
-  }
-  EXPECT_GT(failures, 0u);
-  std::cout << "a sequence that is recorded again: " << failures << " errors\n";
+  const auto prepare = [&] {
+    EXPECT_TRUE(move_and_run(mesh).value() == before);
+    EXPECT_TRUE(move(job, indexed, moved.view()).ok());
+  };
+  fail_every_recording(
+      "a sequence that is recorded again", prepare, [&] { return host_->record_and_run(job); }, after);
 }
 
 TEST_F(RecordedJobFaults, OfAJobOfPoses) {
@@ -106,23 +117,12 @@ TEST_F(RecordedJobFaults, OfASequenceOfPosesThatIsRecordedAgain) {
   set(6);
   const std::string far = host_->record_and_run(job, 8).value();
   ASSERT_TRUE(near != far);
-  std::uint64_t failures = 0;
-  for (const Fault fault : kMemoryFaults) {
-    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
-      job = ProximityJob::create(on_device, {.poses = 8}).value();  // whose first sequence is not recorded yet
-      set(6);
-      vulkan().fail_call(k, fault);
-      const Answer answer = host_->record_and_run(job, 8);
-      const std::string call = vulkan().stop_failing();
-      SCOPED_TRACE(std::string(fault_name(fault)) + ", call " + std::to_string(k) + " (" + call + ")");
-      EXPECT_TRUE(answer.ok() ? answer.value() == far : answer.error().code == ErrorCode::kOutOfMemory);
-      if (call.empty()) break;
-      if (answer.ok()) continue;
-      ++failures;
-      EXPECT_TRUE(host_->record_and_run(job, 8).value() == far);
-    }
-  }
-  EXPECT_GT(failures, 0u);
+  const auto prepare = [&] {
+    job = ProximityJob::create(on_device, {.poses = 8}).value();  // whose first sequence is not recorded yet
+    set(6);
+  };
+  fail_every_recording(
+      "a sequence of poses that is recorded again", prepare, [&] { return host_->record_and_run(job, 8); }, far);
 }
 
 // Later sequences have the descriptor sets of the first, so that nothing is left that can fail.

@@ -187,12 +187,8 @@ TEST_P(OtherSpecialsTest, ThePublishedSearch) {
   expect_the_same(test::make_l_shape(1.0, 0.4, 0.5), 24, Mode::kThesis);
 }
 
-INSTANTIATE_TEST_SUITE_P(, OtherSpecialsTest,
-                         testing::Values(test::OtherSpecials{-0.0f, 0.0f}, test::OtherSpecials{0.0f, 1e30f},
-                                         test::OtherSpecials{-0.0f, -1e30f}),
-                         [](const auto& specials) {
-                           return specials.param.special == 0 ? "zero" : specials.param.special > 0 ? "large" : "low";
-                         });
+INSTANTIATE_TEST_SUITE_P(, OtherSpecialsTest, testing::ValuesIn(test::kOtherSpecials),
+                         [](const auto& specials) { return test::name_of(specials.param); });
 
 }  // namespace
 }  // namespace medial_vk

@@ -67,12 +67,8 @@ TEST_P(OtherSpecialsOfBodies, ProvesItsAnswers) {
   answers_agree(rewrite, sizes);
 }
 
-INSTANTIATE_TEST_SUITE_P(, OtherSpecialsOfBodies,
-                         testing::Values(test::OtherSpecials{-0.0f, 0.0f}, test::OtherSpecials{0.0f, 1e30f},
-                                         test::OtherSpecials{-0.0f, -1e30f}),
-                         [](const auto& specials) {
-                           return specials.param.special == 0 ? "zero" : specials.param.special > 0 ? "large" : "low";
-                         });
+INSTANTIATE_TEST_SUITE_P(, OtherSpecialsOfBodies, testing::ValuesIn(test::kOtherSpecials),
+                         [](const auto& specials) { return test::name_of(specials.param); });
 
 }  // namespace
 }  // namespace medial_vk
