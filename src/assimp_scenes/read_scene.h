@@ -11,10 +11,6 @@
 
 namespace medial_vk {
 
-/// The most corners that the faces of a scene may have, each instance of a mesh counted: those of 16 million triangles,
-/// twice as many as a device supports. A small file can place a large mesh thousands of times.
-inline constexpr std::uint64_t kMostSceneCorners = 3ull << 24;
-
 /// The bytes of a scene, and where they come from.
 struct SceneBytes {
   std::string_view bytes;

@@ -1,21 +1,17 @@
 #if defined(MEDIAL_VK_HAS_ASSIMP)  // else nothing of assimp may be needed to build
 #include "assimp_scenes/scene_io.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "assimp_scenes/limits.h"
 #include "base/quoted.h"
 #include "input/read_mesh.h"
+#include "scene_files/files_of_folder.h"
 
 namespace medial_vk {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Reads from bytes that outlive it.
 class MemoryStream : public Assimp::IOStream {
@@ -46,62 +42,28 @@ class MemoryStream : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
-/// "a b.bin" of "a%20b.bin": the file names of glTF and COLLADA are URIs.
-std::string without_percent_signs(const std::string& uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    const char lower = static_cast<char>(c | 0x20);
-    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
-  };
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool is_code = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-    name += is_code ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
-    if (is_code) i += 2;
-  }
-  return name;
-}
-
-bool is_inside(const fs::path& file, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
 }  // namespace
 
 SceneIo::SceneIo(std::string main_path, std::string_view bytes, bool has_folder)
     : main_path_(std::move(main_path)), bytes_(bytes), bytes_left_(kMostFileBytes - bytes.size()) {
-  std::error_code error;
-  const fs::path folder = fs::path(main_path_).parent_path();
-  if (has_folder) folder_ = fs::canonical(folder.empty() ? "." : folder, error).string();
+  if (has_folder) folder_ = folder_of_scene(main_path_);
 }
 
 SceneIo::~SceneIo() = default;
 
-void SceneIo::refuse(const std::string& file, const char* why) const {
-  if (refusal_.empty())
-    refusal_ = fmt::format("it names the file {}, {}", medial_vk::quoted(fs::path(file).filename().string()), why);
-}
-
 /// Finds the file, and tests that it may be opened.
 bool SceneIo::resolve(const std::string& file, std::string& resolved) const {
-  if (folder_.empty()) {
-    refuse(file, "but has no folder");
+  Result<std::string> found = file_of_folder(folder_, file);
+  if (!found) {
+    refuse(found.error().message);
     return false;
   }
-  for (const std::string& name : {file, without_percent_signs(file)}) {
-    std::error_code error;
-    const fs::path path = fs::canonical(name, error);
-    if (error) continue;
-    if (!is_inside(path, folder_)) {
-      refuse(file, "which is outside of its folder");
-      return false;
-    }
-    if (!fs::is_regular_file(path, error)) continue;
-    resolved = path.string();
-    return true;
-  }
-  refuse(file, "which is not there");
-  return false;
+  resolved = std::move(found).value();
+  return true;
+}
+
+void SceneIo::refuse(const std::string& why) const {
+  if (refusal_.empty()) refusal_ = "it names the file " + why;
 }
 
 bool SceneIo::Exists(const char* file) const {
@@ -118,7 +80,8 @@ Assimp::IOStream* SceneIo::Open(const char* file, const char* mode) {
   if (known != others_.end()) return new MemoryStream(known->second);
   Result<std::string> bytes = read_mesh_bytes(resolved, bytes_left_);
   if (!bytes) {
-    refuse(file, "which cannot be read or is too long");
+    refuse(medial_vk::quoted(std::filesystem::path(file).filename().string()) +
+           ", which cannot be read or is too long");
     return nullptr;
   }
   bytes_left_ -= bytes.value().size();

@@ -30,7 +30,7 @@ class SceneIo : public Assimp::IOSystem {
 
  private:
   bool resolve(const std::string& file, std::string& resolved) const;
-  void refuse(const std::string& file, const char* why) const;
+  void refuse(const std::string& why) const;
 
   std::string main_path_;
   std::string_view bytes_;

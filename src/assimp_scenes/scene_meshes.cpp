@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "assimp_scenes/affine_map.h"
+#include "assimp_scenes/assimp_values.h"
 #include "input/polygon_soup.h"
 #include "input/text_scanner.h"
 #include "mesh/clean_mesh.h"
@@ -38,7 +38,7 @@ class SceneWalk {
     while (!open.empty()) {
       const auto [node, above] = open.back();
       open.pop_back();
-      const AffineMap place = above * AffineMap(node->mTransformation);
+      const AffineMap place = above * affine_map_of(node->mTransformation);
       if (node->mNumMeshes > 0) shown_.push_back({node, place});
       places_.emplace(text_of(node->mName), place);
       for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], place});
@@ -131,7 +131,7 @@ class SceneWalk {
       const aiBone& bone = *mesh.mBones[b];
       const auto found = places_.find(text_of(bone.mName));
       if (found == places_.end()) continue;
-      const AffineMap map = found->second * AffineMap(bone.mOffsetMatrix);
+      const AffineMap map = found->second * affine_map_of(bone.mOffsetMatrix);
       const double sign = map.determinant() < 0 ? 1 : -1;
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {
         const unsigned vertex = bone.mWeights[w].mVertexId;

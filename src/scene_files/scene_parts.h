@@ -1,6 +1,7 @@
 // The meshes of a scene, and the bytes in which the program that reads scenes hands them over.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "medial_vk/result.h"
 
 namespace medial_vk {
+
+/// The most corners that the faces of a scene may have, each instance of a mesh counted: those of 16 million triangles,
+/// twice as many as a device supports. A small file can place a large mesh thousands of times.
+inline constexpr std::uint64_t kMostSceneCorners = 3ull << 24;
 
 /// What one node of a scene shows, in the frame of the scene.
 struct ScenePart {

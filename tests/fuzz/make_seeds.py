@@ -5,6 +5,8 @@
 
 The other seeds there are text, written by hand.
 """
+import base64
+import json
 import pathlib
 import struct
 
@@ -69,7 +71,72 @@ def scene(parts, vertices=VERTICES, faces=FACES):
     return data
 
 
+def animation(path, values, interpolation="LINEAR", sparse=False):
+    """A glTF of a tetrahedron with a skin of two joints and a shape; the second node or the weights of the shape move."""
+    arrays = []
+
+    def add(form, kind, component, numbers):
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        arrays.append((struct.pack(f"<{len(numbers)}{form}", *numbers), kind, component, len(numbers) // width))
+        return len(arrays) - 1
+
+    position = add("f", "VEC3", 5126, [x for v in VERTICES for x in v])
+    indices = add("H", "SCALAR", 5123, [v for face in FACES for v in face])
+    joints = add("B", "VEC4", 5121, [0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0])
+    weights = add("f", "VEC4", 5126, [1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0])
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    matrices = add("f", "MAT4", 5126, identity * 2)
+    times = add("f", "SCALAR", 5126, [0, 1])
+    kind = {"rotation": "VEC4", "weights": "SCALAR"}.get(path, "VEC3")
+    output = add("f", kind, 5126, values)
+    document = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": [],
+                "scenes": [{"nodes": [0, 2]}],
+                "nodes": [{"children": [1]}, {"translation": [0, 0, 1]}, {"mesh": 0, "skin": 0}],
+                "skins": [{"joints": [0, 1], "inverseBindMatrices": matrices}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights},
+                                            "indices": indices, "targets": [{"POSITION": position}]}]}],
+                "animations": [{"channels": [{"sampler": 0, "target": {"node": 2 if path == "weights" else 1, "path": path}}],
+                                "samplers": [{"input": times, "output": output, "interpolation": interpolation}]}]}
+    data = b""
+    for number, (part, kind, component, count) in enumerate(arrays):
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        document["accessors"].append({"bufferView": number, "componentType": component, "count": count, "type": kind})
+        data += part + b"\0" * (-len(part) % 4)
+    if sparse:
+        document["accessors"][position]["sparse"] = {"count": 1, "indices": {"bufferView": times, "componentType": 5125},
+                                                     "values": {"bufferView": position}}
+    return document, data
+
+
+def animation_text(*arguments, **options):
+    document, data = animation(*arguments, **options)
+    document["buffers"] = [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}]
+    return json.dumps(document, separators=(",", ":")).encode()
+
+
+def animation_glb(*arguments):
+    document, data = animation(*arguments)
+    document["buffers"] = [{"byteLength": len(data)}]
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I", len(text)) + b"JSON" + text + struct.pack("<I", len(data)) + b"BIN\0" + data
+    return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
 def main():
+    (CORPUS / "read_animation").mkdir(exist_ok=True)
+    turn = [0, 0, 0, 1, 0.6, 0, 0, 0.8]
+    write("read_animation/rotation", animation_text("rotation", turn))
+    write("read_animation/glb", animation_glb("rotation", turn))
+    write("read_animation/glb_cut", animation_glb("rotation", turn)[:-9])
+    write("read_animation/translation", animation_text("translation", [0, 0, 1, 0, 0, 2], "STEP"))
+    write("read_animation/weights", animation_text("weights", [0, 1, 2, 3, 4, 5], "CUBICSPLINE"))
+    write("read_animation/sparse", animation_text("scale", [1, 1, 1, 2, 2, 2], sparse=True))
+    write("read_animation/still", animation_text("scale", [1] * 6))
+    write("read_animation/infinite", animation_text("scale", [1, 1, 1, 3e38, 3e38, float("inf")]))
+    write("read_animation/none", b'{"asset":{"version":"2.0"}}')
+    write("read_animation/arrays", struct.pack("<9f12B12f3f32f", *(x for v in VERTICES[1:] for x in v), *[0, 1, 0, 0] * 3,
+                                               *[0.5, 0.5, 0, 0.1] * 3, 0, 1, 2, *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] * 2))
     (CORPUS / "decode_scene").mkdir(exist_ok=True)
     write("decode_scene/one", scene([b"part"]))
     write("decode_scene/two", scene([b"", b"\xff"]))

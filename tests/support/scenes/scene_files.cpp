@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/scenes/gltf_writer.h"
 #include "support/solids/mesh_files.h"
 
 namespace medial_vk::test {
@@ -13,75 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-/// Collects the buffer of a glTF, and its views and accessors.
-class GltfWriter {
- public:
-  json document = {{"asset", {{"version", "2.0"}}}, {"scene", 0}};
-  std::string buffer;
-
-  int add_accessor(const std::string& bytes, int component, const char* type, std::size_t count,
-                   json more = json::object()) {
-    document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
-    buffer += bytes;
-    buffer.resize((buffer.size() + 3) / 4 * 4);
-    json accessor = {{"bufferView", document["bufferViews"].size() - 1},
-                     {"componentType", component},
-                     {"count", count},
-                     {"type", type}};
-    accessor.update(more);
-    document["accessors"].push_back(accessor);
-    return static_cast<int>(document["accessors"].size()) - 1;
-  }
-
-  json primitive_of(const Mesh& mesh, int mode, bool is_skinned) {
-    std::string positions, indices, joints, weights;
-    Point lower = mesh.vertices.at(0), upper = lower;
-    for (const Point& p : mesh.vertices) {
-      for (int k = 0; k < 3; ++k) {
-        positions += bytes_of(static_cast<float>(p[k]), false);
-        lower[k] = std::min(lower[k], p[k]);
-        upper[k] = std::max(upper[k], p[k]);
-      }
-      joints += std::string(4, '\0');
-      for (const float weight : {1.f, 0.f, 0.f, 0.f}) weights += bytes_of(weight, false);
-    }
-    const unsigned corners = mode == 4 ? 3 : mode == 1 ? 2 : 1;
-    for (const Triangle& t : mesh.triangles) {
-      for (unsigned k = 0; k < corners; ++k) indices += bytes_of(t[k], false);
-    }
-    constexpr int kFloat = 5126, kUint = 5125, kByte = 5121;
-    json primitive = {{"mode", mode}};
-    primitive["attributes"]["POSITION"] =
-        add_accessor(positions, kFloat, "VEC3", mesh.vertices.size(), {{"min", lower}, {"max", upper}});
-    primitive["indices"] = add_accessor(indices, kUint, "SCALAR", corners * mesh.triangles.size());
-    if (is_skinned) {
-      primitive["attributes"]["JOINTS_0"] = add_accessor(joints, kByte, "VEC4", mesh.vertices.size());
-      primitive["attributes"]["WEIGHTS_0"] = add_accessor(weights, kFloat, "VEC4", mesh.vertices.size());
-    }
-    return primitive;
-  }
-};
-
 std::string little(std::uint32_t value) { return bytes_of(value, false); }
-
-std::string glb_of(const std::string& text, const std::string& buffer) {
-  const std::string padded = text + std::string((4 - text.size() % 4) % 4, ' ');
-  const std::string chunks = little(static_cast<std::uint32_t>(padded.size())) + "JSON" + padded +
-                             little(static_cast<std::uint32_t>(buffer.size())) + std::string("BIN\0", 4) + buffer;
-  return "glTF" + little(2) + little(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
-}
 
 // ---- FBX: a tree of nodes, each with its end in the file.
 
@@ -162,12 +95,10 @@ GltfFile to_gltf(const std::vector<SceneMesh>& meshes, const std::vector<SceneNo
     if (node.parent >= 0) document["nodes"][static_cast<std::size_t>(node.parent)]["children"].push_back(i);
   }
   document["scenes"] = json::array({{{"nodes", roots}}});
-  json buffer = {{"byteLength", writer.buffer.size()}};
-  if (where == GltfBuffer::kInside) buffer["uri"] = "data:application/octet-stream;base64," + base64(writer.buffer);
-  if (where == GltfBuffer::kBeside) buffer["uri"] = uri;
-  document["buffers"] = json::array({buffer});
-  if (where == GltfBuffer::kGlb) return {glb_of(document.dump(), writer.buffer), ""};
-  return {document.dump(), where == GltfBuffer::kBeside ? writer.buffer : ""};
+  if (where == GltfBuffer::kGlb) return {writer.glb(), ""};
+  if (where == GltfBuffer::kInside) return {writer.gltf(), ""};
+  document["buffers"] = json::array({{{"byteLength", writer.buffer.size()}, {"uri", uri}}});
+  return {document.dump(), writer.buffer};
 }
 
 std::string to_collada(const std::vector<Point>& vertices, const std::vector<std::vector<int>>& polygons,
